@@ -47,6 +47,9 @@ if TYPE_CHECKING:
     from .products.contours import write_contours as write_contours
     from .products.local_relief import LocalRelief as LocalRelief
     from .products.local_relief import write_local_relief as write_local_relief
+    from .products.quality import QualityOptions as QualityOptions
+    from .products.quality import QualityRequest as QualityRequest
+    from .products.quality import survey_quality as quality  # noqa: F401
     from .products.raster_files import RasterFiles as RasterFiles
     from .products.raster_grid import RasterTarget as RasterTarget
     from .products.surface_model import SurfaceModel as SurfaceModel
@@ -78,6 +81,9 @@ _MODULES = {
     "TileInput": "engine.options",
     "TileOutput": "engine.options",
     "Output": "engine.output",
+    "QualityOptions": "products.quality",
+    "QualityRequest": "products.quality",
+    "quality": "products.quality:survey_quality",
     "RasterFiles": "products.raster_files",
     "RasterTarget": "products.raster_grid",
     "ClassifyRequest": "engine.requests",

@@ -1,4 +1,4 @@
-"""The command `check`, which compares points with checkpoints."""
+"""The commands that check points: against checkpoints, and against a specification."""
 
 from __future__ import annotations
 
@@ -85,6 +85,36 @@ def _check(options: argparse.Namespace) -> int:
     return DONE
 
 
+def _add_quality(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..products.quality import QualityOptions
+    from ..survey.ground_classes import GroundClasses
+
+    add_inputs(parser, "a classified file, or ")
+    add_crs(parser)
+    parser.add_argument("--page", metavar="FILE", type=Path, help="write a page (.html)")
+    parser.add_argument(
+        "--folder", metavar="FOLDER", type=Path,
+        help="write rasters (.tif) into this folder, which is made if need be: densities, voids,"
+        " low vegetation, overlap of strips, differences between strips, maximum surface height",
+    )  # fmt: skip
+    add_json(parser, "the figures ")
+    add_parameters(
+        parser, QualityOptions, GroundClasses, titles=("What is measured", "Ground points")
+    )
+
+
+def _quality(options: argparse.Namespace) -> int:
+    from ..products.quality import QualityRequest, survey_quality
+
+    request = QualityRequest.of(
+        chosen(options), page=options.page, folder=options.folder, crs=options.crs
+    )
+    with Terminal(options.verbose) as progress:
+        found = survey_quality(options.input, request, progress)
+    print(json.dumps(found.as_dict()) if options.json else "\n".join(found.text()))
+    return DONE
+
+
 COMMANDS = (
     Command(
         "check",
@@ -94,5 +124,14 @@ COMMANDS = (
         " Positional Accuracy Standards, edition 2. With --hold-out, it needs no checkpoints.",
         _add_check,
         _check,
+    ),
+    Command(
+        "quality",
+        "measure density, voids and overlap of a survey, and compare it with a specification",
+        "Measures the quality of a classified survey: densities, voids, overlap of strips and"
+        " differences between them, classes and formats. Compares it with what a specification"
+        " asks for.",
+        _add_quality,
+        _quality,
     ),
 )

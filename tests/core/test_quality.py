@@ -1,0 +1,273 @@
+"""The quality of surveys whose densities, voids and strips are known."""
+
+import json
+
+import laspy
+import numpy as np
+import pytest
+
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.products import quality_cells, quality_rasters
+from bare_earth.algorithms.products.quality import QualityOptions, QualityRequest, survey_quality
+from bare_earth.algorithms.products.quality_rasters import QUALITY_RASTERS
+from bare_earth.algorithms.rasters.geotiff import read_raster
+
+pyproj = pytest.importorskip("pyproj")
+EAST, NORTH, SIZE = 500_000.0, 5_600_000.0, 100.0
+
+
+def terrain(x, y):
+    return 50.0 + 0.05 * x + 0.02 * y
+
+
+def grid(step=0.5):
+    """Return x and y of a regular grid of points that fills a square of 100 m."""
+    along = np.arange(step / 2, SIZE, step)
+    x, y = np.meshgrid(along, along)
+    return x.ravel(), y.ravel()
+
+
+def write(path, x, y, z, crs=True, version="1.4", point_format=6, **columns):
+    header = laspy.LasHeader(point_format=point_format, version=version)
+    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0)
+    if crs:
+        header.add_crs(pyproj.CRS("EPSG:25832"))
+    las = laspy.LasData(header)
+    las.x, las.y, las.z = x + EAST, y + NORTH, z
+    las.return_number[:], las.number_of_returns[:] = 1, 1
+    las.classification[:] = 2
+    for name, values in columns.items():
+        las[name] = values
+    las.write(str(path))
+    return path
+
+
+def measured(*paths, **options):
+    page, folder = (options.pop(each, None) for each in ("page", "folder"))
+    return survey_quality(paths, QualityRequest(QualityOptions(**options), page=page, folder=folder))
+
+
+def states(found):
+    return {each.name: each.state for each in found.lines}
+
+
+def test_the_density_of_a_regular_grid(tmp_path):
+    x, y = grid(0.5)
+    found = measured(write(tmp_path / "in.laz", x, y, terrain(x, y)))
+    assert found.points == len(x)
+    assert found.pulse_density == found.ground_density == found.point_density == 4.0
+    assert found.ground_void_share == 0.0
+    assert found.classes == {2: len(x)}
+    assert found.lines == []
+
+
+@pytest.mark.parametrize(
+    "name, step, passes", [("lbs-ql1", 0.5, False), ("lbs-ql2", 0.5, True), ("lbs-ql1", 0.25, True)]
+)
+def test_density_and_distribution_are_compared_with_the_specification(tmp_path, name, step, passes):
+    x, y = grid(step)
+    columns = {"classification": np.where(x < 3, 1, 2)}
+    path = write(tmp_path / "in.laz", x, y, terrain(x, y), **columns)
+    found = measured(path, specification=name)
+    assert (states(found)["Density"] == "pass") == passes
+    assert found.dense_share == (1.0 if passes else 0.0)
+    assert found.passes == passes
+
+
+def test_only_first_returns_count_as_pulses_and_neither_noise_nor_withheld(tmp_path):
+    x, y = grid(0.5)
+    number = np.arange(len(x)) % 2 + 1
+    classes, withheld = np.full(len(x), 2), np.zeros(len(x), bool)
+    x, y, z = np.append(x, [50.0, 50.0]), np.append(y, [50.0, 50.0]), np.append(
+        terrain(x, y), [400.0, 900.0]
+    )
+    columns = {
+        "return_number": np.append(number, [1, 1]),
+        "number_of_returns": np.full(len(x), 2),
+        "classification": np.append(classes, [18, 1]),
+        "withheld": np.append(withheld, [False, True]),
+    }
+    found = measured(write(tmp_path / "in.laz", x, y, z, **columns), folder=tmp_path / "rasters")
+    assert found.pulse_density == 2.0 and found.point_density == 4.0
+    assert found.withheld == 1 and found.classes == {2: len(x) - 2, 18: 1}
+    # All returns but withheld ones make the surface, noise included, as the specification says.
+    heights = read_raster(tmp_path / "rasters" / "surface_height.tif").heights
+    assert np.nanmax(heights) == 400.0
+
+
+def test_a_void_of_known_size(tmp_path):
+    x, y = grid(0.5)
+    hole = (np.abs(x - 50) < 10) & (np.abs(y - 50) < 10)
+    ground = write(tmp_path / "in.laz", x[~hole], y[~hole], terrain(x, y)[~hole])
+    found = measured(ground, specification="lbs-ql2", folder=tmp_path / "rasters")
+    voids = read_raster(tmp_path / "rasters" / "voids.tif").heights
+    # Farther than 3 m from ground points, whose cells begin at the edge of the void of 20 m.
+    assert 13**2 <= np.nansum(voids == 1) <= 16**2
+    assert found.void_count > 100 and states(found)["Voids of first returns"] == "look"
+    density = read_raster(tmp_path / "rasters" / "pulse_density.tif").heights
+    assert np.count_nonzero(density == 0) == 20**2
+    # Where the same land is water, its voids are no fault.
+    lake = write(
+        tmp_path / "lake.laz", x, y, terrain(x, y), classification=np.where(hole, 9, 2),
+        return_number=np.where(hole, 2, 1), number_of_returns=np.where(hole, 2, 1),
+    )  # fmt: skip
+    wet = measured(lake, specification="lbs-ql2")
+    assert wet.void_count == 0 and wet.ground_void_share == 0.0 and wet.filled_share == 1.0
+
+
+@pytest.mark.parametrize("offset, state", [(0.05, "pass"), (0.12, "fail")])
+def test_two_strips_with_a_known_offset(tmp_path, offset, state):
+    x, y = grid(0.5)
+    east = x + 0.25
+    # The strips overlap in the middle 40 m.
+    one, two = x < 70, east > 30
+    xs, ys = np.append(x[one], east[two]), np.append(y[one], y[two])
+    strip = np.append(np.full(one.sum(), 7), np.full(two.sum(), 65535))
+    z = terrain(xs, ys) + np.where(strip == 65535, offset, 0.0)
+    path = write(tmp_path / "in.laz", xs, ys, z, point_source_id=strip)
+    found = measured(path, specification="lbs-ql2", folder=tmp_path / "rasters")
+    assert found.strips == [7, 65535]
+    assert found.strip_rms == pytest.approx(offset, abs=0.005)
+    assert found.strip_shares[0 if offset < 0.08 else 1] == pytest.approx(1.0, abs=0.06)
+    assert states(found)["Differences between strips"] == state
+    assert found.overlap_share == pytest.approx(0.4 / 0.8 * 0.8, abs=0.11)
+    made = read_raster(tmp_path / "rasters" / "strip_differences.tif").heights
+    assert np.nanmedian(made) == pytest.approx(offset, abs=0.003)
+    assert np.count_nonzero(~np.isnan(made)) == pytest.approx(20 * 50, rel=0.06)
+    number = read_raster(tmp_path / "rasters" / "overlap.tif").heights
+    assert np.nanmax(number) == 2 and number[25, 5] == 1 and number[25, 25] == 2
+
+
+def test_strips_are_not_judged_on_slopes_and_under_trees(tmp_path):
+    x, y = grid(0.5)
+    strip, several = np.arange(len(x)) % 2, np.where(y > 50, 2, 1)
+    z = 0.3 * x + np.where(strip, 0.1, 0.0)
+    path = write(tmp_path / "slope.laz", x, y, z, point_source_id=strip)
+    assert measured(path).compared == 0
+    z = terrain(x, y) + np.where(strip & (y > 50), 0.1, 0.0)
+    columns = {"return_number": several, "number_of_returns": several, "point_source_id": strip}
+    found = measured(write(tmp_path / "trees.laz", x, y, z, **columns))
+    assert found.compared > 0 and found.strip_rms < 0.02
+    assert found.strip_shares[1] == pytest.approx(0.5, abs=0.05)
+
+
+def test_low_vegetation_is_counted_on_a_slope(tmp_path):
+    x, y = grid(0.5)
+    random = np.random.default_rng(1)
+    slope = 0.8 * x
+    low = x > 50
+    z = np.concatenate((slope, slope[low] + random.uniform(0.3, 1.9, low.sum()), slope[low] + 5))
+    classes = np.concatenate((np.full(len(x), 2), np.full(2 * low.sum(), 1)))
+    x, y = (np.concatenate((each, each[low], each[low])) for each in (x, y))
+    path = write(tmp_path / "in.laz", x, y, z, classification=classes)
+    measured(path, folder=tmp_path / "rasters")
+    made = read_raster(tmp_path / "rasters" / "low_vegetation.tif").heights
+    assert (made[:, 52:98] == 4.0).all() and (made[:, 2:48] == 0.0).all()
+
+
+def test_class_0_left_over_old_formats_and_no_crs(tmp_path):
+    x, y = grid(0.5)
+    classes = np.where(np.arange(len(x)) < 3, 0, 2)
+    path = write(tmp_path / "a.laz", x, y, terrain(x, y), classification=classes)
+    lines = states(measured(path, specification="lbs-ql2"))
+    assert lines["Class 0 (never classified)"] == "fail"
+    assert lines["Files"] == lines["CRS"] == "pass"
+    old = write(tmp_path / "b.laz", x, y, terrain(x, y), False, "1.2", 1)
+    lines = states(measured(old, specification="lbs-ql2"))
+    assert lines["Class 0 (never classified)"] == "pass"
+    assert lines["Files"] == lines["CRS"] == "fail"
+    lines = states(measured(path, specification="ign"))
+    assert lines["Class 0 (never classified)"] == "fail"
+    assert lines["Classes that are not listed"] == "pass"
+    assert lines["Density"] == "fail"
+    lines = states(measured(path, specification="linz"))
+    assert lines["Class 6 (building)"] == "look" and lines["Density"] == "pass"
+
+
+def scene(seed=3):
+    random = np.random.default_rng(seed)
+    x, y = np.round(random.uniform(0, SIZE, (2, 60_000)), 3)
+    z = np.round(terrain(x, y) + random.normal(0, 0.03, len(x)), 3)
+    classes, strip = random.choice([1, 2, 9], len(x), p=[0.3, 0.69, 0.01]), random.integers(1, 4, len(x))
+    z[classes == 1] += 1.0
+    return x, y, z, {"classification": classes, "point_source_id": strip}
+
+
+@pytest.fixture(scope="module")
+def one_and_many(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("survey")
+    x, y, z, columns = scene()
+    one, many = write(folder / "one.laz", x, y, z, **columns), []
+    for number in range(4):
+        part = (x // 50.0001 + 2 * (y // 50.0001)) == number
+        some = {name: values[part] for name, values in columns.items()}
+        many.append(write(folder / f"part{number}.laz", x[part], y[part], z[part], **some))
+    return one, many
+
+
+def test_many_files_equal_one(one_and_many, tmp_path):
+    one, many = one_and_many
+    first = measured(one, specification="lbs-ql2", folder=tmp_path / "one")
+    second = measured(*many, specification="lbs-ql2", folder=tmp_path / "many")
+    for name in ("points", "classes", "pulse_density", "filled_share", "void_count", "area"):
+        assert getattr(first, name) == getattr(second, name)
+    assert first.strip_rms == pytest.approx(second.strip_rms, abs=1e-6)
+    for name in QUALITY_RASTERS:
+        a, b = (read_raster(tmp_path / each / f"{name}.tif").heights for each in ("one", "many"))
+        assert a.shape == b.shape
+        np.testing.assert_allclose(a, b, atol=1e-5)
+
+
+def test_pieces_and_cells_on_disk_change_nothing(one_and_many, tmp_path, monkeypatch):
+    one, _ = one_and_many
+    measured(one, folder=tmp_path / "whole")
+    monkeypatch.setattr(quality_cells, "_ROWS_TOGETHER", 2_200)
+    monkeypatch.setattr(quality_cells, "_MOST_IN_MEMORY", 100)
+    monkeypatch.setattr(quality_rasters, "_TOGETHER", 1_000)
+    measured(one, folder=tmp_path / "pieces")
+    for name in QUALITY_RASTERS:
+        a, b = (read_raster(tmp_path / each / f"{name}.tif").heights for each in ("whole", "pieces"))
+        np.testing.assert_allclose(a, b, atol=1e-6)
+
+
+def test_too_many_cells_are_refused(one_and_many, monkeypatch):
+    monkeypatch.setattr(quality_cells, "MOST_CELLS", 1_000)
+    with pytest.raises(BareEarthError, match="Choose a larger cell size"):
+        measured(one_and_many[0])
+
+
+def test_the_command_writes_a_page_and_prints_figures(one_and_many, tmp_path, capsys):
+    page = tmp_path / "page.html"
+    command = ["quality", str(one_and_many[0]), "--specification", "lbs-ql2"]
+    assert main([*command, "--page", str(page), "--cell-size", "2"]) == 0
+    assert "pulses        6.0" in capsys.readouterr().out
+    html = page.read_text(encoding="utf-8")
+    assert html.count("<figure>") == len(QUALITY_RASTERS)
+    assert "Spatial Distribution and Regularity" in html and "<script" not in html
+    assert main([*command, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["specification"] == "lbs-ql2" and found["lines"][0]["state"] == "pass"
+
+
+def test_a_survey_without_ground(tmp_path):
+    x, y = grid(1.0)
+    path = write(tmp_path / "in.laz", x, y, terrain(x, y), classification=np.full(len(x), 1))
+    found = measured(path, page=tmp_path / "page.html", folder=tmp_path / "rasters")
+    assert found.ground_density == 0.0 and found.ground_void_share == 1.0
+    assert found.strip_rms is None
+
+
+def test_feet_are_converted(tmp_path):
+    x, y = grid(0.5)
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0)
+    header.add_crs(pyproj.CRS("EPSG:2230+6360"))
+    las, foot = laspy.LasData(header), 1200 / 3937
+    las.x, las.y, las.z = EAST + x / foot, NORTH + y / foot, terrain(x, y) / foot
+    las.return_number[:], las.number_of_returns[:], las.classification[:] = 1, 1, 2
+    las.write(str(tmp_path / "in.laz"))
+    found = measured(tmp_path / "in.laz", folder=tmp_path / "rasters")
+    assert found.pulse_density == pytest.approx(4.0, rel=0.02)
+    heights = read_raster(tmp_path / "rasters" / "surface_height.tif").heights
+    assert np.nanmax(heights) == pytest.approx(terrain(x, y).max(), abs=0.01)
