@@ -143,9 +143,9 @@ def _measured(survey: Survey, request: QualityRequest, work: Path, progress: Pro
     """Measure an opened survey, and write what is asked for."""
     options, asked = request.options, SPECIFICATIONS[request.options.specification]
     frame = survey_frame(survey.crs)
-    box = tuple(each * frame.horizontal_unit for each in survey.box)
+    west, south, east, north = (each * frame.horizontal_unit for each in survey.box)
     spacing = 2 * asked.spacing if asked.spacing else _SPACING
-    sizes = Sizes.over(box, options.cell_size, spacing)
+    sizes = Sizes.over((west, south, east, north), options.cell_size, spacing)
     store = Store(work, max(sizes.fine.rows * sizes.fine.columns,
                             sizes.filled.rows * sizes.filled.columns))  # fmt: skip
     cells = QualityCells(sizes, store, request.ground)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
@@ -118,7 +118,7 @@ class Quality:
 
     def rows(self) -> list[tuple[str, str]]:
         """Return titles and values of all figures as text."""
-        shares = self.strip_shares
+        shares: Sequence[float | None] = self.strip_shares or (None, None, None)
         return [
             ("points", f"{self.points:,}"),
             ("withheld", f"{self.withheld:,}"),
@@ -136,9 +136,9 @@ class Quality:
             ("overlap", _share(self.overlap_share)),
             ("strips RMSDz", _metres(self.strip_rms)),
             ("largest", _metres(self.strip_largest)),
-            ("below 8 cm", _share(shares and shares[0])),
-            ("8 to 16 cm", _share(shares and shares[1])),
-            ("over 16 cm", _share(shares and shares[2])),
+            ("below 8 cm", _share(shares[0])),
+            ("8 to 16 cm", _share(shares[1])),
+            ("over 16 cm", _share(shares[2])),
         ]
 
     def text(self) -> list[str]:
@@ -199,7 +199,8 @@ def _any(values: np.ndarray, side: int) -> np.ndarray:
     rows, columns = values.shape
     padded = np.pad(values, ((0, -rows % side), (0, -columns % side)))
     height, width = padded.shape
-    return padded.reshape(height // side, side, width // side, side).any(axis=(1, 3))
+    squares = padded.reshape(height // side, side, width // side, side)
+    return np.logical_or.reduce(squares, axis=(1, 3))
 
 
 def _spread(squares: np.ndarray, side: int, shape: tuple[int, int]) -> np.ndarray:
@@ -326,10 +327,10 @@ def lines_of(found: Quality, survey: Survey, asked: Specification) -> list[Line]
             enough = value is not None and value >= least
             add(key, "Density", _number(value, f" {what}"), f"at least {least:g}", enough)
     if asked.filled is not None:
-        value, most = found.filled_share, asked.filled
-        wanted = f"at least {100 * most:g} % of cells of {2 * (asked.spacing or 0):g} m"
-        enough = value is not None and value >= most
-        add("filled", "Cells with a first return", _share(value), wanted, enough)
+        share, least = found.filled_share, asked.filled
+        wanted = f"at least {100 * least:g} % of cells of {2 * (asked.spacing or 0):g} m"
+        enough = share is not None and share >= least
+        add("filled", "Cells with a first return", _share(share), wanted, enough)
     if asked.spacing is not None and found.void_count is not None:
         wanted = f"none of {4 * asked.spacing:g} x {4 * asked.spacing:g} m, outside water"
         state = PASS if found.void_count == 0 else LOOK
@@ -343,11 +344,11 @@ def lines_of(found: Quality, survey: Survey, asked: Specification) -> list[Line]
     _add_classes(add, found, asked)
     if asked.is_modern:
         old = [each for each in found.files if each["version"] < "1.4" or each["format"] < 6]
-        value = f"{len(old):,} of {len(found.files):,} files have another"
-        add("format", "Files", value, "LAS 1.4, point format 6 or higher", not old)
+        words = f"{len(old):,} of {len(found.files):,} files have another"
+        add("format", "Files", words, "LAS 1.4, point format 6 or higher", not old)
         vague = [each for each in found.files if not each["wkt"]]
-        value = f"{len(vague):,} of {len(found.files):,} files do not state it"
-        add("crs", "CRS", value, "stated as WKT", not vague)
+        words = f"{len(vague):,} of {len(found.files):,} files do not state it"
+        add("crs", "CRS", words, "stated as WKT", not vague)
     return lines
 
 

@@ -119,9 +119,7 @@ def _maps(cells: QualityCells, extent: Extent, void: float, survey: Survey) -> s
 <div class="maps">{"".join(figures)}</div>"""
 
 
-def _small(
-    name: str, cells: QualityCells, extent: Extent, void: float
-) -> tuple[np.ndarray, float]:
+def _small(name: str, cells: QualityCells, extent: Extent, void: float) -> tuple[np.ndarray, float]:
     """Return the values of a small map from north to south, and the side of its pixels."""
     raster = QUALITY_RASTERS[name]
     window = cells.sizes.coarse if raster.is_coarse else cells.sizes.fine
@@ -192,7 +190,7 @@ def _by_kind(
 def _files(found: Quality, survey: Survey) -> str:
     rows = "".join(
         f'<tr><td class="text files">{text(each["name"])}</td><td>{each["points"]:,}</td>'
-        f'<td>{each["version"]}</td><td>{each["format"]}</td>'
+        f"<td>{each['version']}</td><td>{each['format']}</td>"
         f'<td class="text">{"WKT" if each["wkt"] else "no WKT"}</td>'
         + "".join(f"<td>{value:.2f}</td>" for value in each["extent"])
         + "</tr>"

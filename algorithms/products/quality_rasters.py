@@ -179,9 +179,7 @@ def write_rasters(
         window = cells.sizes.coarse if raster.is_coarse else cells.sizes.fine
         size = cells.sizes.cell * (2 if raster.is_coarse else 1) / frame.horizontal_unit
         north = (window.row + window.rows) * size
-        grid = RasterGrid(
-            window.column * size, north, size, window.columns, window.rows, frame
-        )
+        grid = RasterGrid(window.column * size, north, size, window.columns, window.rows, frame)
         nodata = NO_BYTE if raster.kind == "uint8" else NODATA
         strips = _strips(raster, window, cells, inside, void, frame, nodata)
         rows = Rows(window.shape, raster.kind, strips)

@@ -11,7 +11,8 @@ IGN: LiDAR HD, nuages de points classes, https://geoservices.ign.fr/lidarhd.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from types import MappingProxyType
+from typing import Mapping, NamedTuple
 
 
 class Specification(NamedTuple):
@@ -39,7 +40,7 @@ class Specification(NamedTuple):
         Classes in which no point may be left.
     is_modern : bool
         Whether files must be LAS 1.4 with point format 6 or higher, and state the CRS as WKT.
-    places : dict of str to str
+    places : mapping of str to str
         Section of the source, by the name of a check.
     """
 
@@ -54,7 +55,7 @@ class Specification(NamedTuple):
     needed: tuple[int, ...] = ()
     refused: tuple[int, ...] = ()
     is_modern: bool = False
-    places: dict[str, str] = {}
+    places: Mapping[str, str] = MappingProxyType({})
 
 
 _LBS = "USGS Lidar Base Specification 2.1 and later"

@@ -45,7 +45,9 @@ def write(path, x, y, z, crs=True, version="1.4", point_format=6, **columns):
 
 def measured(*paths, **options):
     page, folder = (options.pop(each, None) for each in ("page", "folder"))
-    return survey_quality(paths, QualityRequest(QualityOptions(**options), page=page, folder=folder))
+    return survey_quality(
+        paths, QualityRequest(QualityOptions(**options), page=page, folder=folder)
+    )
 
 
 def states(found):
@@ -79,8 +81,10 @@ def test_only_first_returns_count_as_pulses_and_neither_noise_nor_withheld(tmp_p
     x, y = grid(0.5)
     number = np.arange(len(x)) % 2 + 1
     classes, withheld = np.full(len(x), 2), np.zeros(len(x), bool)
-    x, y, z = np.append(x, [50.0, 50.0]), np.append(y, [50.0, 50.0]), np.append(
-        terrain(x, y), [400.0, 900.0]
+    x, y, z = (
+        np.append(x, [50.0, 50.0]),
+        np.append(y, [50.0, 50.0]),
+        np.append(terrain(x, y), [400.0, 900.0]),
     )
     columns = {
         "return_number": np.append(number, [1, 1]),
@@ -131,7 +135,8 @@ def test_two_strips_with_a_known_offset(tmp_path, offset, state):
     assert found.strip_rms == pytest.approx(offset, abs=0.005)
     assert found.strip_shares[0 if offset < 0.08 else 1] == pytest.approx(1.0, abs=0.06)
     assert states(found)["Differences between strips"] == state
-    assert found.overlap_share == pytest.approx(0.4 / 0.8 * 0.8, abs=0.11)
+    # Of 10 to 100 m: the second strip reaches into a square of its own in the east.
+    assert found.overlap_share == pytest.approx(4 / 9, abs=0.02)
     made = read_raster(tmp_path / "rasters" / "strip_differences.tif").heights
     assert np.nanmedian(made) == pytest.approx(offset, abs=0.003)
     assert np.count_nonzero(~np.isnan(made)) == pytest.approx(20 * 50, rel=0.06)
@@ -189,7 +194,10 @@ def scene(seed=3):
     random = np.random.default_rng(seed)
     x, y = np.round(random.uniform(0, SIZE, (2, 60_000)), 3)
     z = np.round(terrain(x, y) + random.normal(0, 0.03, len(x)), 3)
-    classes, strip = random.choice([1, 2, 9], len(x), p=[0.3, 0.69, 0.01]), random.integers(1, 4, len(x))
+    classes, strip = (
+        random.choice([1, 2, 9], len(x), p=[0.3, 0.69, 0.01]),
+        random.integers(1, 4, len(x)),
+    )
     z[classes == 1] += 1.0
     return x, y, z, {"classification": classes, "point_source_id": strip}
 
@@ -227,7 +235,9 @@ def test_pieces_and_cells_on_disk_change_nothing(one_and_many, tmp_path, monkeyp
     monkeypatch.setattr(quality_rasters, "_TOGETHER", 1_000)
     measured(one, folder=tmp_path / "pieces")
     for name in QUALITY_RASTERS:
-        a, b = (read_raster(tmp_path / each / f"{name}.tif").heights for each in ("whole", "pieces"))
+        a, b = (
+            read_raster(tmp_path / each / f"{name}.tif").heights for each in ("whole", "pieces")
+        )
         np.testing.assert_allclose(a, b, atol=1e-6)
 
 
@@ -241,7 +251,7 @@ def test_the_command_writes_a_page_and_prints_figures(one_and_many, tmp_path, ca
     page = tmp_path / "page.html"
     command = ["quality", str(one_and_many[0]), "--specification", "lbs-ql2"]
     assert main([*command, "--page", str(page), "--cell-size", "2"]) == 0
-    assert "pulses        6.0" in capsys.readouterr().out
+    assert "first returns/m2" in capsys.readouterr().out
     html = page.read_text(encoding="utf-8")
     assert html.count("<figure>") == len(QUALITY_RASTERS)
     assert "Spatial Distribution and Regularity" in html and "<script" not in html
@@ -270,4 +280,4 @@ def test_feet_are_converted(tmp_path):
     found = measured(tmp_path / "in.laz", folder=tmp_path / "rasters")
     assert found.pulse_density == pytest.approx(4.0, rel=0.02)
     heights = read_raster(tmp_path / "rasters" / "surface_height.tif").heights
-    assert np.nanmax(heights) == pytest.approx(terrain(x, y).max(), abs=0.01)
+    assert np.nanmax(heights) == pytest.approx(terrain(x, y).max() / foot, abs=0.01)
