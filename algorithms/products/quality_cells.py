@@ -220,8 +220,8 @@ class QualityCells:
             z = np.array(heights[low:high])
             z[: start - low] = kept[len(kept) - (start - low) :]
             kept = z[: inner.stop][-margin:].copy()
-            sums = (each[low:high] for each in (self.ground_points, self._x, self._y))
-            height, rise_x, rise_y = _planes(*sums, z, size)
+            count, x, y = (each[low:high] for each in (self.ground_points, self._x, self._y))
+            height, rise_x, rise_y = _planes(count, x, y, z, size)
             there = slice(start, start + inner.stop - inner.start)
             heights[there] = height[inner]
             self._rise_x[there], self._rise_y[there] = rise_x[inner], rise_y[inner]
