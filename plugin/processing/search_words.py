@@ -41,6 +41,13 @@ _WORDS = {
             " accuracy,nva,vva,asprs,validation,lascontrol,hold-out"
         ),
     ),
+    "quality": (
+        _CLOUD, _TERRAIN,
+        mark(
+            "quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,"
+            "specification,lasoverlap,lasgrid"
+        ),
+    ),
     "assess": (
         _CLOUD,
         mark("ground,accuracy,quality,error,validation,kappa,confusion matrix,reference"),

@@ -121,6 +121,10 @@ PARAMETERS = {
         "ACCURACY_CLASS", "SURVEY_ERROR", "MAX_EDGE", "MIN_CONFIDENCE", "HOLD_OUT",
         "GROUND_CLASSES", "OVERLAP", "VEGETATED", "CONFIDENCE", "OUTPUT", "REPORT",
     ],
+    "bareearth:quality": [
+        "INPUT", "CRS", "SPECIFICATION", "CELL_SIZE", "VOID_DISTANCE", "GROUND_CLASSES", "OVERLAP",
+        "PAGE", "FOLDER",
+    ],
     "bareearth:removeoffterrainobjects": [
         "INPUT", "MAX_OBJECT_SIZE", "SLOPE_THRESHOLD", "BAND", "OUTPUT",
     ],
@@ -191,6 +195,7 @@ OUTPUTS = {
         "SHIFT",
         "HOLD_OUT_RMSE",
     ],
+    "bareearth:quality": ["PAGE", "FOLDER", "PULSE_DENSITY", "GROUND_DENSITY", "STRIP_RMS"],
     "bareearth:removeoffterrainobjects": ["OUTPUT", "CELL_COUNT", "REMOVED_COUNT"],
 }
 MODELS = {
