@@ -79,7 +79,7 @@ def _lbs(level: str, pulses: float, spacing: float) -> Specification:
 
 
 SPECIFICATIONS = {
-    "none": Specification("none", ""),
+    "none": Specification("No specification", ""),
     "lbs-ql1": _lbs("QL1", 8.0, 0.35),
     "lbs-ql2": _lbs("QL2", 2.0, 0.71),
     "linz": Specification(

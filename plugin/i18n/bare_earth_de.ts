@@ -254,6 +254,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Zellen von Objekten</translation>
     </message>
     <message>
+        <source>Cells that are farther from a ground point are voids of the ground.</source>
+        <translation>Zellen, die weiter von einem Bodenpunkt entfernt sind, sind Lücken des Bodens.</translation>
+    </message>
+    <message>
         <source>Cells with a height</source>
         <translation>Zellen mit einer Höhe</translation>
     </message>
@@ -472,8 +476,16 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Tiefe tiefer Ausreißer</translation>
     </message>
     <message>
+        <source>Differences between strips [m]</source>
+        <translation>Unterschiede zwischen Flugstreifen [m]</translation>
+    </message>
+    <message>
         <source>Direction from which the light comes, clockwise from north. Four lights have their own directions.</source>
         <translation>Richtung, aus der das Licht kommt, von Norden aus im Uhrzeigersinn. Vier Lichter haben ihre eigenen Richtungen.</translation>
+    </message>
+    <message>
+        <source>Distance of voids</source>
+        <translation>Abstand für Lücken</translation>
     </message>
     <message>
         <source>Documentation</source>
@@ -608,6 +620,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Erste Echos treffen die Oberseite von Bäumen und Gebäuden. Nehmen Sie alle Echos, wenn die Nummern der Echos in der Datei falsch sind.</translation>
     </message>
     <message>
+        <source>First returns per m²</source>
+        <translation>Erste Echos je m²</translation>
+    </message>
+    <message>
         <source>Flat land, fields</source>
         <translation>Flachland, Felder</translation>
     </message>
@@ -618,6 +634,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Folder of the classified point clouds</source>
         <translation>Ordner der klassifizierten Punktwolken</translation>
+    </message>
+    <message>
+        <source>Folder of the rasters</source>
+        <translation>Ordner der Raster</translation>
     </message>
     <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
@@ -706,6 +726,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Ground points</source>
         <translation>Bodenpunkte</translation>
+    </message>
+    <message>
+        <source>Ground points per m²</source>
+        <translation>Bodenpunkte je m²</translation>
     </message>
     <message>
         <source>Ground tolerance</source>
@@ -808,6 +832,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Wie viele Threads gleichzeitig rechnen. Das Ergebnis hängt nicht davon ab. Leer: so viele, wie es Prozessoren gibt.</translation>
     </message>
     <message>
+        <source>IGN LiDAR HD</source>
+        <translation>IGN LiDAR HD</translation>
+    </message>
+    <message>
         <source>Ignored classes of the reference</source>
         <translation>Nicht beachtete Klassen der Referenz</translation>
     </message>
@@ -898,6 +926,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>LAZ support…</source>
         <translation>LAZ-Unterstützung…</translation>
+    </message>
+    <message>
+        <source>LINZ, New Zealand National Aerial LiDAR Base Specification (PGF version)</source>
+        <translation>LINZ, New Zealand National Aerial LiDAR Base Specification (PGF-Fassung)</translation>
     </message>
     <message>
         <source>Land cover of the checkpoints</source>
@@ -1022,6 +1054,14 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Mittlere Abweichung [m]</translation>
     </message>
     <message>
+        <source>Measures a classified survey, of one file or many: densities of first returns and of ground points, voids, low vegetation, overlap of flight strips and differences between them, classes and file formats. It compares the figures with a specification, and makes a web page, which opens from the Results Viewer, and rasters.</source>
+        <translation>Misst eine klassifizierte Befliegung, aus einer Datei oder vielen: Dichten der ersten Echos und der Bodenpunkte, Lücken, niedrige Vegetation, Überlappung der Flugstreifen und Unterschiede zwischen ihnen, Klassen und Dateiformate. Vergleicht die Zahlen mit einer Spezifikation und erstellt eine Webseite, die sich aus der Ergebnisanzeige öffnen lässt, und Raster.</translation>
+    </message>
+    <message>
+        <source>Measures densities, voids and strips, and compares them with a specification.</source>
+        <translation>Misst Dichten, Lücken und Flugstreifen und vergleicht sie mit einer Spezifikation.</translation>
+    </message>
+    <message>
         <source>Memory</source>
         <translation>Arbeitsspeicher</translation>
     </message>
@@ -1056,6 +1096,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>No ground here</source>
         <translation>Hier kein Boden</translation>
+    </message>
+    <message>
+        <source>No specification</source>
+        <translation>Keine Spezifikation</translation>
     </message>
     <message>
         <source>No-data value of the rasters</source>
@@ -1152,6 +1196,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Overview of the virtual point cloud</source>
         <translation>Übersicht der virtuellen Punktwolke</translation>
+    </message>
+    <message>
+        <source>Page about the quality</source>
+        <translation>Seite über die Qualität</translation>
     </message>
     <message>
         <source>Point cloud</source>
@@ -1260,6 +1308,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Quality</source>
         <translation>Qualität</translation>
+    </message>
+    <message>
+        <source>Quality of a survey</source>
+        <translation>Qualität einer Befliegung</translation>
     </message>
     <message>
         <source>RMSE of held-out points [m]</source>
@@ -1422,6 +1474,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Seite einer Zelle des Geländemodells und seiner Schummerung. Wählen Sie etwa den Abstand der Bodenpunkte; kleinere Zellen machen nur die Datei größer.</translation>
     </message>
     <message>
+        <source>Side of the cells of densities and voids. Strips and maximum heights have cells of twice this size.</source>
+        <translation>Seitenlänge der Zellen von Dichten und Lücken. Flugstreifen und größte Höhen haben doppelt so große Zellen.</translation>
+    </message>
+    <message>
         <source>Side of the cells whose lowest points are compared. Not used with the preset Whitebox. Empty: the usual distance between points, at least 1 m.</source>
         <translation>Seite der Zellen, deren tiefste Punkte verglichen werden. Nicht für die Voreinstellung Whitebox. Leer: der übliche Abstand der Punkte, mindestens 1 m.</translation>
     </message>
@@ -1476,6 +1532,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Smoothing of the contour lines</source>
         <translation>Glättung der Höhenlinien</translation>
+    </message>
+    <message>
+        <source>Specification</source>
+        <translation>Spezifikation</translation>
     </message>
     <message>
         <source>Steep or rugged terrain</source>
@@ -1618,6 +1678,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Der Ordner für die klassifizierten Dateien. Jede behält ihren Namen.</translation>
     </message>
     <message>
+        <source>The folder for the rasters of densities, voids and strips.</source>
+        <translation>Der Ordner für die Raster der Dichten, Lücken und Flugstreifen.</translation>
+    </message>
+    <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
         <translation>Der Bodenfilter. TIN-Verdichtung ist am genauesten.</translation>
     </message>
@@ -1722,6 +1786,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Der Anteil falscher Punkte in jeder Zelle eines Rasters, 0 bis 1.</translation>
     </message>
     <message>
+        <source>The specification with which the survey is compared.</source>
+        <translation>Die Spezifikation, mit der die Befliegung verglichen wird.</translation>
+    </message>
+    <message>
         <source>The terrain model is not a file. Export it as GeoTIFF first.</source>
         <translation>Das Geländemodell ist keine Datei. Exportieren Sie es zuerst als GeoTIFF.</translation>
     </message>
@@ -1812,6 +1880,14 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Type II error [%]</source>
         <translation>Fehler 2. Art [%]</translation>
+    </message>
+    <message>
+        <source>USGS Lidar Base Specification, QL1</source>
+        <translation>USGS Lidar Base Specification, QL1</translation>
+    </message>
+    <message>
+        <source>USGS Lidar Base Specification, QL2</source>
+        <translation>USGS Lidar Base Specification, QL2</translation>
     </message>
     <message>
         <source>Unit of the cell size</source>
@@ -2064,6 +2140,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>ptd,axelsson,densification</source>
         <translation>ptd,axelsson,Verdichtung</translation>
+    </message>
+    <message>
+        <source>quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,specification,lasoverlap,lasgrid</source>
+        <translation>qualität,qualitätskontrolle,qs,dichte,pulsdichte,lücken,flugstreifen,streifen,überlappung,usgs,linz,ign,spezifikation,abnahme</translation>
     </message>
     <message>
         <source>raised objects</source>

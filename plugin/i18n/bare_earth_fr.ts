@@ -254,6 +254,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Cellules d'objets</translation>
     </message>
     <message>
+        <source>Cells that are farther from a ground point are voids of the ground.</source>
+        <translation>Les cellules plus éloignées d'un point du sol sont des vides du sol.</translation>
+    </message>
+    <message>
         <source>Cells with a height</source>
         <translation>Cellules avec une altitude</translation>
     </message>
@@ -472,8 +476,16 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Profondeur des points aberrants bas</translation>
     </message>
     <message>
+        <source>Differences between strips [m]</source>
+        <translation>Écarts entre bandes de vol [m]</translation>
+    </message>
+    <message>
         <source>Direction from which the light comes, clockwise from north. Four lights have their own directions.</source>
         <translation>Direction d'où vient la lumière, dans le sens horaire depuis le nord. Quatre lumières ont leurs propres directions.</translation>
+    </message>
+    <message>
+        <source>Distance of voids</source>
+        <translation>Distance des vides</translation>
     </message>
     <message>
         <source>Documentation</source>
@@ -608,6 +620,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Les premiers retours touchent le haut des arbres et des bâtiments. Prenez tous les retours si les numéros de retour du fichier sont faux.</translation>
     </message>
     <message>
+        <source>First returns per m²</source>
+        <translation>Premiers retours par m²</translation>
+    </message>
+    <message>
         <source>Flat land, fields</source>
         <translation>Terrain plat, champs</translation>
     </message>
@@ -618,6 +634,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Folder of the classified point clouds</source>
         <translation>Dossier des nuages de points classés</translation>
+    </message>
+    <message>
+        <source>Folder of the rasters</source>
+        <translation>Dossier des rasters</translation>
     </message>
     <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
@@ -706,6 +726,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Ground points</source>
         <translation>Points sol</translation>
+    </message>
+    <message>
+        <source>Ground points per m²</source>
+        <translation>Points du sol par m²</translation>
     </message>
     <message>
         <source>Ground tolerance</source>
@@ -808,6 +832,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Le nombre de fils d'exécution qui calculent en même temps. Le résultat n'en dépend pas. Vide : autant qu'il y a de processeurs.</translation>
     </message>
     <message>
+        <source>IGN LiDAR HD</source>
+        <translation>IGN LiDAR HD</translation>
+    </message>
+    <message>
         <source>Ignored classes of the reference</source>
         <translation>Classes ignorées de la référence</translation>
     </message>
@@ -898,6 +926,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>LAZ support…</source>
         <translation>Prise en charge LAZ…</translation>
+    </message>
+    <message>
+        <source>LINZ, New Zealand National Aerial LiDAR Base Specification (PGF version)</source>
+        <translation>LINZ, New Zealand National Aerial LiDAR Base Specification (version PGF)</translation>
     </message>
     <message>
         <source>Land cover of the checkpoints</source>
@@ -1022,6 +1054,14 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Écart moyen [m]</translation>
     </message>
     <message>
+        <source>Measures a classified survey, of one file or many: densities of first returns and of ground points, voids, low vegetation, overlap of flight strips and differences between them, classes and file formats. It compares the figures with a specification, and makes a web page, which opens from the Results Viewer, and rasters.</source>
+        <translation>Mesure un levé classé, d'un fichier ou de plusieurs : densités des premiers retours et des points du sol, vides, végétation basse, recouvrement des bandes de vol et écarts entre elles, classes et formats de fichier. Compare les chiffres à une spécification, et crée une page web, qui s'ouvre depuis la visionneuse de résultats, et des rasters.</translation>
+    </message>
+    <message>
+        <source>Measures densities, voids and strips, and compares them with a specification.</source>
+        <translation>Mesure densités, vides et bandes de vol, et les compare à une spécification.</translation>
+    </message>
+    <message>
         <source>Memory</source>
         <translation>Mémoire</translation>
     </message>
@@ -1056,6 +1096,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>No ground here</source>
         <translation>Pas de sol ici</translation>
+    </message>
+    <message>
+        <source>No specification</source>
+        <translation>Aucune spécification</translation>
     </message>
     <message>
         <source>No-data value of the rasters</source>
@@ -1152,6 +1196,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Overview of the virtual point cloud</source>
         <translation>Vue d'ensemble du nuage de points virtuel</translation>
+    </message>
+    <message>
+        <source>Page about the quality</source>
+        <translation>Page sur la qualité</translation>
     </message>
     <message>
         <source>Point cloud</source>
@@ -1260,6 +1308,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Quality</source>
         <translation>Qualité</translation>
+    </message>
+    <message>
+        <source>Quality of a survey</source>
+        <translation>Qualité d'un levé</translation>
     </message>
     <message>
         <source>RMSE of held-out points [m]</source>
@@ -1422,6 +1474,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Côté d'une cellule du modèle de terrain et de son ombrage. Choisissez environ la distance entre points sol ; des cellules plus petites ne font qu'agrandir le fichier.</translation>
     </message>
     <message>
+        <source>Side of the cells of densities and voids. Strips and maximum heights have cells of twice this size.</source>
+        <translation>Côté des cellules des densités et des vides. Les bandes de vol et les hauteurs maximales ont des cellules deux fois plus grandes.</translation>
+    </message>
+    <message>
         <source>Side of the cells whose lowest points are compared. Not used with the preset Whitebox. Empty: the usual distance between points, at least 1 m.</source>
         <translation>Côté des cellules dont les points les plus bas sont comparés. Pas pour le préréglage Whitebox. Vide : la distance habituelle entre les points, au moins 1 m.</translation>
     </message>
@@ -1476,6 +1532,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Smoothing of the contour lines</source>
         <translation>Lissage des courbes de niveau</translation>
+    </message>
+    <message>
+        <source>Specification</source>
+        <translation>Spécification</translation>
     </message>
     <message>
         <source>Steep or rugged terrain</source>
@@ -1618,6 +1678,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Le dossier des fichiers classés. Chacun garde son nom.</translation>
     </message>
     <message>
+        <source>The folder for the rasters of densities, voids and strips.</source>
+        <translation>Le dossier des rasters des densités, des vides et des bandes de vol.</translation>
+    </message>
+    <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
         <translation>Le filtre du sol. La densification de TIN est la plus précise.</translation>
     </message>
@@ -1722,6 +1786,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>La part de points faux dans chaque cellule d'un raster, de 0 à 1.</translation>
     </message>
     <message>
+        <source>The specification with which the survey is compared.</source>
+        <translation>La spécification à laquelle le levé est comparé.</translation>
+    </message>
+    <message>
         <source>The terrain model is not a file. Export it as GeoTIFF first.</source>
         <translation>Le modèle de terrain n'est pas un fichier. Exportez-le d'abord en GeoTIFF.</translation>
     </message>
@@ -1812,6 +1880,14 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Type II error [%]</source>
         <translation>Erreur de type II [%]</translation>
+    </message>
+    <message>
+        <source>USGS Lidar Base Specification, QL1</source>
+        <translation>USGS Lidar Base Specification, QL1</translation>
+    </message>
+    <message>
+        <source>USGS Lidar Base Specification, QL2</source>
+        <translation>USGS Lidar Base Specification, QL2</translation>
     </message>
     <message>
         <source>Unit of the cell size</source>
@@ -2064,6 +2140,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>ptd,axelsson,densification</source>
         <translation>ptd,axelsson,densification</translation>
+    </message>
+    <message>
+        <source>quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,specification,lasoverlap,lasgrid</source>
+        <translation>qualité,contrôle,cq,densité,impulsions,vides,bandes,recouvrement,usgs,linz,ign,spécification,recette</translation>
     </message>
     <message>
         <source>raised objects</source>
