@@ -344,10 +344,10 @@ def lines_of(found: Quality, survey: Survey, asked: Specification) -> list[Line]
     _add_classes(add, found, asked)
     if asked.is_modern:
         old = [each for each in found.files if each["version"] < "1.4" or each["format"] < 6]
-        words = f"{len(old):,} of {len(found.files):,} files have another"
+        words = f"{len(old):,} of {len(found.files):,} files are older"
         add("format", "Files", words, "LAS 1.4, point format 6 or higher", not old)
         vague = [each for each in found.files if not each["wkt"]]
-        words = f"{len(vague):,} of {len(found.files):,} files do not state it"
+        words = f"{len(vague):,} of {len(found.files):,} files do not state it so"
         add("crs", "CRS", words, "stated as WKT", not vague)
     return lines
 

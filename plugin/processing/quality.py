@@ -58,7 +58,7 @@ class QualityAlgorithm(ProductAlgorithm):
         """Measure the survey."""
         chosen = self.chosen(parameters, context)
         page = self.parameterAsFileOutput(parameters, "PAGE", context)
-        folder = self.parameterAsString(parameters, "FOLDER", context)
+        folder = self.parameterAsFileOutput(parameters, "FOLDER", context)
         flags = {"crs": self.stated, "page": page, "folder": folder}
         progress.command(command_line("quality", [str(self.source)], chosen, flags))
         request = QualityRequest.of(

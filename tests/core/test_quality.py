@@ -8,6 +8,7 @@ import pytest
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.las.reading import read_parts
 from bare_earth.algorithms.products import quality_cells, quality_rasters
 from bare_earth.algorithms.products.quality import QualityOptions, QualityRequest, survey_quality
 from bare_earth.algorithms.products.quality_rasters import QUALITY_RASTERS
@@ -142,6 +143,19 @@ def test_two_strips_with_a_known_offset(tmp_path, offset, state):
     assert np.count_nonzero(~np.isnan(made)) == pytest.approx(20 * 50, rel=0.06)
     number = read_raster(tmp_path / "rasters" / "overlap.tif").heights
     assert np.nanmax(number) == 2 and number[25, 5] == 1 and number[25, 25] == 2
+
+
+@pytest.mark.parametrize("version, point_format", [("1.2", 1), ("1.4", 6), ("1.4", 7)])
+@pytest.mark.parametrize("name", ["in.las", "in.laz"])
+def test_the_strips_of_points_are_read_if_wanted(tmp_path, version, point_format, name):
+    x, y = grid(1.0)
+    strip = np.arange(len(x)) % 65536
+    layout = {"version": version, "point_format": point_format, "point_source_id": strip}
+    path = write(tmp_path / name, x, y, terrain(x, y), **layout)
+    (part,) = read_parts(path, strips=True)
+    np.testing.assert_array_equal(part.strip, strip)
+    (part,) = read_parts(path)
+    assert part.strip is None
 
 
 def test_strips_are_not_judged_on_slopes_and_under_trees(tmp_path):
