@@ -28,7 +28,13 @@ from .file_points import FilePoints
 from .labelling import ClassifiedPoints, LabelGround
 from .memory import Resources
 from .rasters import MakeRasters, RasterSize, write_rasters
-from .requests import ClassifyRequest, HeightRequest, KeyPointRequest, TerrainRequest
+from .requests import (
+    AboveGroundRequest,
+    ClassifyRequest,
+    HeightRequest,
+    KeyPointRequest,
+    TerrainRequest,
+)
 from .steps import PointStep, Step, located
 
 
@@ -221,7 +227,7 @@ def _summary(result: ClassifiedPoints, tally: Any, request: ClassifyRequest) -> 
 def write_points(
     source: Path,
     target: Path,
-    request: HeightRequest | KeyPointRequest,
+    request: HeightRequest | KeyPointRequest | AboveGroundRequest,
     progress: Progress = SILENT,
 ) -> Any:
     """Write a file with the values that a step finds for its points, such as heights.
@@ -230,7 +236,7 @@ def write_points(
     ----------
     source, target : Path
         The input, and the output (.las, .laz or .copc.laz).
-    request : HeightRequest or KeyPointRequest
+    request : HeightRequest, KeyPointRequest or AboveGroundRequest
         What to find.
     progress : Progress
         Receives progress and messages.

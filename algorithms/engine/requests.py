@@ -11,6 +11,7 @@ from ..core.parameters import ParameterSet
 from ..crs.stated import stated_wkt
 from ..filters import DEFAULT_METHOD, METHODS
 from ..grids.model_key_points import ModelKeyPoints
+from ..products.above_ground import AboveGround
 from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.raster_block import LAYERS
 from ..products.raster_files import RasterFiles
@@ -22,6 +23,7 @@ from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
+from .above_ground import ClassifyAboveGround
 from .explanation import Explanation
 from .heights import HeightOutput, MeasureHeights
 from .key_points import FindKeyPoints, KeyPointMark
@@ -221,6 +223,30 @@ class KeyPointRequest(Request):
     def step(self) -> FindKeyPoints:
         """The step that finds the key points."""
         return FindKeyPoints(self.parameters, self.ground, self.mark)
+
+
+@dataclass(frozen=True)
+class AboveGroundRequest(Request):
+    """A request to classify the points above the ground.
+
+    Attributes
+    ----------
+    parameters : AboveGround
+        Which classes they get.
+    ground : GroundClasses
+        Which points are ground.
+    area : Area or None
+        Where points can change; None for everywhere.
+    """
+
+    parameters: AboveGround = field(default_factory=AboveGround)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    area: Area | None = None
+
+    @property
+    def step(self) -> ClassifyAboveGround:
+        """The step that classifies them."""
+        return ClassifyAboveGround(self.parameters, self.ground, self.area)
 
 
 @dataclass(frozen=True)
