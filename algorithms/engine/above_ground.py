@@ -8,13 +8,15 @@ from pathlib import Path
 
 import numpy as np
 
+from ..core.errors import BareEarthError
+from ..core.points import Box, box_in_words
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..products.above_ground import AboveGround, classes_above_ground
 from ..products.height_above_ground import with_roads
 from ..survey.area import Area
-from ..survey.corrections import changed_since
+from ..survey.corrections import NO_CORRECTIONS, Corrections, changed_since
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.kept_classes import DECIDED, ROADS, is_one_of
 from ..survey.tally import count_classes
@@ -77,11 +79,14 @@ class ClassifyAboveGround(PointStep):
         Which points are ground.
     area : Area or None
         Where points can change; everywhere if it is None.
+    corrections : Corrections
+        Points in these polygons keep the class that they have by hand.
     """
 
     parameters: AboveGround = field(default_factory=AboveGround)
     ground: GroundClasses = field(default_factory=GroundClasses)
     area: Area | None = None
+    corrections: Corrections = NO_CORRECTIONS
 
     tally = GroundTally
     blocks = _BLOCKS
@@ -102,7 +107,17 @@ class ClassifyAboveGround(PointStep):
     def changes(self, part: PointCloud) -> np.ndarray:
         """Return which points can change: of certain classes, in the area, not set by hand."""
         changes = is_one_of(part.classification, self.parameters.changing) & ~changed_since(part)
+        if self.corrections.polygons:
+            changes &= self.corrections.classes_of(part) != part.classification
         return changes if self.area is None else changes & self.area.of(part)
+
+    def check_survey(self, box: Box) -> None:
+        """Refuse the survey if the area lies outside its extent."""
+        if self.area is not None and not self.area.may_touch(box):
+            raise BareEarthError(
+                f"No point lies in the area: the files cover {box_in_words(box)}. Give the extent or"
+                " the boundary in the CRS of the points."
+            )
 
     def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
         """Refuse a file without ground; tell of one in which nothing can change."""

@@ -153,7 +153,8 @@ def classify_file(
     # Shares of the progress bar.
     raster_count = len(request.rasters.wanted)
     made_too = 3.0 * bool(raster_count) + raster_count, 3.0 * ("heights" in products)
-    first, finding, drawing, measuring, last = progress.shares(1.5, 5.0, *made_too, 0.8)
+    made_too = *made_too, 3.0 * ("above" in products)
+    first, finding, drawing, measuring, looking, last = progress.shares(1.5, 5.0, *made_too, 0.8)
     changes_more = request.output.changes_points or request.selection.remember_classes
     is_copied = not (changes_more or remembers(las)) and layers_kept(las, target) is not None
     import_early("scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph")
@@ -180,6 +181,10 @@ def classify_file(
             write_rasters(made, frame, drawn, outputs, writing)
         if "heights" in products:
             heights = _worked(points, products["heights"], waiting["heights"], measuring).heights
+        if "above" in products:
+            products["above"].work(waiting["above"], points.resources, looking)
+            for each in points.values(waiting["above"]):
+                result.refine(*each)
         edits = result.edits(points.cloud, progress, heights)
         write_changed(las, target, edits, last, points.cloud, points.memory_left)
     return _summary(result, tally, request)
@@ -192,6 +197,8 @@ def _products(request: ClassifyRequest, las: LasFile, progress: Progress) -> dic
         products["rasters"] = _placed(request.raster_step, las, progress)
     if request.output.height_above_ground:
         products["heights"] = request.height_step
+    if request.above_ground.wanted:
+        products["above"] = request.above_ground_step
     return products
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.parameters import ParameterSet, parameter
+from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..filters.bridges.decks import bridge_decks
@@ -21,6 +21,11 @@ BUILDING, BRIDGE_DECK, HIGH_NOISE = 6, 17, 18
 NONE, OWN = "none", "own"
 # Heights in metres at which medium and high vegetation begin.
 _LIMITS = {"asprs": (0.5, 2.0), "ign": (0.5, 1.5)}
+_SCHEMES = {
+    "asprs": "Vegetation low below 0.5 m, medium to 2 m, high above",
+    "ign": "Vegetation low below 0.5 m, medium to 1.5 m, high above (IGN)",
+    OWN: "Vegetation by limits of your own",
+}
 # At most so many metres below its lower limit a point still counts as above ground: rounding.
 _ROUNDING = 1e-6
 
@@ -32,11 +37,7 @@ class AboveGround(ParameterSet):
     above_ground: str = parameter(
         "asprs",
         label="Heights of vegetation",
-        choices={
-            "asprs": "Low below 0.5 m, medium to 2 m, high above",
-            "ign": "Low below 0.5 m, medium to 1.5 m, high above (IGN)",
-            OWN: "The limits below",
-        },
+        choices=_SCHEMES,
         help="What is no building, no bridge and no noise becomes low (3), medium (4) or high (5)"
         " vegetation by its height above ground. The LAS specification has these classes, but no"
         " limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.",
@@ -126,6 +127,11 @@ class AboveGround(ParameterSet):
             )
 
     @property
+    def wanted(self) -> bool:
+        """Whether the points above the ground are to be classified at all."""
+        return self.above_ground != NONE
+
+    @property
     def limits(self) -> tuple[float, float, float]:
         """The heights in metres at which low, medium and high vegetation begin."""
         own = self.medium_height, self.high_height
@@ -135,6 +141,21 @@ class AboveGround(ParameterSet):
     def changing(self) -> tuple[int, ...]:
         """The classes that are decided anew."""
         return (0, 1, 3, 4, 5, 6) if self.reclassify else (0, 1)
+
+
+@dataclass(frozen=True)
+class ThenAboveGround(AboveGround):
+    """Whether a run that finds the ground also classifies the points above it, and how."""
+
+    above_ground: str = parameter_of(
+        AboveGround,
+        "above_ground",
+        default=NONE,
+        label="Classes above the ground",
+        choices={NONE: "None: what is not ground has no further class", **_SCHEMES},
+        help="Classifies the points above the ground as well: low, medium and high vegetation (3, 4,"
+        " 5) by height above ground, buildings (6), bridges (17) and high noise (18).",
+    )
 
 
 def classes_above_ground(
