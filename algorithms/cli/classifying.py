@@ -76,8 +76,8 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
         Contours, Output, TileInput, TileOutput, RasterOutput, Resources,
         titles=(
             f"{method.label} parameters", "Which points, which classes", "Above the ground",
-            "Terrain model", "Surface model and gaps", "Contour lines", "Output", "Files", "Output of many files",
-            "Rasters of many files", "Threads and memory",
+            "Terrain model", "Surface model and gaps", "Contour lines", "Output", "Files",
+            "Output of many files", "Rasters of many files", "Threads and memory",
         ),
     )  # fmt: skip
 

@@ -115,8 +115,8 @@ class ClassifyAboveGround(PointStep):
         """Refuse the survey if the area lies outside its extent."""
         if self.area is not None and not self.area.may_touch(box):
             raise BareEarthError(
-                f"No point lies in the area: the files cover {box_in_words(box)}. Give the extent or"
-                " the boundary in the CRS of the points."
+                f"No point lies in the area: the files cover {box_in_words(box)}. Give the extent"
+                " or the boundary in the CRS of the points."
             )
 
     def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:

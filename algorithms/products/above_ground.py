@@ -107,14 +107,14 @@ class AboveGround(ParameterSet):
         True,
         label="Find high noise (18)",
         advanced=True,
-        help="Small groups of points that hang at least 10 m above all others of their place: birds,"
-        " clouds.",
+        help="Small groups of points that hang at least 10 m above all others of their place:"
+        " birds, clouds.",
     )
     reclassify: bool = parameter(
         False,
         label="Classify vegetation and buildings anew",
-        help="If this is off, only points of class 0 and 1 change. If it is on, points of class 3 to"
-        " 6 are decided anew as well. All others keep their class, such as water (9) and wires.",
+        help="If this is off, only points of class 0 and 1 change. If it is on, points of class 3"
+        " to 6 are decided anew as well. All others keep their class, such as water (9) and wires.",
     )
 
     def __post_init__(self) -> None:
@@ -122,8 +122,8 @@ class AboveGround(ParameterSet):
         low, medium, high = self.limits
         if not low <= medium <= high:
             raise BareEarthError(
-                f"Low vegetation begins at {low:g} m, medium at {medium:g} m and high at {high:g} m."
-                " Give heights that do not decrease."
+                f"Low vegetation begins at {low:g} m, medium at {medium:g} m and high at {high:g}"
+                " m. Give heights that do not decrease."
             )
 
     @property
@@ -153,8 +153,8 @@ class ThenAboveGround(AboveGround):
         default=NONE,
         label="Classes above the ground",
         choices={NONE: "None: what is not ground has no further class", **_SCHEMES},
-        help="Classifies the points above the ground as well: low, medium and high vegetation (3, 4,"
-        " 5) by height above ground, buildings (6), bridges (17) and high noise (18).",
+        help="Classifies the points above the ground as well: low, medium and high vegetation (3,"
+        " 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18).",
     )
 
 

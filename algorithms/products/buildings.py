@@ -4,7 +4,8 @@ A roof is made of planes of some size, and a laser pulse meets it once. Leaves a
 no plane, and a pulse meets several of them. Both are asked of the neighbours of each point.
 
 The parts of the method are known from others: planes and single returns (LAStools lasclassify,
-TerraScan, LiDAR360), a least area (all of them), growing from certain roofs (GRASS v.lidar.growing).
+TerraScan, LiDAR360), a least area (all of them), growing from certain roofs (GRASS
+v.lidar.growing).
 """
 
 from __future__ import annotations
@@ -40,11 +41,11 @@ _BEND = 15.0
 _JOIN, _JOIN_SPACINGS = 5.0, 2.5
 # So many planes that a node lies on make it roof without one of its own: edges, ridges.
 _VOTES = 2
-# Points within so many metres of the plane of a roof lie on it. Eaves, walls and gutters are at most
-# so many metres beside it.
+# Points within so many metres of the plane of a roof lie on it. Eaves, walls and gutters are at
+# most so many metres beside it.
 _ON, _BESIDE = 0.3, 1.0
-# Chimneys, dormers and plants on a roof are so many metres high. Lower than this above the ground is
-# no wall, but what lies in front of it.
+# Chimneys, dormers and plants on a roof are so many metres high. Lower than this above the
+# ground is no wall, but what lies in front of it.
 _ABOVE, _LEAST_WALL = 2.5, 0.5
 # Gaps of a roof of up to about three cells are closed.
 _CLOSING = 1.5
