@@ -67,9 +67,7 @@ class AboveGround(ParameterSet):
         minimum=0.0,
         maximum=100.0,
         advanced=True,
-        help="Points below this height above ground, and points below the ground, become class 1."
-        " Raise it to 0.1 or 0.2 m if the ground has gaps: the points just above it are ground"
-        " that the filter left out, as a rule.",
+        help="Points below this height above ground, and points below the ground, become class 1.",
     )
     buildings: bool = parameter(
         True,
