@@ -368,7 +368,7 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Classifies the points above the ground of a classified point cloud: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18). Buildings are found by planes that laser pulses meet once; without return numbers the planes alone decide, and smooth crowns can become buildings.
 Only points of class 0 and 1 change, unless you ask for more. Nothing else in the file changes. Lengths are metres, whatever the unit of the CRS.</source>
-        <translation>Klassifiziert die Punkte über dem Boden einer klassifizierten Punktwolke: niedrige, mittlere und hohe Vegetation (3, 4, 5) nach der Höhe über Grund, Gebäude (6), Brücken (17) und hohes Rauschen (18). Gebäude werden an Ebenen erkannt, die ein Laserpuls nur einmal trifft; ohne Rückgabenummern entscheiden allein die Ebenen, und glatte Kronen können zu Gebäuden werden.
+        <translation>Klassifiziert die Punkte über dem Boden einer klassifizierten Punktwolke: niedrige, mittlere und hohe Vegetation (3, 4, 5) nach der Höhe über Grund, Gebäude (6), Brücken (17) und hohes Rauschen (18). Gebäude werden an Ebenen erkannt, die ein Laserpuls nur einmal trifft; ohne Nummern der Echos entscheiden allein die Ebenen, und glatte Kronen können zu Gebäuden werden.
 Nur Punkte der Klassen 0 und 1 ändern sich, wenn Sie nicht mehr verlangen. Sonst ändert sich nichts in der Datei. Längen sind Meter, unabhängig von der Einheit des KBS.</translation>
     </message>
     <message>
