@@ -117,7 +117,9 @@ def of_tiles() -> list[str]:
 
 def _row(name: str, ground: str, sample: Sample, found: np.ndarray) -> str:
     scores = [intersection(found == value, sample.classes == value) for value in _NAMES]
-    scores = [each if (sample.classes == value).any() else np.nan for each, value in zip(scores, _NAMES)]
+    scores = [
+        each if (sample.classes == value).any() else np.nan for each, value in zip(scores, _NAMES)
+    ]
     both = np.count_nonzero((found == 6) & (sample.classes == 6))
     right = both / np.count_nonzero(found == 6), both / np.count_nonzero(sample.classes == 6)
     cells = np.unique(np.floor(np.array(sample.points[:2]) / 10.0), axis=1).shape[1]
@@ -128,7 +130,10 @@ def _row(name: str, ground: str, sample: Sample, found: np.ndarray) -> str:
 
 def of_forests() -> list[str]:
     """Return a table of points of forests that become buildings."""
-    rows = ["| Forest | Points above 2 m | of them buildings | without return numbers |", "|---|---|---|---|"]
+    rows = [
+        "| Forest | Points above 2 m | of them buildings | without return numbers |",
+        "|---|---|---|---|",
+    ]
     for name in FORESTS:
         sample, _ = Sample.of_file(name)
         high = height_above_ground(sample.points, sample.classes == 2) > 2.0
@@ -222,7 +227,9 @@ def main() -> None:
         print(*rows, sep="\n", end="\n\n")
         block = "\n".join(rows)
         marks = rf"(<!-- {name} -->\n).*?(\n<!-- end -->)"
-        text = re.sub(marks, lambda found, block=block: found[1] + block + found[2], text, flags=re.S)
+        text = re.sub(
+            marks, lambda found, block=block: found[1] + block + found[2], text, flags=re.S
+        )
     if options.write:
         PAGE.write_text(text, "utf-8")
 
