@@ -3,8 +3,8 @@
     python -m benchmarks.above_ground            # print the tables
     python -m benchmarks.above_ground --write    # and put them into docs/above-ground.md
 
-The constants were chosen with three real tiles, four forests and the tuning seeds. What is quoted of
-the scenes is measured on the reporting seeds.
+The constants were chosen with three real tiles, forests and the tuning seeds. What is quoted of the
+scenes is measured on the reporting seeds.
 """
 
 from __future__ import annotations
@@ -226,10 +226,8 @@ def main() -> None:
     for name, rows in tables.items():
         print(*rows, sep="\n", end="\n\n")
         block = "\n".join(rows)
-        marks = rf"(<!-- {name} -->\n).*?(\n<!-- end -->)"
-        text = re.sub(
-            marks, lambda found, block=block: found[1] + block + found[2], text, flags=re.S
-        )
+        marks = re.compile(rf"(<!-- {name} -->\n).*?(?=<!-- end -->)", re.DOTALL)
+        text = marks.sub(lambda found, block=block: f"{found[1]}{block}\n", text)
     if options.write:
         PAGE.write_text(text, "utf-8")
 
