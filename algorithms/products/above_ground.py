@@ -83,7 +83,7 @@ class AboveGround(ParameterSet):
         maximum=10_000.0,
         advanced=True,
         help="A building has a plane of at least this area. Smaller planes are found only within"
-        " 5 m of a larger one. Below about 5 m2, tops of conifers become buildings.",
+        " 5 m of a larger one. If this is half as large, tops of conifers become buildings.",
     )
     building_height: float = parameter(
         2.0,

@@ -24,8 +24,8 @@
         <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt; für Felder, die leer bleiben</translation>
     </message>
     <message>
-        <source>A building has a plane of at least this area. Smaller planes are found only within 5 m of a larger one. Below about 5 m2, tops of conifers become buildings.</source>
-        <translation>Ein Gebäude hat eine Ebene von mindestens dieser Fläche. Kleinere Ebenen werden nur bis 5 m neben einer größeren gefunden. Unter etwa 5 m² werden Wipfel von Nadelbäumen zu Gebäuden.</translation>
+        <source>A building has a plane of at least this area. Smaller planes are found only within 5 m of a larger one. If this is half as large, tops of conifers become buildings.</source>
+        <translation>Ein Gebäude hat eine Ebene von mindestens dieser Fläche. Kleinere Ebenen werden nur bis 5 m neben einer größeren gefunden. Ist dieser Wert halb so groß, werden Wipfel von Nadelbäumen zu Gebäuden.</translation>
     </message>
     <message>
         <source>A checkpoint has no height. Choose the attribute with the heights.</source>
@@ -2133,7 +2133,7 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     </message>
     <message>
         <source>m2</source>
-        <translation>m²</translation>
+        <translation>m2</translation>
     </message>
     <message>
         <source>narrow pits</source>

@@ -24,8 +24,8 @@
         <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt; pour les champs laissés vides</translation>
     </message>
     <message>
-        <source>A building has a plane of at least this area. Smaller planes are found only within 5 m of a larger one. Below about 5 m2, tops of conifers become buildings.</source>
-        <translation>Un bâtiment a un plan d'au moins cette surface. Les plans plus petits ne sont trouvés qu'à moins de 5 m d'un plus grand. En dessous d'environ 5 m², des cimes de conifères deviennent des bâtiments.</translation>
+        <source>A building has a plane of at least this area. Smaller planes are found only within 5 m of a larger one. If this is half as large, tops of conifers become buildings.</source>
+        <translation>Un bâtiment a un plan d'au moins cette surface. Les plans plus petits ne sont trouvés qu'à moins de 5 m d'un plus grand. Si cette valeur est deux fois plus petite, des cimes de conifères deviennent des bâtiments.</translation>
     </message>
     <message>
         <source>A checkpoint has no height. Choose the attribute with the heights.</source>
@@ -2133,7 +2133,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>m2</source>
-        <translation>m²</translation>
+        <translation>m2</translation>
     </message>
     <message>
         <source>narrow pits</source>
