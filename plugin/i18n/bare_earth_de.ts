@@ -1228,6 +1228,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Von der Punktwolke zum Gelände</translation>
     </message>
     <message>
+        <source>Point cloud with all classes</source>
+        <translation>Punktwolke mit allen Klassen</translation>
+    </message>
+    <message>
         <source>Point cloud with heights</source>
         <translation>Punktwolke mit Höhen</translation>
     </message>

@@ -1228,6 +1228,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Du nuage de points au terrain</translation>
     </message>
     <message>
+        <source>Point cloud with all classes</source>
+        <translation>Nuage de points avec toutes les classes</translation>
+    </message>
+    <message>
         <source>Point cloud with heights</source>
         <translation>Nuage de points avec hauteurs</translation>
     </message>

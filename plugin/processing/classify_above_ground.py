@@ -27,7 +27,7 @@ class ClassifyAboveGroundAlgorithm(ProductAlgorithm):
         " changes. Lengths are metres, whatever the unit of the CRS."
     )
     page = "above-ground"
-    cloud_label = "Classified point cloud"
+    cloud_label = "Point cloud with all classes"
     cloud_help = "The same points, with the classes above the ground."
     numbers = (
         ("POINT_COUNT", "Points"),
