@@ -77,8 +77,13 @@ class Surroundings:
 
 def horizon_reach(radius: float, cells: Cells) -> tuple[int, int]:
     """Return up to how many rows and columns away cells matter to the horizon."""
-    radius = max(radius, max(cells))
-    return round(radius / cells[1]), round(radius / cells[0])
+    farthest = _farthest(radius, cells)
+    return math.ceil(farthest / cells[1]), math.ceil(farthest / cells[0])
+
+
+def _farthest(radius: float, cells: Cells) -> float:
+    """Return a radius as a whole number of the shorter sides of cells, at least the longer one."""
+    return max(round(radius / min(cells)) * min(cells), max(cells))
 
 
 def sky_view(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
@@ -177,11 +182,11 @@ def _horizon(
 def _lines(cells: Cells, radii: tuple[float, float]) -> Iterator[list[Neighbour]]:
     """Yield the neighbours in each direction, from one radius to another, without doubles."""
     least = min(cells)
-    nearest, farthest = max(radii[0] / least, 1.0), max(round(radii[1] / least), 1)
+    nearest, farthest = max(radii[0] / least, 1.0), _farthest(radii[1], cells) / least
     along = [nearest]
     while along[-1] + _STEP / 2 < farthest:
         step = _STEP if along[-1] < _EVERY else max(_STEP, along[-1] * _FARTHER)
-        along.append(min(along[-1] + step, float(farthest)))
+        along.append(min(along[-1] + step, farthest))
     distance = np.array(along) * least
     for number in range(_DIRECTIONS):
         angle = 2.0 * math.pi * number / _DIRECTIONS

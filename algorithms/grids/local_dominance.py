@@ -2,8 +2,9 @@
 
 References
 ----------
-Hesse, R. (2016): Visualisierung hochaufloesender Digitaler Gelaendemodelle mit LiVT. In: Lieberwirth,
-U. and Herzog, I. (eds.): 3D-Anwendungen in der Archaeologie. Edition Topoi, Berlin, 109-128.
+Hesse, R. (2016): Visualisierung hochaufloesender Digitaler Gelaendemodelle mit LiVT. In:
+Lieberwirth, U. and Herzog, I. (eds.): 3D-Anwendungen in der Archaeologie. Edition Topoi, Berlin,
+109-128.
 """
 
 from __future__ import annotations
@@ -19,12 +20,13 @@ from .horizons import Cells, Neighbour, Surroundings
 _EYES, _DIRECTIONS = 1.7, 24
 # An observer looks at so many distances between the two radii, or at fewer if these lie less than
 # one cell apart.
-_DISTANCES = 10
+_DISTANCES, _ROUNDING = 10, 1e-6
 
 
 def dominance_reach(radius: float, cells: Cells) -> tuple[int, int]:
     """Return up to how many rows and columns away cells matter to the local dominance."""
-    return tuple(round(2.0 * max(radius, max(cells)) / side) for side in cells[::-1])
+    farthest = 2.0 * max(radius, max(cells))
+    return math.ceil(farthest / cells[1]), math.ceil(farthest / cells[0])
 
 
 def local_dominance(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
@@ -43,8 +45,8 @@ def local_dominance(heights: np.ndarray, cells: Cells, radius: float) -> np.ndar
     Returns
     -------
     numpy.ndarray of float32, shape (rows, columns)
-        1 on level land, more on rises, less in hollows; NaN where there is no height. Places without
-        a height do not count. A cell depends on others up to `dominance_reach`.
+        1 on level land, more on rises, less in hollows; NaN where there is no height. Places
+        without a height do not count. A cell depends on others up to `dominance_reach`.
     """
     around = Surroundings(heights, dominance_reach(radius, cells), np.inf)
     seen = list(_seen(radius, cells))
@@ -76,7 +78,7 @@ def _seen(radius: float, cells: Cells) -> Iterator[tuple[Neighbour, float]]:
     step = max(radius / _DISTANCES, least)
     for number in range(_DIRECTIONS):
         angle = math.radians(number * 360.0 / _DIRECTIONS)
-        for distance in np.arange(radius, 2.0 * radius + step / 2.0, step).tolist():
+        for distance in np.arange(radius, 2.0 * radius + step * _ROUNDING, step).tolist():
             row = round(math.sin(angle) * distance / cells[1])
             column = round(math.cos(angle) * distance / cells[0])
             weight = (2.0 * distance + step) / distance
