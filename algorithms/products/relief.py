@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterator
+from typing import Iterable, Iterator
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.parameters import ParameterSet, parameter_of
+from ..core.files import new_folder
+from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.progress import SILENT, Progress
 from ..core.threads import available_cpus, may_use
 from ..rasters.geotiff import NO_CELLS, NODATA, Raster, read_raster
-from ..rasters.writing import Rows, check_raster_output, write_geotiff
+from ..rasters.writing import Rows, check_raster_output, replacing_raster, write_geotiff
 from .relief_rasters import RELIEF, ReliefRaster
 from .terrain_model import MapTerrain, TerrainModel
 
@@ -25,6 +27,20 @@ KINDS = {
     (LOCAL_RELIEF if name == "relief" else name.replace("_", "-")): each
     for name, each in RELIEF.items()
 }
+
+
+@dataclass(frozen=True)
+class ReliefKinds(ParameterSet):
+    """The kinds of relief to make."""
+
+    kinds: tuple[str, ...] = parameter(
+        ("vat", "sky-view", LOCAL_RELIEF),
+        kind="choices",
+        label="Kinds of relief",
+        choices={name: each.label for name, each in KINDS.items()},
+        help="What to make, a raster for each. Archaeological topography (VAT) shows the most in one"
+        " picture.",
+    )
 
 
 @dataclass(frozen=True)
@@ -88,6 +104,43 @@ def write_relief(
     with may_use(available_cpus()):
         write_geotiff(target, rows, raster, nodata, progress, relief.shows)
     progress(1.0)
+
+
+def write_reliefs(
+    source: str | Path,
+    folder: Path,
+    kinds: Iterable[str],
+    parameters: ReliefPictures = ReliefPictures(),
+    progress: Progress = SILENT,
+) -> dict[str, Path]:
+    """Write several pictures of the relief of a terrain model into a folder; all of them or none.
+
+    Parameters
+    ----------
+    source : str or Path
+        The terrain model.
+    folder : Path
+        The folder, which need not exist. The files have the names of the kinds, such as vat.tif.
+    kinds : iterable of str
+        As in `write_relief`.
+    parameters, progress
+        As in `write_relief`.
+
+    Returns
+    -------
+    dict of str to Path
+        The file of each kind.
+    """
+    targets = {kind: Path(folder) / f"{kind}.tif" for kind in kinds}
+    shares = progress.shares(*[1.0] * len(targets))
+    with contextlib.ExitStack() as outputs:
+        outputs.enter_context(new_folder(Path(folder)))
+        for target in targets.values():
+            check_raster_output(target, (Path(source),))
+        for (kind, target), part in zip(targets.items(), shares):
+            temporary = outputs.enter_context(replacing_raster(target))
+            write_relief(source, temporary, kind, parameters, part)
+    return targets
 
 
 def _strips(

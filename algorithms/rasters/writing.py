@@ -189,8 +189,9 @@ def _write_with_gdal(
                 if grid.unit:
                     band.SetUnitType(grid.unit)
             for strip in rows.strips:
-                dataset.WriteArray(strip, 0, start)
-                errors.check(path)
+                for number, part in enumerate(strip.reshape(rows.bands, *strip.shape[-2:]), 1):
+                    dataset.GetRasterBand(number).WriteArray(part, 0, start)
+                    errors.check(path)
                 start += strip.shape[-2]
             dataset.FlushCache()
             copy = gdal.GetDriverByName("COG").CreateCopy(str(path), dataset, 0, _words(_OPTIONS))
