@@ -13,7 +13,7 @@
     </message>
     <message>
         <source>1 is level</source>
-        <translation type="unfinished"></translation>
+        <translation>1 ist eben</translation>
     </message>
     <message>
         <source>1 to 255</source>
@@ -81,7 +81,7 @@
     </message>
     <message>
         <source>A raster file with a band of heights.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Rasterdatei mit einem Kanal mit Höhen.</translation>
     </message>
     <message>
         <source>A raster that tells why a place is ground or not: the rule of the filter that decided the cell. Its legend names the rules. Presets that decide points, not cells, cannot make it.</source>
@@ -175,11 +175,11 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     </message>
     <message>
         <source>Archaeological topography</source>
-        <translation type="unfinished"></translation>
+        <translation>Archäologische Topographie</translation>
     </message>
     <message>
         <source>Archaeological topography (VAT)</source>
-        <translation type="unfinished"></translation>
+        <translation>Archäologische Topographie (VAT)</translation>
     </message>
     <message>
         <source>As the filter classifies them</source>
@@ -633,7 +633,7 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     </message>
     <message>
         <source>Folder of the rasters</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner der Raster</translation>
     </message>
     <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
@@ -901,7 +901,7 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     </message>
     <message>
         <source>Kinds of relief</source>
-        <translation type="unfinished"></translation>
+        <translation>Arten des Reliefs</translation>
     </message>
     <message>
         <source>LAS</source>
@@ -985,7 +985,7 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     </message>
     <message>
         <source>Local dominance</source>
-        <translation type="unfinished"></translation>
+        <translation>Lokale Dominanz</translation>
     </message>
     <message>
         <source>Local relief</source>
@@ -993,7 +993,7 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     </message>
     <message>
         <source>Local relief, openness, sky view and the like compare a place with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
-        <translation type="unfinished"></translation>
+        <translation>Lokales Relief, Offenheit, sichtbarer Himmel und ähnliche vergleichen jeden Ort bis zu dieser Entfernung mit seiner Umgebung. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere Landformen verschwinden.</translation>
     </message>
     <message>
         <source>Longest edge of a triangle</source>
@@ -1020,7 +1020,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Makes pictures of the relief of any elevation raster, on the same grid: sky-view factor, openness, local dominance, local relief, slope, hillshade, archaeological topography (VAT) and red relief. They show small features that a hillshade of one light hides.
 For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
-        <translation type="unfinished"></translation>
+        <translation>Macht Bilder des Reliefs eines beliebigen Höhenrasters, im selben Gitter: Himmelssichtfaktor, Offenheit, lokale Dominanz, lokales Relief, Neigung, Schummerung, archäologische Topographie (VAT) und rotes Relief. Sie zeigen kleine Formen, die eine Schummerung mit nur einem Licht verbirgt.
+Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5 m.</translation>
     </message>
     <message>
         <source>Makes rasters (GeoTIFF) of a classified point cloud: the terrain, interpolated on the triangulation (TIN) of the ground points; the surface, the highest point of each cell without noise; canopy height, the difference of the two; and a hillshade of the terrain. All lie on the same grid. Heights are in the vertical unit of the CRS.</source>
@@ -1080,7 +1081,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>Multi-scale relief</source>
-        <translation type="unfinished"></translation>
+        <translation>Relief in mehreren Maßstäben</translation>
     </message>
     <message>
         <source>Name of the checkpoints</source>
@@ -1088,7 +1089,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>Negative openness</source>
-        <translation type="unfinished"></translation>
+        <translation>Negative Offenheit</translation>
     </message>
     <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
@@ -1284,7 +1285,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>Positive openness</source>
-        <translation type="unfinished"></translation>
+        <translation>Positive Offenheit</translation>
     </message>
     <message>
         <source>Preset</source>
@@ -1324,7 +1325,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>Radius of the relief</source>
-        <translation type="unfinished"></translation>
+        <translation>Radius des Reliefs</translation>
     </message>
     <message>
         <source>Raster with the grid to use</source>
@@ -1344,11 +1345,11 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>Red relief</source>
-        <translation type="unfinished"></translation>
+        <translation>Rotes Relief</translation>
     </message>
     <message>
         <source>Red relief image map</source>
-        <translation type="unfinished"></translation>
+        <translation>Rotes Reliefbild</translation>
     </message>
     <message>
         <source>Reduce iteration angle when edges are shorter than</source>
@@ -1364,7 +1365,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>Relief of a terrain model</source>
-        <translation type="unfinished"></translation>
+        <translation>Relief eines Geländemodells</translation>
     </message>
     <message>
         <source>Remember the classes</source>
@@ -1468,7 +1469,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>Shows mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeigt Hügel, Mauern, Gräben und alte Wege: sichtbarer Himmel, Offenheit, lokales Relief, VAT.</translation>
     </message>
     <message>
         <source>Side of a cell of the error map. The map in the report has its own cell size.</source>
@@ -1492,11 +1493,11 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>Sky-view factor</source>
-        <translation type="unfinished"></translation>
+        <translation>Himmelssichtfaktor</translation>
     </message>
     <message>
         <source>Slope</source>
-        <translation type="unfinished"></translation>
+        <translation>Neigung</translation>
     </message>
     <message>
         <source>Slope filter</source>
@@ -1540,7 +1541,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>Smoothing of pictures of the relief</source>
-        <translation type="unfinished"></translation>
+        <translation>Glättung der Bilder des Reliefs</translation>
     </message>
     <message>
         <source>Smoothing of the contour lines</source>
@@ -1688,7 +1689,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>The folder for the rasters (GeoTIFF). They are named after what they show, such as vat.tif and sky-view.tif.</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Ordner für die Raster (GeoTIFF). Sie heißen nach dem, was sie zeigen, zum Beispiel vat.tif und sky-view.tif.</translation>
     </message>
     <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
@@ -1916,7 +1917,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
-        <translation type="unfinished"></translation>
+        <translation>Was gemacht wird, je ein Raster. Die archäologische Topographie (VAT) zeigt am meisten in einem Bild.</translation>
     </message>
     <message>
         <source>Wheel file of lazrs</source>
@@ -2012,7 +2013,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>degrees</source>
-        <translation type="unfinished"></translation>
+        <translation>Grad</translation>
     </message>
     <message>
         <source>densification</source>
@@ -2152,7 +2153,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>relief</source>
-        <translation type="unfinished"></translation>
+        <translation>Relief</translation>
     </message>
     <message>
         <source>rims of low objects</source>
@@ -2172,7 +2173,7 @@ For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
     </message>
     <message>
         <source>sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,rrim,slope,archaeology,rvt,relief visualization toolbox,visualization</source>
-        <translation type="unfinished"></translation>
+        <translation>Himmelssichtfaktor,Sky-View-Faktor,svf,Offenheit,lokale Dominanz,lokales Reliefmodell,lrm,vat,rotes Relief,rrim,Neigung,Archäologie,rvt,Relief Visualization Toolbox,Visualisierung</translation>
     </message>
     <message>
         <source>slope,vosselman,whitebox,top-hat</source>
