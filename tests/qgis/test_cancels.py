@@ -51,9 +51,6 @@ GIVEN = {
         "CLASSIFIED": "IN/ground.laz", "REFERENCE": "IN/ground.laz", "REPORT": "OUT/page.html",
         "ERROR_MAP": "OUT/map.tif",
     },
-    "relief": {
-        "INPUT": "IN/surface.tif", "OUTPUT_FOLDER": "OUT/relief", "KINDS": ["vat", "slope", "red-relief"],
-    },
     "removeoffterrainobjects": {"INPUT": "IN/surface.tif", "OUTPUT": "OUT/dtm.tif"},
 }  # fmt: skip
 # Of these what is finished stays.

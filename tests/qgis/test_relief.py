@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from osgeo import gdal, osr
 from qgis.core import QgsProject, QgsRasterLayer
+from support import Log
 
 from bare_earth.algorithms.products.relief import KINDS
 from bare_earth.plugin.styles import rasters
@@ -92,6 +93,22 @@ def test_level_land_is_white_sky_and_not_speckle(tmp_path):
     rasters.sky_view(layer)
     shader = layer.renderer()
     assert shader.classificationMin() == pytest.approx(0.9) and shader.classificationMax() == 1.0
+
+
+@pytest.mark.parametrize("percent", [5, 40, 80])
+def test_a_cancel_leaves_old_files_and_nothing_else(registry, terrain, tmp_path, context, percent):
+    folder = tmp_path / "relief"
+    kinds = ["vat", "slope", "red-relief"]
+    values = {"INPUT": terrain, "KINDS": kinds, "OUTPUT_FOLDER": str(folder)}
+    algorithm = registry.createAlgorithmById(ALGORITHM)
+    log = Log(cancel_at=percent)
+    assert algorithm.run(values, context, log)[0] == {} and "nothing was written" in log.text
+    assert not folder.exists() and not context.layersToLoadOnCompletion()
+    folder.mkdir()
+    (folder / "vat.tif").write_bytes(b"old")
+    algorithm.run(values, context, Log(cancel_at=percent))
+    assert [path.name for path in folder.iterdir()] == ["vat.tif"]
+    assert (folder / "vat.tif").read_bytes() == b"old"
 
 
 def test_no_kind_is_refused(registry, terrain, tmp_path, context):
