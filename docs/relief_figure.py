@@ -1,10 +1,11 @@
-"""The figures of the page about relief: one place of a forest, one of fields, in each picture."""
+"""The figures of the page about relief: a forest and fields in each picture, and a table of walls."""
 
 from __future__ import annotations
 
 import tempfile
 from pathlib import Path
 
+import laspy
 import numpy as np
 import rasterio
 from drawing import save
@@ -15,6 +16,7 @@ from bare_earth.algorithms import (
     ClassifyRequest,
     RasterFiles,
     TerrainModel,
+    TinDensification,
     classify,
     write_relief,
 )
@@ -78,3 +80,52 @@ def _show(panel: Axes, colours: np.ndarray, title: str) -> None:
     panel.set_title(title)
     panel.set_xticks([])
     panel.set_yticks([])
+
+
+# Walls and banks of these widths and heights in metres, on a slope half in a wood.
+_WALLS = ((1.0, 0.4), (1.0, 0.7), (1.0, 1.0), (2.0, 0.7), (2.0, 1.0))
+_TOLERANCES = 0.18, 0.5, 0.8, 1.0
+_SIDE, _DENSITY, _APART, _SEED = 160.0, 8.0, 25.0, 2
+
+
+def walls() -> None:
+    """Print which share of walls and banks is ground, by the tolerance."""
+    draw = np.random.default_rng(_SEED)
+    count = int(_SIDE**2 * _DENSITY)
+    x, y = draw.uniform(0, _SIDE, (2, count))
+    z = 100.0 + 0.1 * x + 1.5 * np.sin(y / 25.0) + draw.normal(0, 0.03, count)
+    on, long = np.zeros(count, dtype=int), (x > 20) & (x < _SIDE - 20)
+    for number, (width, height) in enumerate(_WALLS, 1):
+        off = np.abs(y - _APART * number)
+        # Their sides are as steep as 59 degrees.
+        lift = np.clip((width / 2 + 0.3 * height - off) / (0.6 * height), 0, 1)
+        z += np.where(long, height * lift, 0.0)
+        on[long & (off < width / 2)] = number
+    wood, kind = x > _SIDE / 2, draw.uniform(size=count)
+    tree, plant = wood & (kind < 0.6), wood & (kind >= 0.6) & (kind < 0.68)
+    z[tree] += draw.uniform(3, 18, np.count_nonzero(tree))
+    z[plant] += draw.uniform(0.1, 0.6, np.count_nonzero(plant))
+    header = laspy.LasHeader(version="1.4", point_format=6)
+    header.scales = [0.001] * 3
+    cloud = laspy.LasData(header)
+    cloud.x, cloud.y, cloud.z = x, y, z
+    with tempfile.TemporaryDirectory() as name:
+        source, target = Path(name) / "in.las", Path(name) / "out.las"
+        cloud.write(source)
+        for tolerance in _TOLERANCES:
+            request = ClassifyRequest(parameters=TinDensification(ground_tolerance=tolerance))
+            classify(source, target, request)
+            ground = np.asarray(laspy.read(target).classification) == 2
+            shares = [
+                ", ".join(
+                    _percent(ground[(on == number) & side & ~tree & ~plant])
+                    for side in (~wood, wood)
+                )
+                for number, _ in enumerate(_WALLS, 1)
+            ]
+            cells = f"{tolerance:g} m", *shares, _percent(ground[plant])
+            print(f"| {' | '.join(cells)} |")
+
+
+def _percent(values: np.ndarray) -> str:
+    return f"{100 * np.mean(values):.0f} %"

@@ -324,6 +324,25 @@ def test_classify_makes_them_in_the_same_run(tmp_path):
     assert 0.5 < sky[sky > 0].min() < sky.max() <= 1.0
 
 
+def test_a_high_tolerance_keeps_narrow_walls(tmp_path):
+    # What the page on relief recommends to archaeologists.
+    draw = np.random.default_rng(2)
+    x, y = draw.uniform(0, 100, (2, 80_000))
+    wall = (np.abs(y - 50) < 0.5) & (x > 20) & (x < 80)
+    z = 100.0 + 0.1 * x + 1.5 * np.sin(y / 25) + 0.7 * wall + draw.normal(0, 0.02, x.size)
+    header = laspy.LasHeader(version="1.4", point_format=6)
+    header.scales = [0.001] * 3
+    cloud = laspy.LasData(header)
+    cloud.x, cloud.y, cloud.z = x, y, z
+    cloud.write(tmp_path / "in.laz")
+    kept = []
+    for tolerance in ("0.18", "0.8"):
+        words = [str(tmp_path / "in.laz"), str(tmp_path / "out.laz")]
+        assert main(["classify", *words, "--ground-tolerance", tolerance]) == 0
+        kept.append(np.mean(laspy.read(tmp_path / "out.laz").classification[wall] == 2))
+    assert kept[0] < 0.5 and kept[1] > 0.99
+
+
 def test_red_relief_is_a_picture_in_colours(tmp_path):
     drawn([write(tmp_path / "in.laz")], tmp_path / "a")
     with rasterio.open(tmp_path / "a" / "red_relief.tif") as raster:

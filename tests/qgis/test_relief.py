@@ -39,7 +39,9 @@ def terrain(tmp_path):
 
 
 def outputs_of(kinds):
-    return ["RELIEF" if each == "local-relief" else each.replace("-", "_").upper() for each in kinds]
+    return [
+        "RELIEF" if each == "local-relief" else each.replace("-", "_").upper() for each in kinds
+    ]
 
 
 def test_each_kind_is_made_and_the_log_has_commands_that_do_the_same(
