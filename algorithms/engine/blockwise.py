@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from functools import partial
 from typing import Any, Callable, Iterator
 
@@ -13,8 +14,9 @@ from .memory import Resources, give_back
 from .scheduling import run_jobs
 from .store import BlockPoints, Corner, Store
 
-# Blocks that take so many bytes give their memory back to the system.
-_MUCH = 100_000_000
+# Blocks that take so many bytes give their memory back to the system when they are done, and all
+# do every so many seconds if memory is short.
+_MUCH, _SECONDS = 100_000_000, 0.3
 
 
 def over_blocks(
@@ -54,10 +56,37 @@ def over_blocks(
     at_once = _at_once(len(todo), max(memory), resources)
     jobs = [partial(work, each, len(todo) == 1) for each in todo]
     is_tight = sum(memory) > resources.bytes
+    if is_tight:
+        progress = _GivingBack(progress)
     for number, result in run_jobs(jobs, counts, at_once, resources.thread_count, progress):
         if is_tight and memory[number] > _MUCH:
             give_back()
         yield number, result
+
+
+class _GivingBack(Progress):
+    """Passes on progress, and gives freed memory back to the system now and then."""
+
+    def __init__(self, whole: Progress) -> None:
+        self._whole, self._given = whole, time.monotonic()
+
+    def report(self, fraction: float) -> None:
+        self._whole(fraction)
+        if time.monotonic() - self._given > _SECONDS:
+            give_back()
+            self._given = time.monotonic()
+
+    def info(self, text: str) -> None:
+        self._whole.info(text)
+
+    def choice(self, text: str) -> None:
+        self._whole.choice(text)
+
+    def warning(self, text: str) -> None:
+        self._whole.warning(text)
+
+    def took(self, stage: str, seconds: float) -> None:
+        self._whole.took(stage, seconds)
 
 
 def fill(

@@ -172,7 +172,10 @@ class DiskStore:
 def _without_points(part: PointCloud) -> PointCloud:
     """Return a cloud with all but its points."""
     columns: dict[str, Any] = {
-        name: value[:0] for name, value in vars(part).items() if isinstance(value, np.ndarray)
+        # Copies, because a view would keep the points.
+        name: value[:0].copy()
+        for name, value in vars(part).items()
+        if isinstance(value, np.ndarray)
     }
     return dataclasses.replace(part, **columns)
 

@@ -51,6 +51,11 @@ def fits_in_memory(count: int, resources: Resources, record_length: int = 0) -> 
     return (_BYTES_A_POINT_KEPT + record_length) * count + seen <= resources.bytes
 
 
+def held_by_file(las: LasFile) -> int:
+    """Return about how many bytes the points of a file and its records take in memory."""
+    return (_BYTES_A_POINT_KEPT + las.record_length) * las.count
+
+
 class FilePoints:
     """The points of one file.
 

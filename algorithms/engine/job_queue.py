@@ -10,7 +10,8 @@ from typing import Any, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
-from .jobs import BlockJob, JobResult, TileJob
+from .jobs import BlockJob, JobResult, Taken, TileJob
+from .memory import GIGABYTE
 from .workers import SCHEDULER_GONE, Job, Running, Workers
 
 _POLL = 0.1
@@ -48,6 +49,8 @@ class JobQueue:
         Why the other tiles were not written, by their inputs.
     lost : list of str
         Why blocks were not done.
+    taken : list of Taken
+        What the jobs took that were done.
     """
 
     def __init__(
@@ -57,6 +60,7 @@ class JobQueue:
         self.empty_count = 0
         self.failures: dict[Path, str] = {}
         self.lost: list[str] = []
+        self.taken: list[Taken] = []
         self._workers, self._progress = workers, progress
         self._blocks, self._ready = collections.deque(blocks), collections.deque()
         # Jobs that were running when a worker died. They are repeated one by one, to find the one
@@ -101,6 +105,7 @@ class JobQueue:
             for future in ended:
                 self._end(futures[future])
         self._tell()
+        self._tell_of_memory()
 
     def _fill(self) -> bool:
         """Start as many jobs as may run at once; return whether any is running."""
@@ -146,6 +151,8 @@ class JobQueue:
             outcome = JobResult(None, failure=failure)
         self._running.pop(ended, None)
         self._finished += _weight(job)
+        if outcome.taken is not None:
+            self.taken.append(outcome.taken)
         self._hear(job, outcome)
         (self._end_tile if isinstance(job, TileJob) else self._end_blocks)(job, outcome)
 
@@ -208,6 +215,20 @@ class JobQueue:
                 parts = "another part" if len(others) == 1 else f"{len(others):,} other parts"
                 more = f" The same, with other numbers, in {parts} of the survey."
             getattr(self._progress, kind)(first + more)
+
+    def _tell_of_memory(self) -> None:
+        """Report how long the jobs took, and the one that took most memory."""
+        for taken in self.taken:
+            stage = "blocks" if taken.job == "blocks" else "files"
+            self._progress.took(stage, taken.seconds)
+        known = [taken for taken in self.taken if taken.memory is not None]
+        if known:
+            most = max(known, key=lambda taken: taken.memory or 0)
+            self._progress.info(
+                f"{len(self.taken):,} jobs are done. The largest took"
+                f" {(most.memory or 0) / GIGABYTE:.2f} GB of memory"
+                f" ({most.planned / GIGABYTE:.2f} GB planned)."
+            )
 
 
 def _listed(names: Sequence[str]) -> str:

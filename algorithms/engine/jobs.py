@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import time
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple
@@ -23,13 +24,36 @@ from ..las.writing import layers_kept, write_changed
 from .block_grid import BlockGrid, BlockIndex, code, memory_held
 from .cloud_cache import CloudCache
 from .disk_store import DiskStore
-from .file_points import FilePoints
-from .memory import Resources
+from .file_points import FilePoints, held_by_file
+from .memory import PeakMemory, Resources
 from .memory_store import MemoryStore
 from .record import Fingerprint, write_record
 from .steps import PointStep
 
 _FAILURE = "no ground"
+
+
+@dataclass(frozen=True)
+class Taken:
+    """What a job took.
+
+    Attributes
+    ----------
+    job : str
+        What was done: "blocks" or the name of a file.
+    seconds : float
+        Wall-clock time.
+    memory : int or None
+        Most bytes of memory at a time; None if other jobs ran in the same process, or the system
+        does not tell it.
+    planned : int
+        Bytes of memory that it was expected to take at most.
+    """
+
+    job: str
+    seconds: float
+    memory: int | None
+    planned: int
 
 
 class JobResult(NamedTuple):
@@ -43,11 +67,14 @@ class JobResult(NamedTuple):
         Kind and text of each message.
     failure : str or None
         Why the job failed, if it did.
+    taken : Taken or None
+        What it took, if it did not fail.
     """
 
     result: Any
     messages: tuple[tuple[str, str], ...] = ()
     failure: str | None = None
+    taken: Taken | None = None
 
 
 class Share(NamedTuple):
@@ -61,11 +88,14 @@ class Share(NamedTuple):
         Files in memory, shared by the jobs of a process.
     threads : SharedThreads
         All threads of the run, of which it may use those that are free.
+    is_alone : bool
+        Whether no other job runs in the same process.
     """
 
     resources: Resources
     cache: CloudCache
     threads: SharedThreads
+    is_alone: bool = False
 
 
 @dataclass(frozen=True)
@@ -101,6 +131,16 @@ class BlockJob:
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
         raise NotImplementedError
+
+    @property
+    def title(self) -> str:
+        """What it is called in reports."""
+        return "blocks"
+
+    def planned(self, resources: Resources) -> int:
+        """Return the bytes of memory that it takes at most, as far as is known before."""
+        held = memory_held(self.grid, self.count)
+        return held if held <= resources.bytes else resources.bytes
 
     def clouds(self, cache: CloudCache, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points of each file that the blocks need."""
@@ -249,6 +289,15 @@ class TileJob:
     files: tuple[Path, ...]
     fingerprint: Fingerprint
 
+    @property
+    def title(self) -> str:
+        """What it is called in reports."""
+        return self.tile.path.name
+
+    def planned(self, resources: Resources) -> int:
+        """Return the bytes of memory that it takes at most, as far as is known before."""
+        return min(held_by_file(self.tile), resources.bytes)
+
     def run(self, share: Share, progress: Progress) -> Any:
         """Write the file. Return the summary of the step, or None if there is nothing to write."""
         step, las, path, resources = self.step, self.tile, self.tile.path, share.resources
@@ -339,9 +388,17 @@ class KeptValues:
 def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> JobResult:
     """Run a job. Return its errors in the result instead of raising them."""
     notes = _Notes(progress)
+    begun, memory = time.monotonic(), PeakMemory() if share.is_alone else None
     try:
         with share.threads.used():
-            return JobResult(job.run(share, notes), tuple(notes.messages))
+            result = job.run(share, notes)
+        taken = Taken(
+            job.title,
+            round(time.monotonic() - begun, 3),
+            None if memory is None else memory.end(),
+            job.planned(share.resources),
+        )
+        return JobResult(result, tuple(notes.messages), taken=taken)
     except Cancelled:
         raise
     except BareEarthError as error:

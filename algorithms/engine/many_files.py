@@ -20,6 +20,7 @@ from ..survey.files import Survey, open_survey
 from ..survey.shapes import Place
 from ..survey.vpc import check_vpc, write_vpc
 from .blocks import Blocks
+from .jobs import Taken
 from .output import Output
 from .raster_jobs import make_rasters
 from .rasters import MakeRasters, RasterSize
@@ -53,6 +54,8 @@ class SurveySummary:
         The virtual point cloud of the finished files.
     tiles : tuple
         The summary of each finished file.
+    jobs : tuple of Taken
+        What each job took: seconds, and bytes of memory as measured and as planned.
     """
 
     tile_count: int
@@ -63,6 +66,7 @@ class SurveySummary:
     failures: dict[str, str]
     vpc: str
     tiles: tuple[Any, ...] = field(default=(), repr=False)
+    jobs: tuple[Taken, ...] = field(default=(), repr=False)
 
     @property
     def class_counts(self) -> dict[int, int]:
@@ -200,7 +204,7 @@ class _SurveyRun:
         self._vpc = self._folder / steps[0].vpc_name if vpc is None else Path(vpc)
         # Inputs that cannot be done, and why, by their names.
         self._failures: dict[str, tuple[Path, str]] = {}
-        self._empty_count = 0
+        self._empty_count, self._jobs = 0, list[Taken]()
 
     def open(self, sources: Sequence[Path], progress: Progress) -> None:
         """Open the inputs, and refuse now what would fail at the end."""
@@ -248,6 +252,7 @@ class _SurveyRun:
             run = TileRun(survey, place, self._targets(survey, place), step, part, tasks[number])
             run.work(workers, resume, self._rasters if is_last else None)
             self._last = run
+            self._jobs += run.taken
             for path, reason in run.failures.items():
                 self._failures[path.name] = self._inputs[path.name], reason
             if not number:
@@ -295,6 +300,7 @@ class _SurveyRun:
             failures=reasons,
             vpc=str(self._vpc),
             tiles=tuple(run.done),
+            jobs=tuple(self._jobs),
         )
 
 

@@ -36,14 +36,18 @@ def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
     box : tuple of float
         The result of `near`.
     """
-    far = np.flatnonzero(~_within(contents.points, box))
-    if not len(far):
+    stays = _within(contents.points, box)
+    if stays.all():
         return contents
-    some = contents.points.take(far)
-    lowest = Cells.over(some, _CELL).lowest_points(some)
-    stays = np.ones(contents.points.count, dtype=bool)
-    stays[far] = False
-    stays[far[lowest]] = True
+    # One side after the other, since a grid of all would have many cells in the middle.
+    west, south, east, north = box
+    x, y = contents.points.x, contents.points.y
+    beside = (y >= south) & (y < north)
+    for side in (y < south, y >= north, beside & (x < west), beside & (x >= east)):
+        far = np.flatnonzero(side)
+        if len(far):
+            some = contents.points.take(far)
+            stays[far[Cells.over(some, _CELL).lowest_points(some)]] = True
     stays |= contents.known | contents.roads
     return contents.take(stays)
 

@@ -16,7 +16,7 @@ from ..las.lasfile import LasFile
 from ..survey.files import Survey, open_survey
 from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
 from .job_queue import JobQueue
-from .jobs import PointJob, TileJob
+from .jobs import PointJob, Taken, TileJob
 from .planning import block_jobs
 from .raster_jobs import make_rasters
 from .rasters import MakeRasters
@@ -88,6 +88,8 @@ class TileRun:
         Number of files with nothing to write.
     failures : dict of Path to str
         Files that cannot be done, and why.
+    taken : list of Taken
+        What the jobs took.
     """
 
     def __init__(
@@ -101,6 +103,7 @@ class TileRun:
     ) -> None:
         self.done: list[Any] = []
         self.kept_count, self.empty_count, self.failures = 0, 0, {}
+        self.taken: list[Taken] = []
         self._grid = BlockGrid(survey_frame(survey.crs), step.blocks, survey.stated)
         self._survey, self._folder, self._targets = survey, folder, targets
         self._step, self._progress, self._task = step, progress, task
@@ -155,6 +158,7 @@ class TileRun:
             self.done, self.kept_count = sorted([*kept, *queue.done]), len(kept)
             self.empty_count += queue.empty_count
             self.failures.update(queue.failures)
+            self.taken = queue.taken
             if self.done and rasters is not None:
                 paths = [self._folder / each.name for each in self.done]
                 made = open_survey(paths, progress=progress.quiet(), stated=self._survey.stated)

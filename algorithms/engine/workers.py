@@ -111,7 +111,7 @@ class Threads(Workers):
     def submit(self, job: Job) -> Running:
         """Start a job."""
         progress = JobProgress(self._stop)
-        share = Share(self.share, self._cache, self._threads)
+        share = Share(self.share, self._cache, self._threads, is_alone=self.at_once == 1)
         future = self._pool.submit(attempt, job, share, progress)
         self._futures = [each for each in self._futures if not each.done()] + [future]
         return Running(future, progress)
@@ -233,4 +233,5 @@ def _end_with_parent() -> None:
 
 def _in_process(job: Job, resources: Resources) -> JobResult:
     common = _common or _OfProcess(threading.Event(), CloudCache(), SharedThreads(1))
-    return attempt(job, Share(resources, common.cache, common.threads), JobProgress(common.stop))
+    share = Share(resources, common.cache, common.threads, is_alone=True)
+    return attempt(job, share, JobProgress(common.stop))

@@ -6,13 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from runs import memory_store
-from surveys import cloud_of
+from runs import classify_tiles, memory_store
+from surveys import cloud_of, cut, strip
 
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine.heights import MeasureHeights
 from bare_earth.algorithms.engine.memory import Resources, give_back
 from bare_earth.algorithms.engine.rasters import MakeRasters
+from bare_earth.algorithms.engine.workers import Processes
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.products.terrain_model import TerrainModel
@@ -20,6 +22,8 @@ from bare_earth.algorithms.products.terrain_model import TerrainModel
 # So many points that the arrays of a single tile of `DenseSurface` hardly count.
 COUNT, SIDE = 500_000, 440.0
 MAPS = {name: Path(f"{name}.tif") for name in ("dtm", "dsm")}
+# What SciPy takes in a process that has not used it yet.
+LIBRARIES = 100_000_000
 STEPS = {
     "heights": MeasureHeights(),
     "terrain": MakeRasters(RasterFiles(dtm=MAPS["dtm"]), TerrainModel(1.0)),
@@ -43,6 +47,19 @@ def test_a_block_takes_about_as_much_as_is_reckoned(name):
     finally:
         tracemalloc.stop()
     assert 0.3 * reckoned < peak < reckoned
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Only Linux tells the peak of a process")
+def test_jobs_in_processes_take_no_more_memory_than_was_planned(tmp_path):
+    folder = cut(tmp_path / "in", strip(1_200_000, 700.0, 500.0), 4)
+    workers = Processes(Resources(threads=2, memory=2.0))
+    done = classify_tiles([folder], tmp_path / "out", GridMinimum(), workers=workers)
+    names = {each.name for each in folder.iterdir()}
+    assert {each.job for each in done.jobs} == {"blocks", *names}
+    for each in done.jobs:
+        assert each.seconds > 0 and each.memory is not None
+        assert each.memory < each.planned + LIBRARIES
+    assert max(each.memory for each in done.jobs) > 50_000_000
 
 
 def _resident():

@@ -165,20 +165,18 @@ class ProgressiveOpening(GridRule):
             # As unsigned numbers, differences do not overflow.
             cut, last = last.view(np.uint16), opened
             metres = radius * size
-            if zoom > 1:
-                # A block counts for its neighbours as well, because their lowest cell may lie
-                # beside the object.
-                most = _finer(within_square(np.maximum, cut, 1), zoom, filled.shape)
-                own = steps.astype(np.int32) - _finer(opened, zoom, filled.shape)
-                cut = np.clip(own, 0, most)
-            cut = cut.ravel()
             # Most cells lose too little to stand out on any slope.
             level = self.base + self.per_radius * metres
-            stands_out = cut > int(min(self.first_slope * metres, level) / step)
+            least = int(min(self.first_slope * metres, level) / step)
+            if zoom > 1:
+                which, cut = _cut_in_blocks(steps, opened, cut, zoom, least)
+            else:
+                which = np.flatnonzero(cut > least)
+                cut = cut.ravel().take(which)
             if self.crown_windows and metres > self.crown_windows.radius:
-                stands_out &= ~within.ravel()
-            which = np.flatnonzero(stands_out)
-            lost = cut[which] * np.float32(step)
+                outside = ~within.ravel().take(which)
+                which, cut = which[outside], cut[outside]
+            lost = cut * np.float32(step)
             first.ravel()[which[lost > self.first_slope * metres]] = True
             slope = self._limit(lost, metres)
             limit.ravel()[which] = np.maximum(limit.ravel()[which], slope)
@@ -244,10 +242,24 @@ def _lowest_of_blocks(grid: np.ndarray, width: int) -> np.ndarray:
     return np.minimum.reduce([rows[:, k::width] for k in range(width)])
 
 
-def _finer(grid: np.ndarray, zoom: int, shape: tuple[int, int]) -> np.ndarray:
-    """Return a grid of the given shape in which each cell has the value of its square."""
-    fine = np.repeat(np.repeat(grid, zoom, axis=0), zoom, axis=1)
-    return fine[: shape[0], : shape[1]].astype(np.int32)
+def _cut_in_blocks(
+    steps: np.ndarray, opened: np.ndarray, cut: np.ndarray, zoom: int, least: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return which cells lose more than some steps to an opening of blocks, and how many.
+
+    `steps` are the heights of the cells, `opened` those of the blocks, and `cut` is what the blocks
+    lose. A block counts for its neighbours as well, because their lowest cell may lie beside the
+    object.
+    """
+    most = within_square(np.maximum, cut, 1)
+    fine = np.repeat(np.repeat(most > least, zoom, axis=0), zoom, axis=1)
+    which = np.flatnonzero(fine[: steps.shape[0], : steps.shape[1]])
+    row = which // steps.shape[1]
+    block = (which - row * steps.shape[1]) // zoom + row // zoom * most.shape[1]
+    own = steps.ravel().take(which).astype(np.int32) - opened.ravel().take(block)
+    lost = np.minimum(own, most.ravel().take(block))
+    cut_off = lost > least
+    return which[cut_off], lost[cut_off]
 
 
 @dataclass(frozen=True)
