@@ -1,4 +1,4 @@
-"""The figures of the page about relief: a forest and fields in each picture, and a table of walls."""
+"""The figures of the page about relief: a forest and fields in pictures, and a table of walls."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def relief() -> None:
         for number, (tile, cell, top, left) in enumerate((_FOREST, _FIELDS)):
             folder = Path(name) / tile
             folder.mkdir()
-            _draw(folder, tile, cell, np.s_[..., top : top + _ROWS, left : left + _COLUMNS], number)
+            _draw(folder, tile, cell, np.s_[:, top : top + _ROWS, left : left + _COLUMNS], number)
 
 
 def _draw(folder: Path, tile: str, cell: float, window: tuple[slice, ...], number: int) -> None:

@@ -38,8 +38,8 @@ class ReliefKinds(ParameterSet):
         kind="choices",
         label="Kinds of relief",
         choices={name: each.label for name, each in KINDS.items()},
-        help="What to make, a raster for each. Archaeological topography (VAT) shows the most in one"
-        " picture.",
+        help="What to make, a raster for each. Archaeological topography (VAT) shows the most in"
+        " one picture.",
     )
 
 

@@ -28,8 +28,8 @@ class ReliefAlgorithm(BareEarthAlgorithm):
     summary = "Shows mounds, walls, ditches and old paths: sky view, openness, local relief, VAT."
     about = (
         "Makes pictures of the relief of any elevation raster, on the same grid: sky-view factor,"
-        " openness, local dominance, local relief, slope, hillshade, archaeological topography (VAT)"
-        " and red relief. They show small features that a hillshade of one light hides.\n"
+        " openness, local dominance, local relief, slope, hillshade, archaeological topography"
+        " (VAT) and red relief. They show small features that a hillshade of one light hides.\n"
         "For walls and banks make the terrain model in cells of 0.25 to 0.5 m."
     )
 
@@ -61,12 +61,13 @@ class ReliefAlgorithm(BareEarthAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Make the rasters of the wanted kinds."""
-        kinds, how = self.chosen(parameters, context)
+        sets = self.chosen(parameters, context)
+        kinds, how = ReliefKinds.among(sets).kinds, ReliefPictures.among(sets)
         folder = Path(self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context))
-        for kind in kinds.kinds:
+        for kind in kinds:
             words = [self._source, str(folder / f"{kind}.tif")]
             progress.command(command_line("relief", words, [how], {"kind": kind}))
-        made = write_reliefs(self._source, folder, kinds.kinds, how, progress)
+        made = write_reliefs(self._source, folder, kinds, how, progress)
         results = {_output_of(kind): str(path) for kind, path in made.items()}
         for name, path in results.items():
             hint = QgsProcessingUtils.LayerHint.Raster

@@ -34,7 +34,7 @@ _LOW, _HIGH, _SAMPLE = 0.02, 0.98, 600
 # it look as in the legend.
 _DARK, _BRIGHT = 20.0, 210.0
 _LEAST_RANGE = 0.5
-# The same for slopes and openness in degrees, for local dominance, and for sky-view factors up to 1.
+# The same for slopes and openness in degrees, for local dominance, and for sky-view factors.
 _LEAST_DEGREES, _LEAST_DOMINANCE, _LEAST_SKY = 5.0, 0.2, 0.1
 # Values of a byte, and rows of bytes that are read at a time.
 _CODES, _ROWS = 256, 512
