@@ -48,10 +48,10 @@ if TYPE_CHECKING:
     from .products.constraints import Constraints as Constraints
     from .products.contours import Contours as Contours
     from .products.contours import write_contours as write_contours
-    from .products.local_relief import LocalRelief as LocalRelief
-    from .products.local_relief import write_local_relief as write_local_relief
     from .products.raster_files import RasterFiles as RasterFiles
     from .products.raster_grid import RasterTarget as RasterTarget
+    from .products.relief import ReliefPictures as ReliefPictures
+    from .products.relief import write_relief as write_relief
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
     from .rasters.sampling import HeightRaster as HeightRaster
@@ -108,8 +108,8 @@ _MODULES = {
     "check": "products.checkpoints:check_files",
     "Contours": "products.contours",
     "write_contours": "products.contours",
-    "LocalRelief": "products.local_relief",
-    "write_local_relief": "products.local_relief",
+    "ReliefPictures": "products.relief",
+    "write_relief": "products.relief",
     "SurfaceModel": "products.surface_model",
     "TerrainModel": "products.terrain_model",
     "HeightRaster": "rasters.sampling",

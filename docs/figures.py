@@ -31,6 +31,7 @@ from drawing import FEW_COLOURS, IMAGES, OTHER, draw_errors, save, shade, shrink
 from method_figures import grid_minimum_steps, slope_filter_steps, tin_densification_steps
 from noise_figure import noise
 from outline_figures import canopy_pits, terrain_outline
+from relief_figure import relief, walls
 
 from bare_earth.algorithms import (
     ClassifyRequest,
@@ -92,6 +93,8 @@ def main() -> None:
         "by-hand": by_hand,
         "noise": noise,
         "relief-smoothing": relief_smoothing,
+        "relief-pictures": relief,
+        "relief-walls": walls,
         "terrain-outline": terrain_outline,
         "canopy-pits": canopy_pits,
         "presets": print_presets,

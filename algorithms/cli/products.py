@@ -75,19 +75,23 @@ def _contours(options: argparse.Namespace) -> int:
 
 
 def _add_relief(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.local_relief import LocalRelief
+    from ..products.relief import KINDS, LOCAL_RELIEF, ReliefPictures
 
     parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
     parser.add_argument("output", metavar="OUTPUT", type=Path, help="a GeoTIFF (.tif) to write")
-    add_parameters(parser, LocalRelief)
+    parser.add_argument(
+        "--kind", choices=list(KINDS), default=LOCAL_RELIEF,
+        help=f"what to make (default: {LOCAL_RELIEF})",
+    )  # fmt: skip
+    add_parameters(parser, ReliefPictures)
 
 
 def _relief(options: argparse.Namespace) -> int:
-    from ..products.local_relief import LocalRelief, write_local_relief
+    from ..products.relief import ReliefPictures, write_relief
 
-    how = LocalRelief.among(chosen(options))
+    how = ReliefPictures.among(chosen(options))
     with Terminal(options.verbose) as progress:
-        write_local_relief(options.input, options.output, how, progress)
+        write_relief(options.input, options.output, options.kind, how, progress)
     return DONE
 
 
@@ -238,7 +242,7 @@ COMMANDS = (
         "terrain",
         "make rasters of the terrain and of what stands on it",
         "Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Give at least one"
-        " of --dtm, --dsm, --chm, --hillshade, --confidence, --relief and --contours.",
+        " of --contours and of --dtm, --dsm and the other options with GeoTIFF files.",
         _add_terrain,
         _terrain,
     ),
@@ -251,9 +255,10 @@ COMMANDS = (
     ),
     Command(
         "relief",
-        "make the local relief of a terrain model",
-        "Makes the local relief (GeoTIFF) of an elevation raster: the heights minus smoothed ones."
-        " It shows mounds, ditches and old paths.",
+        "make pictures of the relief of a terrain model",
+        "Makes a raster (GeoTIFF) that shows the relief of an elevation raster: local relief,"
+        " sky-view factor, openness, local dominance, slope, hillshade, or a picture of several of"
+        " them (vat, red-relief). They show mounds, walls, ditches and old paths.",
         _add_relief,
         _relief,
     ),

@@ -23,8 +23,7 @@ from ..survey.tally import count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
-from .remembering import Memory
-from .steps import PointResult, PointStep, Room
+from .steps import Allocate, PointResult, PointStep, RememberedClasses
 from .store import BlockPoints, Corner, Marks, Store
 
 # The buffer of a block in metres, and the memory that it takes. A face of a roof that reaches
@@ -132,9 +131,9 @@ class ClassifyAboveGround(PointStep):
         """Store the class of each wanted point; 0 in blocks without ground."""
         fill(store, self.blocks, partial(_classes, self.parameters), resources, progress)
 
-    def result(self, path: Path, room: Room) -> ClassesOfPoints:
+    def result(self, path: Path, allocate: Allocate) -> ClassesOfPoints:
         """Return an object that collects the classes of a file."""
-        return ClassesOfPoints(self, room)
+        return ClassesOfPoints(self, allocate)
 
 
 class ClassesOfPoints(PointResult):
@@ -144,7 +143,7 @@ class ClassesOfPoints(PointResult):
     ----------
     step : ClassifyAboveGround
         The step.
-    room : callable
+    allocate : callable
         Returns an array of one value for each point.
 
     Attributes
@@ -155,9 +154,9 @@ class ClassesOfPoints(PointResult):
         Points of each class.
     """
 
-    def __init__(self, step: ClassifyAboveGround, room: Room) -> None:
-        self._step, self._memory = step, Memory(room)
-        self.classification = room(np.uint8)
+    def __init__(self, step: ClassifyAboveGround, allocate: Allocate) -> None:
+        self._step, self._memory = step, RememberedClasses(allocate)
+        self.classification = allocate(np.uint8)
         self.class_counts = np.zeros(256, dtype=np.int64)
         self._changed_count = 0
 

@@ -21,10 +21,10 @@ from ..survey.shapes import Place
 from ..survey.vpc import check_vpc, write_vpc
 from .blocks import Blocks
 from .jobs import Taken
+from .manifest import folders_of
 from .output import Output
 from .raster_jobs import make_rasters
 from .rasters import MakeRasters, RasterSize
-from .record import folders_of
 from .requests import ClassifyRequest, Request, TerrainRequest
 from .steps import PointStep, located
 from .tile_run import TileRun, tasks_of

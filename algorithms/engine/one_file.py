@@ -212,7 +212,7 @@ def _placed(step: MakeRasters, las: LasFile, progress: Progress) -> MakeRasters:
 def _worked(points: FilePoints, step: PointStep, store: Any, progress: Progress) -> Any:
     """Run a further step on the points of a store, and return its result."""
     step.work(store, points.resources, progress.part(0.0, 0.9))
-    result = step.result(points.path, points.room)
+    result = step.result(points.path, points.allocate)
     for where, part, values in points.values(store, progress.part(0.9, 1.0)):
         result.add(where, part, values)
     return result

@@ -12,6 +12,10 @@
         <translation>0 bis 1</translation>
     </message>
     <message>
+        <source>1 is level</source>
+        <translation>1 ist eben</translation>
+    </message>
+    <message>
         <source>1 to 255</source>
         <translation>1 bis 255</translation>
     </message>
@@ -78,6 +82,10 @@
     <message>
         <source>A point with fewer neighbours within the search radius is compared with this many nearest points. Only for the preset Whitebox.</source>
         <translation>Ein Punkt, der im Suchradius weniger Nachbarn hat, wird mit so vielen nächsten verglichen. Nur für die Voreinstellung Whitebox.</translation>
+    </message>
+    <message>
+        <source>A raster file with a band of heights.</source>
+        <translation>Eine Rasterdatei mit einem Kanal mit Höhen.</translation>
     </message>
     <message>
         <source>A raster that tells why a place is ground or not: the rule of the filter that decided the cell. Its legend names the rules. Presets that decide points, not cells, cannot make it.</source>
@@ -168,6 +176,14 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Angle of the light above the horizon.</source>
         <translation>Winkel des Lichts über dem Horizont.</translation>
+    </message>
+    <message>
+        <source>Archaeological topography</source>
+        <translation>Archäologische Topographie</translation>
+    </message>
+    <message>
+        <source>Archaeological topography (VAT)</source>
+        <translation>Archäologische Topographie (VAT)</translation>
     </message>
     <message>
         <source>As the filter classifies them</source>
@@ -506,10 +522,6 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Fertig; ein Neustart ist nicht nötig.</translation>
     </message>
     <message>
-        <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
-        <translation>Jede Stelle wird mit ihrer Umgebung bis zu dieser Entfernung verglichen. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere verschwinden.</translation>
-    </message>
-    <message>
         <source>Elevation raster</source>
         <translation>Höhenraster</translation>
     </message>
@@ -656,6 +668,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Folder of the classified point clouds</source>
         <translation>Ordner der klassifizierten Punktwolken</translation>
+    </message>
+    <message>
+        <source>Folder of the rasters</source>
+        <translation>Ordner der Raster</translation>
     </message>
     <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
@@ -942,6 +958,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Schlüsselpunkte: Toleranz nach unten</translation>
     </message>
     <message>
+        <source>Kinds of relief</source>
+        <translation>Arten des Reliefs</translation>
+    </message>
+    <message>
         <source>LAS</source>
         <translation>LAS</translation>
     </message>
@@ -1030,8 +1050,16 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Linien, über die kein Dreieck des Geländes hinweggeht: Kanten von Mauern, Deichen und Terrassen. Eine Linie mit z hat diese Höhe. Ohne z hat jede Seite der Linie die Höhe des nächsten Bodenpunkts auf dieser Seite.</translation>
     </message>
     <message>
+        <source>Local dominance</source>
+        <translation>Lokale Dominanz</translation>
+    </message>
+    <message>
         <source>Local relief</source>
         <translation>Lokales Relief</translation>
+    </message>
+    <message>
+        <source>Local relief, openness, sky view and the like compare a place with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
+        <translation>Lokales Relief, Offenheit, sichtbarer Himmel und ähnliche vergleichen jeden Ort bis zu dieser Entfernung mit seiner Umgebung. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere Landformen verschwinden.</translation>
     </message>
     <message>
         <source>Longest edge of a triangle</source>
@@ -1054,6 +1082,12 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
 The output has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS.</source>
         <translation>Macht aus einem Oberflächenmodell ein Geländemodell, wenn es keine Punktwolke gibt. Entfernt, was über dem Gelände ringsum steht, auf allen Seiten steile Kanten hat und nicht breiter ist als die größte Objektbreite. Füllt die Lücken glatt. Hügel und Hänge bleiben.
 Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
+    </message>
+    <message>
+        <source>Makes pictures of the relief of any elevation raster, on the same grid: sky-view factor, openness, local dominance, local relief, slope, hillshade, archaeological topography (VAT) and red relief. They show small features that a hillshade of one light hides.
+For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
+        <translation>Macht Bilder des Reliefs eines beliebigen Höhenrasters, im selben Gitter: Himmelssichtfaktor, Offenheit, lokale Dominanz, lokales Relief, Neigung, Schummerung, archäologische Topographie (VAT) und rotes Relief. Sie zeigen kleine Formen, die eine Schummerung mit nur einem Licht verbirgt.
+Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5 m.</translation>
     </message>
     <message>
         <source>Makes rasters (GeoTIFF) of a classified point cloud: the terrain, interpolated on the triangulation (TIN) of the ground points; the surface, the highest point of each cell without noise; canopy height, the difference of the two; and a hillshade of the terrain. All lie on the same grid. Heights are in the vertical unit of the CRS.</source>
@@ -1112,8 +1146,16 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Modelle</translation>
     </message>
     <message>
+        <source>Multi-scale relief</source>
+        <translation>Relief in mehreren Maßstäben</translation>
+    </message>
+    <message>
         <source>Name of the checkpoints</source>
         <translation>Name der Kontrollpunkte</translation>
+    </message>
+    <message>
+        <source>Negative openness</source>
+        <translation>Negative Offenheit</translation>
     </message>
     <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
@@ -1320,6 +1362,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Polygone von Gewässern. Jedes wird auf eine Höhe eingeebnet, die des Bodens an seinem Rand.</translation>
     </message>
     <message>
+        <source>Positive openness</source>
+        <translation>Positive Offenheit</translation>
+    </message>
+    <message>
         <source>Preset</source>
         <translation>Voreinstellung</translation>
     </message>
@@ -1356,8 +1402,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>RMSE ohne Bewuchs [m]</translation>
     </message>
     <message>
-        <source>Radius of the local relief</source>
-        <translation>Radius des lokalen Reliefs</translation>
+        <source>Radius of the relief</source>
+        <translation>Radius des Reliefs</translation>
     </message>
     <message>
         <source>Raster with the grid to use</source>
@@ -1376,6 +1422,14 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Bereit. Dieses QGIS hat das Paket lazrs.</translation>
     </message>
     <message>
+        <source>Red relief</source>
+        <translation>Rotes Relief</translation>
+    </message>
+    <message>
+        <source>Red relief image map</source>
+        <translation>Rotes Reliefbild</translation>
+    </message>
+    <message>
         <source>Reduce iteration angle when edges are shorter than</source>
         <translation>Iterationswinkel verkleinern, wenn Kanten kürzer sind als</translation>
     </message>
@@ -1386,6 +1440,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Reference points only</source>
         <translation>Nur Punkte der Referenz</translation>
+    </message>
+    <message>
+        <source>Relief of a terrain model</source>
+        <translation>Relief eines Geländemodells</translation>
     </message>
     <message>
         <source>Remember the classes</source>
@@ -1496,6 +1554,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Kürzeste geschlossene Höhenlinie</translation>
     </message>
     <message>
+        <source>Shows mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.</source>
+        <translation>Zeigt Hügel, Mauern, Gräben und alte Wege: sichtbarer Himmel, Offenheit, lokales Relief, VAT.</translation>
+    </message>
+    <message>
         <source>Side of a cell of the error map. The map in the report has its own cell size.</source>
         <translation>Seite einer Zelle der Fehlerkarte. Die Karte im Bericht hat ihre eigene Zellgröße.</translation>
     </message>
@@ -1514,6 +1576,14 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller cells follow finer terrain if they hold at least one point, but have more rims at low plants. Empty: from the preset, or larger if points are too sparse for it.</source>
         <translation>Seite der quadratischen Zellen, deren tiefste Punkte verglichen werden. Kleinere Zellen folgen feinerem Gelände, wenn sie mindestens einen Punkt enthalten, haben aber mehr Ränder an niedrigen Pflanzen. Leer: aus der Voreinstellung, oder größer, wenn die Punkte dafür zu dünn liegen.</translation>
+    </message>
+    <message>
+        <source>Sky-view factor</source>
+        <translation>Himmelssichtfaktor</translation>
+    </message>
+    <message>
+        <source>Slope</source>
+        <translation>Neigung</translation>
     </message>
     <message>
         <source>Slope filter</source>
@@ -1556,12 +1626,12 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Neigungsschwelle</translation>
     </message>
     <message>
-        <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
-        <translation>Kleine Gruppen von Punkten, die mindestens 10 m über allen anderen ihres Orts hängen: Vögel, Wolken.</translation>
+        <source>Smoothing of pictures of the relief</source>
+        <translation>Glättung der Bilder des Reliefs</translation>
     </message>
     <message>
-        <source>Smoothing of hillshade and local relief</source>
-        <translation>Glättung von Schummerung und lokalem Relief</translation>
+        <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
+        <translation>Kleine Gruppen von Punkten, die mindestens 10 m über allen anderen ihres Orts hängen: Vögel, Wolken.</translation>
     </message>
     <message>
         <source>Smoothing of the contour lines</source>
@@ -1706,6 +1776,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>The folder for the classified files. Each keeps its name.</source>
         <translation>Der Ordner für die klassifizierten Dateien. Jede behält ihren Namen.</translation>
+    </message>
+    <message>
+        <source>The folder for the rasters (GeoTIFF). They are named after what they show, such as vat.tif and sky-view.tif.</source>
+        <translation>Der Ordner für die Raster (GeoTIFF). Sie heißen nach dem, was sie zeigen, zum Beispiel vat.tif und sky-view.tif.</translation>
     </message>
     <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
@@ -1952,6 +2026,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Gewässer</translation>
     </message>
     <message>
+        <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
+        <translation>Was gemacht wird, je ein Raster. Die archäologische Topographie (VAT) zeigt am meisten in einem Bild.</translation>
+    </message>
+    <message>
         <source>What is no building, no bridge and no noise becomes low (3), medium (4) or high (5) vegetation by its height above ground. The LAS specification has these classes, but no limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.</source>
         <translation>Was weder Gebäude noch Brücke noch Rauschen ist, wird nach seiner Höhe über Grund niedrige (3), mittlere (4) oder hohe (5) Vegetation. Die LAS-Spezifikation hat diese Klassen, aber keine Grenzen: 0,5 und 2 m sind üblich. LiDAR HD des IGN hat 0,5 und 1,5 m.</translation>
     </message>
@@ -2050,6 +2128,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>cut off by openings</source>
         <translation>durch Öffnungen abgeschnitten</translation>
+    </message>
+    <message>
+        <source>degrees</source>
+        <translation>Grad</translation>
     </message>
     <message>
         <source>densification</source>
@@ -2192,6 +2274,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>erhöhte Objekte</translation>
     </message>
     <message>
+        <source>relief</source>
+        <translation>Relief</translation>
+    </message>
+    <message>
         <source>rims of low objects</source>
         <translation>Ränder niedriger Objekte</translation>
     </message>
@@ -2206,6 +2292,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>single low points</source>
         <translation>einzelne tiefe Punkte</translation>
+    </message>
+    <message>
+        <source>sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,rrim,slope,archaeology,rvt,relief visualization toolbox,visualization</source>
+        <translation>Himmelssichtfaktor,Sky-View-Faktor,svf,Offenheit,lokale Dominanz,lokales Reliefmodell,lrm,vat,rotes Relief,rrim,Neigung,Archäologie,rvt,Relief Visualization Toolbox,Visualisierung</translation>
     </message>
     <message>
         <source>slope,vosselman,whitebox,top-hat</source>

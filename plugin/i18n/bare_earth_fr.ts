@@ -12,6 +12,10 @@
         <translation>0 à 1</translation>
     </message>
     <message>
+        <source>1 is level</source>
+        <translation>1 est plat</translation>
+    </message>
+    <message>
         <source>1 to 255</source>
         <translation>1 à 255</translation>
     </message>
@@ -78,6 +82,10 @@
     <message>
         <source>A point with fewer neighbours within the search radius is compared with this many nearest points. Only for the preset Whitebox.</source>
         <translation>Un point qui a moins de voisins dans le rayon de recherche est comparé à ce nombre de points les plus proches. Pour le préréglage Whitebox seulement.</translation>
+    </message>
+    <message>
+        <source>A raster file with a band of heights.</source>
+        <translation>Un fichier raster avec une bande d'altitudes.</translation>
     </message>
     <message>
         <source>A raster that tells why a place is ground or not: the rule of the filter that decided the cell. Its legend names the rules. Presets that decide points, not cells, cannot make it.</source>
@@ -168,6 +176,14 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Angle of the light above the horizon.</source>
         <translation>Angle de la lumière au-dessus de l'horizon.</translation>
+    </message>
+    <message>
+        <source>Archaeological topography</source>
+        <translation>Topographie archéologique</translation>
+    </message>
+    <message>
+        <source>Archaeological topography (VAT)</source>
+        <translation>Topographie archéologique (VAT)</translation>
     </message>
     <message>
         <source>As the filter classifies them</source>
@@ -506,10 +522,6 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Terminé ; il n'est pas nécessaire de redémarrer.</translation>
     </message>
     <message>
-        <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
-        <translation>Chaque lieu est comparé à son voisinage jusqu'à cette distance. Choisissez environ la largeur des formes que vous voulez voir ; les formes plus grandes disparaissent.</translation>
-    </message>
-    <message>
         <source>Elevation raster</source>
         <translation>Raster d'altitudes</translation>
     </message>
@@ -656,6 +668,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Folder of the classified point clouds</source>
         <translation>Dossier des nuages de points classés</translation>
+    </message>
+    <message>
+        <source>Folder of the rasters</source>
+        <translation>Dossier des rasters</translation>
     </message>
     <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
@@ -942,6 +958,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Points clés : tolérance vers le bas</translation>
     </message>
     <message>
+        <source>Kinds of relief</source>
+        <translation>Types de relief</translation>
+    </message>
+    <message>
         <source>LAS</source>
         <translation>LAS</translation>
     </message>
@@ -1030,8 +1050,16 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Lignes qu'aucun triangle du terrain ne traverse : bords de murs, de digues et de terrasses. Une ligne avec z a cette altitude. Sans z, chaque côté de la ligne a l'altitude du point sol le plus proche de ce côté.</translation>
     </message>
     <message>
+        <source>Local dominance</source>
+        <translation>Dominance locale</translation>
+    </message>
+    <message>
         <source>Local relief</source>
         <translation>Relief local</translation>
+    </message>
+    <message>
+        <source>Local relief, openness, sky view and the like compare a place with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
+        <translation>Le relief local, l'ouverture, la vue du ciel et autres comparent chaque lieu à ses environs jusqu'à cette distance. Choisissez à peu près la largeur des formes à voir ; les formes plus grandes disparaissent.</translation>
     </message>
     <message>
         <source>Longest edge of a triangle</source>
@@ -1054,6 +1082,12 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
 The output has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS.</source>
         <translation>Fait d'un modèle numérique de surface un modèle de terrain, s'il n'y a pas de nuage de points. Enlève ce qui dépasse le terrain alentour, a des bords raides de tous côtés et n'est pas plus large que la taille maximale des objets. Comble les vides en douceur. Les collines et les versants restent.
 La sortie a la même grille, le même SCR et la même unité. Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
+    </message>
+    <message>
+        <source>Makes pictures of the relief of any elevation raster, on the same grid: sky-view factor, openness, local dominance, local relief, slope, hillshade, archaeological topography (VAT) and red relief. They show small features that a hillshade of one light hides.
+For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
+        <translation>Produit des images du relief de tout raster d'altitude, sur la même grille : facteur de vue du ciel, ouverture, dominance locale, relief local, pente, ombrage, topographie archéologique (VAT) et relief rouge. Elles montrent de petites formes qu'un ombrage à une seule lumière cache.
+Pour les murs et les talus, produisez le modèle de terrain avec des cellules de 0,25 à 0,5 m.</translation>
     </message>
     <message>
         <source>Makes rasters (GeoTIFF) of a classified point cloud: the terrain, interpolated on the triangulation (TIN) of the ground points; the surface, the highest point of each cell without noise; canopy height, the difference of the two; and a hillshade of the terrain. All lie on the same grid. Heights are in the vertical unit of the CRS.</source>
@@ -1112,8 +1146,16 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Modèles</translation>
     </message>
     <message>
+        <source>Multi-scale relief</source>
+        <translation>Relief multi-échelle</translation>
+    </message>
+    <message>
         <source>Name of the checkpoints</source>
         <translation>Nom des points de contrôle</translation>
+    </message>
+    <message>
+        <source>Negative openness</source>
+        <translation>Ouverture négative</translation>
     </message>
     <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
@@ -1320,6 +1362,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Polygones d'eau. Chacun est aplani à un seul niveau, celui du sol le long de son bord.</translation>
     </message>
     <message>
+        <source>Positive openness</source>
+        <translation>Ouverture positive</translation>
+    </message>
+    <message>
         <source>Preset</source>
         <translation>Préréglage</translation>
     </message>
@@ -1356,8 +1402,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>RMSE sans végétation [m]</translation>
     </message>
     <message>
-        <source>Radius of the local relief</source>
-        <translation>Rayon du relief local</translation>
+        <source>Radius of the relief</source>
+        <translation>Rayon du relief</translation>
     </message>
     <message>
         <source>Raster with the grid to use</source>
@@ -1376,6 +1422,14 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Prêt. Ce QGIS a le paquet lazrs.</translation>
     </message>
     <message>
+        <source>Red relief</source>
+        <translation>Relief rouge</translation>
+    </message>
+    <message>
+        <source>Red relief image map</source>
+        <translation>Carte en relief rouge</translation>
+    </message>
+    <message>
         <source>Reduce iteration angle when edges are shorter than</source>
         <translation>Réduire l'angle d'itération quand les côtés sont plus courts que</translation>
     </message>
@@ -1386,6 +1440,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Reference points only</source>
         <translation>Points de la référence seulement</translation>
+    </message>
+    <message>
+        <source>Relief of a terrain model</source>
+        <translation>Relief d'un modèle de terrain</translation>
     </message>
     <message>
         <source>Remember the classes</source>
@@ -1496,6 +1554,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Courbe de niveau fermée la plus courte</translation>
     </message>
     <message>
+        <source>Shows mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.</source>
+        <translation>Montre tertres, murs, fossés et anciens chemins : vue du ciel, ouverture, relief local, VAT.</translation>
+    </message>
+    <message>
         <source>Side of a cell of the error map. The map in the report has its own cell size.</source>
         <translation>Côté d'une cellule de la carte des erreurs. La carte du rapport a sa propre taille de cellule.</translation>
     </message>
@@ -1514,6 +1576,14 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller cells follow finer terrain if they hold at least one point, but have more rims at low plants. Empty: from the preset, or larger if points are too sparse for it.</source>
         <translation>Côté des cellules carrées dont les points les plus bas sont comparés. Des cellules plus petites suivent un terrain plus fin si elles contiennent au moins un point, mais ont plus de bords aux plantes basses. Vide : d'après le préréglage, ou plus grandes si les points sont trop épars pour cela.</translation>
+    </message>
+    <message>
+        <source>Sky-view factor</source>
+        <translation>Facteur de vue du ciel</translation>
+    </message>
+    <message>
+        <source>Slope</source>
+        <translation>Pente</translation>
     </message>
     <message>
         <source>Slope filter</source>
@@ -1556,12 +1626,12 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Seuil de pente</translation>
     </message>
     <message>
-        <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
-        <translation>Petits groupes de points suspendus à au moins 10 m au-dessus de tous les autres du lieu : oiseaux, nuages.</translation>
+        <source>Smoothing of pictures of the relief</source>
+        <translation>Lissage des images du relief</translation>
     </message>
     <message>
-        <source>Smoothing of hillshade and local relief</source>
-        <translation>Lissage de l'ombrage et du relief local</translation>
+        <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
+        <translation>Petits groupes de points suspendus à au moins 10 m au-dessus de tous les autres du lieu : oiseaux, nuages.</translation>
     </message>
     <message>
         <source>Smoothing of the contour lines</source>
@@ -1706,6 +1776,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>The folder for the classified files. Each keeps its name.</source>
         <translation>Le dossier des fichiers classés. Chacun garde son nom.</translation>
+    </message>
+    <message>
+        <source>The folder for the rasters (GeoTIFF). They are named after what they show, such as vat.tif and sky-view.tif.</source>
+        <translation>Le dossier des rasters (GeoTIFF). Ils portent le nom de ce qu'ils montrent, par exemple vat.tif et sky-view.tif.</translation>
     </message>
     <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
@@ -1952,6 +2026,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Eau</translation>
     </message>
     <message>
+        <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
+        <translation>Ce qu'il faut produire, un raster pour chaque type. La topographie archéologique (VAT) en montre le plus en une seule image.</translation>
+    </message>
+    <message>
         <source>What is no building, no bridge and no noise becomes low (3), medium (4) or high (5) vegetation by its height above ground. The LAS specification has these classes, but no limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.</source>
         <translation>Ce qui n'est ni bâtiment, ni pont, ni bruit devient végétation basse (3), moyenne (4) ou haute (5) selon sa hauteur au-dessus du sol. La spécification LAS a ces classes, mais pas de limites : 0,5 et 2 m sont usuels. Le LiDAR HD de l'IGN a 0,5 et 1,5 m.</translation>
     </message>
@@ -2050,6 +2128,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>cut off by openings</source>
         <translation>coupé par des ouvertures</translation>
+    </message>
+    <message>
+        <source>degrees</source>
+        <translation>degrés</translation>
     </message>
     <message>
         <source>densification</source>
@@ -2192,6 +2274,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>objets surélevés</translation>
     </message>
     <message>
+        <source>relief</source>
+        <translation>relief</translation>
+    </message>
+    <message>
         <source>rims of low objects</source>
         <translation>bords d'objets bas</translation>
     </message>
@@ -2206,6 +2292,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>single low points</source>
         <translation>points bas isolés</translation>
+    </message>
+    <message>
+        <source>sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,rrim,slope,archaeology,rvt,relief visualization toolbox,visualization</source>
+        <translation>facteur de vue du ciel,svf,ouverture,dominance locale,modèle de relief local,lrm,vat,relief rouge,rrim,pente,archéologie,rvt,relief visualization toolbox,visualisation</translation>
     </message>
     <message>
         <source>slope,vosselman,whitebox,top-hat</source>

@@ -9,6 +9,7 @@ from .ground_filters import GROUND_FILTERS
 from .height_above_ground import HeightAboveGroundAlgorithm
 from .model_key_points import ModelKeyPointsAlgorithm
 from .point_cloud_to_terrain import PointCloudToTerrainAlgorithm
+from .relief import ReliefAlgorithm
 from .remove_off_terrain_objects import RemoveOffTerrainObjectsAlgorithm
 from .terrain_model import TerrainModelAlgorithm
 
@@ -23,5 +24,6 @@ ALGORITHMS = (
     CompareSettingsAlgorithm,
     AssessAlgorithm,
     CheckAlgorithm,
+    ReliefAlgorithm,
     RemoveOffTerrainObjectsAlgorithm,
 )

@@ -41,7 +41,7 @@ def after_cancel(sources: Sequence[Path]) -> str:
 
 def add_rasters(
     algorithm: QgsProcessingAlgorithm,
-    names: Iterable[str] = _MODELS,
+    names: Iterable[str],
     default: Iterable[str] = ("DTM", "HILLSHADE"),
 ) -> None:
     """Add optional fields for rasters; `default` names those that are made by default."""

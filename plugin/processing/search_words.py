@@ -56,6 +56,13 @@ _WORDS = {
             "lindsay,top-hat"
         ),
     ),
+    "relief": (
+        _TERRAIN, _RASTER,
+        mark(
+            "sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,"
+            "rrim,slope,archaeology,rvt,relief visualization toolbox,visualization"
+        ),
+    ),
     "terraincontours": (_CLOUD, _GROUND, _TERRAIN, mark("contours,workflow")),
     "cloudheights": (_CLOUD, _GROUND, _CANOPY, mark("height,extra bytes")),
     "twomethods": (_CLOUD, _GROUND, mark("preview,try,test,preset,parameters,compare,profile")),

@@ -126,6 +126,10 @@ PARAMETERS = {
         "ACCURACY_CLASS", "SURVEY_ERROR", "MAX_EDGE", "MIN_CONFIDENCE", "HOLD_OUT",
         "GROUND_CLASSES", "OVERLAP", "VEGETATED", "CONFIDENCE", "OUTPUT", "REPORT",
     ],
+    "bareearth:relief": [
+        "INPUT", "KINDS", "RELIEF_RADIUS", "RELIEF_SMOOTHING",
+        "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "OUTPUT_FOLDER",
+    ],
     "bareearth:removeoffterrainobjects": [
         "INPUT", "MAX_OBJECT_SIZE", "SLOPE_THRESHOLD", "BAND", "OUTPUT",
     ],
@@ -201,6 +205,19 @@ OUTPUTS = {
         "VVA_RMSE",
         "SHIFT",
         "HOLD_OUT_RMSE",
+    ],
+    "bareearth:relief": [
+        "OUTPUT_FOLDER",
+        "HILLSHADE",
+        "RELIEF",
+        "MULTI_SCALE_RELIEF",
+        "SLOPE",
+        "SKY_VIEW",
+        "OPENNESS",
+        "NEGATIVE_OPENNESS",
+        "LOCAL_DOMINANCE",
+        "VAT",
+        "RED_RELIEF",
     ],
     "bareearth:removeoffterrainobjects": ["OUTPUT", "CELL_COUNT", "REMOVED_COUNT"],
 }

@@ -141,6 +141,7 @@ def test_the_log_of_a_run_is_in_one_language(registry, marked, tmp_path, context
             "INPUT": str(scene.path), "OUTPUT": str(tmp_path / "page.html"),
             "SETTINGS": ["slope:town"],
         },
+        "bareearth:relief": {"INPUT": terrain, "OUTPUT_FOLDER": str(tmp_path / "relief")},
         "bareearth:removeoffterrainobjects": {"INPUT": terrain, "OUTPUT": out + ".tif"},
     }  # fmt: skip
     for name, values in runs.items():
