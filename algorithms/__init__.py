@@ -24,10 +24,12 @@ if TYPE_CHECKING:
     from .engine.options import TileInput as TileInput
     from .engine.options import TileOutput as TileOutput
     from .engine.output import Output as Output
+    from .engine.requests import AboveGroundRequest as AboveGroundRequest
     from .engine.requests import ClassifyRequest as ClassifyRequest
     from .engine.requests import HeightRequest as HeightRequest
     from .engine.requests import KeyPointRequest as KeyPointRequest
     from .engine.requests import TerrainRequest as TerrainRequest
+    from .engine.runs import above_ground as above_ground
     from .engine.runs import classify as classify
     from .engine.runs import heights as heights
     from .engine.runs import key_points as key_points
@@ -36,6 +38,7 @@ if TYPE_CHECKING:
     from .filters.slope import SlopeFilter as SlopeFilter
     from .filters.tin import TinDensification as TinDensification
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
+    from .products.above_ground import AboveGround as AboveGround
     from .products.accuracy import Accuracy as Accuracy
     from .products.assessment import assess_files as assess  # noqa: F401
     from .products.checkpoint_outputs import CheckOutputs as CheckOutputs
@@ -80,10 +83,12 @@ _MODULES = {
     "Output": "engine.output",
     "RasterFiles": "products.raster_files",
     "RasterTarget": "products.raster_grid",
+    "AboveGroundRequest": "engine.requests",
     "ClassifyRequest": "engine.requests",
     "HeightRequest": "engine.requests",
     "KeyPointRequest": "engine.requests",
     "TerrainRequest": "engine.requests",
+    "above_ground": "engine.runs",
     "classify": "engine.runs",
     "heights": "engine.runs",
     "key_points": "engine.runs",
@@ -94,6 +99,7 @@ _MODULES = {
     "SlopeFilter": "filters.slope",
     "TinDensification": "filters.tin",
     "ModelKeyPoints": "grids.model_key_points",
+    "AboveGround": "products.above_ground",
     "assess": "products.assessment:assess_files",
     "Accuracy": "products.accuracy",
     "CheckOptions": "products.checkpoints",

@@ -30,11 +30,11 @@ GROUPS = {
 
     ),
     "all plateaus": ("plateaus", "cut-plateaus"),
-    "landforms": ("rocks", "low-banks", "between-ditches"),
+    "landforms": ("rocks", "ramps", "low-banks", "between-ditches"),
     "checks of seeds": ("plants", "level-seeds"),
     "kinds of tolerance": ("measured-noise", "even-ground", "breaks"),
     "nothing alone on real land": (
-        "cliff-faces", "large-buildings", "low-banks", "between-ditches",
+        "cliff-faces", "large-buildings", "ramps", "low-banks", "between-ditches",
     ),
 }  # fmt: skip
 # Other values of a rule: its class, and the values.

@@ -25,6 +25,7 @@ from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+from above_ground_figure import above_ground
 from by_hand_figure import by_hand
 from drawing import FEW_COLOURS, IMAGES, OTHER, draw_errors, save, shade, shrink
 from method_figures import grid_minimum_steps, slope_filter_steps, tin_densification_steps
@@ -88,6 +89,7 @@ def main() -> None:
         "tin-densification-steps": tin_densification_steps,
         "slope-filter-steps": slope_filter_steps,
         "grid-minimum-steps": grid_minimum_steps,
+        "above-ground": above_ground,
         "by-hand": by_hand,
         "noise": noise,
         "relief-smoothing": relief_smoothing,

@@ -113,8 +113,15 @@ def _add_key_points(parser: argparse.ArgumentParser, arguments: Sequence[str]) -
     _add_files(parser, ModelKeyPoints, KeyPointMark)
 
 
+def _add_above_ground(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..products.above_ground import AboveGround
+
+    _add_files(parser, AboveGround)
+    add_area(parser, "change only points in", "; points outside keep their class")
+
+
 def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> None:
-    """Add the options of `height` and `key-points`."""
+    """Add the options of `height`, `key-points` and `above-ground`."""
     from ..engine.memory import Resources
     from ..engine.options import TileInput, TileOutput
     from ..survey.ground_classes import GroundClasses
@@ -131,16 +138,18 @@ def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> No
 
 
 def _write(options: argparse.Namespace) -> int:
-    """Write classified files with the heights or key points."""
+    """Write classified files with the heights, key points or further classes."""
     from ..engine.many_files import SurveySummary
-    from ..engine.requests import HeightRequest, KeyPointRequest
+    from ..engine.requests import AboveGroundRequest, HeightRequest, KeyPointRequest
     from ..engine.runs import write
     from ..rasters.sampling import HeightRaster
 
-    request: HeightRequest | KeyPointRequest
+    request: HeightRequest | KeyPointRequest | AboveGroundRequest
     if options.command == "height":
         dtm = None if options.dtm is None else HeightRaster.of(options.dtm)
         request = HeightRequest.of(chosen(options), dtm=dtm, crs=options.crs)
+    elif options.command == "above-ground":
+        request = AboveGroundRequest.of(chosen(options), area=area_of(options), crs=options.crs)
     else:
         request = KeyPointRequest.of(chosen(options), crs=options.crs)
     workers, as_survey = workers_of(options, request.resources), bool(options.scheduler)
@@ -209,6 +218,15 @@ COMMANDS = (
         " of the CRS. The input is a classified file, or many as one survey. With --dtm, heights"
         " are above a raster.",
         _add_height,
+        _write,
+    ),
+    Command(
+        "above-ground",
+        "classify vegetation, buildings and bridges",
+        "Classifies the points above the ground of a classified file, or of many as one survey:"
+        " low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges"
+        " (17) and high noise (18). Only points of class 0 and 1 change.",
+        _add_above_ground,
         _write,
     ),
     Command(

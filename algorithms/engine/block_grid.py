@@ -20,7 +20,7 @@ from ..las.lasfile import LasFile
 from ..las.reading import read_cloud
 from ..survey.files import Survey
 from .blocks import Blocks
-from .leaf_index import code_of, row_and_column
+from .store import code_of, row_and_column
 
 # Boxes are read wider by so many metres. Later the points are chosen exactly.
 _MARGIN = 0.1

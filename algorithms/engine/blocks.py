@@ -36,9 +36,6 @@ _POINTS_A_PART = 1 << 15
 # How often a block can be quartered. Points are stored in leaves with a sixteenth of its side.
 _LEVELS = 4
 
-# Labels of points; 0 is none of these.
-GROUND, LOW, BRIDGE, HIGH = 1, 2, 3, 4
-
 
 class Block(NamedTuple):
     """A square block of the plane.

@@ -30,7 +30,7 @@ class CloudCache:
     def __init__(self, limit: int = 0) -> None:
         self._limit, self._lock = limit, threading.Lock()
         # By path, state and stated CRS of the file; the last used ones at the end.
-        self._kept: dict[Any, _Kept] = {}
+        self._kept: dict[Any, _CachedCloud] = {}
 
     def whole(self, las: LasFile, progress: Progress) -> PointCloud | None:
         """Return all points of a file, without its records; None if they take too much memory.
@@ -45,7 +45,7 @@ class CloudCache:
             return None
         key = las.path, las.state, las.stated
         with self._lock:
-            kept = self._kept.pop(key) if key in self._kept else _Kept(size)
+            kept = self._kept.pop(key) if key in self._kept else _CachedCloud(size)
             self._kept[key] = kept
             while sum(each.size for each in self._kept.values()) > self._limit:
                 del self._kept[next(iter(self._kept))]
@@ -69,7 +69,7 @@ class CloudCache:
         return read_window(las, box, progress, trust_header=True, whole=cloud)
 
 
-class _Kept:
+class _CachedCloud:
     """A cloud, once it is read, and the bytes that it takes."""
 
     def __init__(self, size: int) -> None:

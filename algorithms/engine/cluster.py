@@ -18,10 +18,10 @@ from ..core.progress import Progress
 from ..core.temporary import make_temporary, remove_temporary
 from ..core.threads import SharedThreads
 from ..las.backends import require
+from .blockwise import JobProgress
 from .cloud_cache import CloudCache
 from .jobs import JobResult, Share, attempt
 from .memory import Resources, free_memory
-from .scheduling import JobProgress
 from .workers import SCHEDULER_GONE, Job, Running, Workers
 
 if TYPE_CHECKING:

@@ -17,8 +17,16 @@ from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from .blocks import Blocks
-from .leaf_index import LeafIndex, Sorted, smallest_integers
-from .store import BlockPoints, Corner, Leaves, Marks, gathered
+from .store import (
+    BlockPoints,
+    Corner,
+    LeafIndex,
+    Leaves,
+    Marks,
+    Sorted,
+    gathered,
+    smallest_integers,
+)
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
 _INDEX = np.dtype("<i4")
@@ -195,7 +203,7 @@ def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
     return np.frombuffer(file.read((end - start) * kind.itemsize), dtype=kind)
 
 
-def room_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
+def allocated_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
     """Return room for values of points in a temporary file without a name.
 
     Parameters

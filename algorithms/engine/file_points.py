@@ -15,7 +15,7 @@ from ..las.lasfile import LasFile
 from ..las.reading import read_cloud, read_parts
 from ..survey.shapes import Place
 from ..survey.tally import Tally
-from .disk_store import DiskStore, room_on_disk
+from .disk_store import DiskStore, allocated_on_disk
 from .memory import GIGABYTE, Resources
 from .memory_store import MemoryStore
 from .steps import PointResult, PointStep, Step
@@ -166,11 +166,11 @@ class FilePoints:
             yield slice(start, start + part.count), part
             start += part.count
 
-    def room(self, kind: type) -> np.ndarray:
+    def allocate(self, kind: type) -> np.ndarray:
         """Return an array of one value for each point, on disk if the values are large."""
         if self.is_in_memory or np.dtype(kind).itemsize == 1:
             return np.empty(self.count, dtype=kind)
-        return room_on_disk(self._target, kind, self.count)
+        return allocated_on_disk(self._target, kind, self.count)
 
     def gathered(
         self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress = SILENT
@@ -271,7 +271,7 @@ class FilePoints:
         parts = self.parts(progress.part(0.0, 0.08))
         (store,) = self.gathered([(step, tally)], parts, progress.part(0.08, 0.12))
         step.work(store, self.resources, progress.part(0.12, 0.94))
-        result = step.result(self.path, self.room)
+        result = step.result(self.path, self.allocate)
 
         def found() -> Parts:
             for where, part, values in self.values(store, progress.part(0.94, 0.97)):

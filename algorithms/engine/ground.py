@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import collections
+from enum import IntEnum
 from functools import partial
 from typing import Callable, NamedTuple
 
@@ -20,7 +21,7 @@ from ..filters.warnings import warn_of_extent, warn_of_little_ground
 from ..grids.cells import apart
 from ..products.high_groups import HighGroups
 from ..survey.selection import Selection
-from .blocks import BRIDGE, GROUND, HIGH, LOW, Block, Blocks
+from .blocks import Block, Blocks
 from .blockwise import over_blocks
 from .explanation import ExplainedCells, Explanation
 from .memory import Resources
@@ -35,12 +36,21 @@ _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
 _Label = Callable[[Box, BlockPoints, Progress], "tuple[np.ndarray, Decisions | None]"]
 
 
+class Label(IntEnum):
+    """What a point was found to be; 0 is none of these."""
+
+    GROUND = 1
+    LOW = 2
+    BRIDGE = 3
+    HIGH = 4
+
+
 class _Labelled(NamedTuple):
     """The result of a block: the labels of the points at some positions."""
 
     positions: np.ndarray
     labels: np.ndarray
-    notes: _Notes
+    notes: _BlockMessages
     cells: ExplainedCells | None = None
 
 
@@ -58,7 +68,7 @@ def label_ground(
     progress: Progress = SILENT,
     explanation: Explanation | None = None,
 ) -> None:
-    """Label every wanted point of a store with `GROUND`, `LOW`, `BRIDGE`, `HIGH` or 0.
+    """Label every wanted point of a store with a `Label`, or 0.
 
     Parameters
     ----------
@@ -69,7 +79,7 @@ def label_ground(
     blocks : Blocks
         How the survey is cut, as `blocks_of` returns it.
     selection : Selection
-        Decides whether low outliers get `LOW`, high ones `HIGH`, and bridge decks `BRIDGE`.
+        Decides which labels there are.
     resources : Resources
         Threads, and the memory for the blocks.
     progress : Progress
@@ -124,7 +134,7 @@ def _label(
     points, known = contents.points, contents.known
     if points.count == 1:
         # One point cannot be compared with others, and such groups can be many.
-        return np.array([GROUND], dtype=np.uint8), None
+        return np.array([Label.GROUND], dtype=np.uint8), None
     tell_spacing(points, box)
     warn_of_extent(points, *method.largest(parameters), progress)
     ground, outliers, decided = method.ground(
@@ -135,17 +145,17 @@ def _label(
     labels = ground.astype(np.uint8)
     if finds_bridges:
         decks = bridge_decks(points, ground) & ~known
-        labels[decks] = BRIDGE
+        labels[decks] = Label.BRIDGE
         ground &= ~decks
         progress(end)
     if finds_low:
         low = below_ground(points, ground, selection.low_noise_depth, progress.part(end, 1.0))
         if outliers is not None:
             low |= outliers
-        labels[low & (labels == 0)] = LOW
+        labels[low & (labels == 0)] = Label.LOW
     if selection.high_noise_class:
         high = HighGroups(height=selection.high_noise_height).find(points)
-        labels[high & (labels == 0)] = HIGH
+        labels[high & (labels == 0)] = Label.HIGH
     return labels, decided
 
 
@@ -159,7 +169,7 @@ def _labelled(
     contents = thinned(blocks.contents(block, store, progress.part(0.0, 0.15)), box)
     core = blocks.core(block, contents, is_only)
     positions = contents.positions if core.all() else contents.positions[core]
-    notes = _Notes(progress.part(0.15, 1.0), len(positions), is_only)
+    notes = _BlockMessages(progress.part(0.15, 1.0), len(positions), is_only)
     labels, cells = np.zeros(len(positions), dtype=np.uint8), None
     if notes.count:
         try:
@@ -211,7 +221,7 @@ def _labels(
     return labels, None if decided is None else decided._replace(codes=codes)
 
 
-class _Notes(Notes):
+class _BlockMessages(Notes):
     """Passes on the progress of a block, and collects its messages until all blocks are done.
 
     Attributes
@@ -237,7 +247,7 @@ class _Notes(Notes):
             super().keep(kind, text)
 
 
-def _tell(progress: Progress, blocks: list[_Notes]) -> None:
+def _tell(progress: Progress, blocks: list[_BlockMessages]) -> None:
     """Report each message of the blocks once, and the number of blocks that failed."""
     failed = [each for each in blocks if each.failure is not None]
     if failed and len(failed) == len(blocks):

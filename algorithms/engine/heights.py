@@ -23,7 +23,7 @@ from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
 from .output import HEIGHT_DIMENSION, height_dimension
-from .steps import PointResult, PointStep, Room
+from .steps import Allocate, PointResult, PointStep
 from .store import BlockPoints, Corner, Marks, Store
 
 # The buffer of a block in metres, and the memory that it takes.
@@ -139,9 +139,9 @@ class MeasureHeights(PointStep):
         if self.dtm is None:
             fill(store, self.blocks, _heights, resources, progress)
 
-    def result(self, path: Path, room: Room) -> HeightsOfPoints:
+    def result(self, path: Path, allocate: Allocate) -> HeightsOfPoints:
         """Return an object that collects the heights of a file."""
-        return HeightsOfPoints(self, room)
+        return HeightsOfPoints(self, allocate)
 
 
 class HeightsOfPoints(PointResult):
@@ -151,7 +151,7 @@ class HeightsOfPoints(PointResult):
     ----------
     step : MeasureHeights
         The step.
-    room : callable
+    allocate : callable
         Returns an array of one value for each point.
 
     Attributes
@@ -160,11 +160,11 @@ class HeightsOfPoints(PointResult):
         In the vertical unit of the CRS, in file order; NaN far from any ground.
     """
 
-    def __init__(self, step: MeasureHeights, room: Room) -> None:
+    def __init__(self, step: MeasureHeights, allocate: Allocate) -> None:
         self._step, self._as_z = step, step.output.output_as == "z"
         # Single precision is enough for a dimension. Heights that replace z are rounded as z is.
-        self.heights = room(np.float64 if self._as_z else np.float32)
-        self._kept = room(bool) if step.ground_only else None
+        self.heights = allocate(np.float64 if self._as_z else np.float32)
+        self._kept = allocate(bool) if step.ground_only else None
         self._lowest, self._highest = np.inf, -np.inf
         self._ground_count, self._unit, self._unknown_count = 0, 1.0, 0
         self._sampler = None if step.dtm is None else HeightSampler(step.dtm)

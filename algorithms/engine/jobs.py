@@ -25,9 +25,9 @@ from .block_grid import BlockGrid, BlockIndex, code, memory_held
 from .cloud_cache import CloudCache
 from .disk_store import DiskStore
 from .file_points import FilePoints, held_by_file
+from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
 from .memory_store import MemoryStore
-from .record import Fingerprint, write_record
 from .steps import PointStep
 
 _FAILURE = "no ground"
@@ -301,7 +301,7 @@ class TileJob:
     def run(self, share: Share, progress: Progress) -> Any:
         """Write the file. Return the summary of the step, or None if there is nothing to write."""
         step, las, path, resources = self.step, self.tile, self.tile.path, share.resources
-        tally, kept = step.tally(), KeptValues(self)
+        tally, kept = step.tally(), TileValues(self)
         is_copied = layers_kept(las, self.target) is not None
         reading = progress.part(0.0, 0.4).quiet()
         # Where whole records are needed, the file is read again.
@@ -311,7 +311,7 @@ class TileJob:
         else:
             points = FilePoints(cloud, resources, self.target)
         with points:
-            result = step.result(path, points.room)
+            result = step.result(path, points.allocate)
             for where, part in points.parts():
                 step.count(part, tally)
                 result.add(where, part, kept.of(where, part))
@@ -328,7 +328,7 @@ class TileJob:
         return summary
 
 
-class KeptValues:
+class TileValues:
     """The values of the points of a tile, as the blocks stored them.
 
     Parameters
@@ -387,7 +387,7 @@ class KeptValues:
 
 def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> JobResult:
     """Run a job. Return its errors in the result instead of raising them."""
-    notes = _Notes(progress)
+    notes = _JobMessages(progress)
     begun, memory = time.monotonic(), PeakMemory() if share.is_alone else None
     try:
         with share.threads.used():
@@ -410,7 +410,7 @@ def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> JobRes
     return JobResult(None, tuple(notes.messages), failure)
 
 
-class _Notes(Notes):
+class _JobMessages(Notes):
     """Passes on progress and collects the messages."""
 
     def __init__(self, whole: Progress) -> None:

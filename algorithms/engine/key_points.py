@@ -20,8 +20,7 @@ from ..survey.tally import count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Resources
-from .remembering import Memory
-from .steps import PointResult, PointStep, Room
+from .steps import Allocate, PointResult, PointStep, RememberedClasses
 from .store import BlockPoints, Corner, Marks, Store
 
 # Values that a store holds for key points, and for other ground points.
@@ -139,9 +138,9 @@ class FindKeyPoints(PointStep):
         """Find the key points."""
         fill(store, self.blocks, partial(_keys, self.parameters), resources, progress)
 
-    def result(self, path: Path, room: Room) -> KeyPointsOfPoints:
+    def result(self, path: Path, allocate: Allocate) -> KeyPointsOfPoints:
         """Return an object that collects the key points of a file."""
-        return KeyPointsOfPoints(self, room)
+        return KeyPointsOfPoints(self, allocate)
 
 
 class KeyPointsOfPoints(PointResult):
@@ -151,15 +150,15 @@ class KeyPointsOfPoints(PointResult):
     ----------
     step : FindKeyPoints
         The step.
-    room : callable
+    allocate : callable
         Returns an array of one value for each point.
     """
 
-    def __init__(self, step: FindKeyPoints, room: Room) -> None:
+    def __init__(self, step: FindKeyPoints, allocate: Allocate) -> None:
         self._step = step
         # Classes, or new values of the flag.
-        self._values = room(np.uint8 if step.mark.by_class else np.int8)
-        self._memory = Memory(room)
+        self._values = allocate(np.uint8 if step.mark.by_class else np.int8)
+        self._memory = RememberedClasses(allocate)
         self._counts = np.zeros(256, dtype=np.int64)
         self._ground_count = self._key_point_count = 0
 

@@ -23,13 +23,12 @@ from ..survey.kept_classes import overlapping
 from ..survey.point_chooser import PointChooser
 from ..survey.selection import Selection
 from ..survey.tally import Tally, count_classes
-from .blocks import BRIDGE, GROUND, HIGH, LOW, Blocks
+from .blocks import Blocks
 from .explanation import Explanation
-from .ground import blocks_of, label_ground
+from .ground import Label, blocks_of, label_ground
 from .memory import Resources
 from .output import Output, height_dimension
-from .remembering import Memory
-from .steps import PointResult, PointStep, Room
+from .steps import Allocate, PointResult, PointStep, RememberedClasses
 from .store import Marks, Store
 
 
@@ -182,9 +181,9 @@ class LabelGround(PointStep):
             self.explanation,
         )
 
-    def result(self, path: Path, room: Room) -> ClassifiedPoints:
+    def result(self, path: Path, allocate: Allocate) -> ClassifiedPoints:
         """Return an object that turns the labels of a file into classes."""
-        return ClassifiedPoints(self, path, room)
+        return ClassifiedPoints(self, path, allocate)
 
 
 class ClassifiedPoints(PointResult):
@@ -196,7 +195,7 @@ class ClassifiedPoints(PointResult):
         The step.
     path : Path
         The file.
-    room : callable
+    allocate : callable
         Returns an array of one value for each point.
 
     Attributes
@@ -210,11 +209,11 @@ class ClassifiedPoints(PointResult):
         bridge decks, and of high outliers.
     """
 
-    def __init__(self, step: LabelGround, path: Path, room: Room) -> None:
+    def __init__(self, step: LabelGround, path: Path, allocate: Allocate) -> None:
         self._step, self._path = step, path
-        self.classification = room(np.uint8)
-        self._inside = room(bool) if step.output.area_only else None
-        self._memory = Memory(room, step.selection.remember_classes)
+        self.classification = allocate(np.uint8)
+        self._inside = allocate(bool) if step.output.area_only else None
+        self._memory = RememberedClasses(allocate, step.selection.remember_classes)
         self.class_counts = np.zeros(256, dtype=np.int64)
         self.area_ground_count = self.area_low_count = self.area_deck_count = 0
         self.area_high_count = 0
@@ -226,7 +225,7 @@ class ClassifiedPoints(PointResult):
         """Set the classes of some points from their labels, and count them."""
         selection, chooser = self._step.selection, self._step.chooser
         inside = chooser.inside(part)
-        ground, low, decks, high = (values == label for label in (GROUND, LOW, BRIDGE, HIGH))
+        ground, low, decks, high = (values == label for label in Label)
         by_hand = chooser.by_hand(part)
         classes = selection.classes(part, ground, low, inside, decks, by_hand, high)
         self.classification[where] = classes
@@ -249,9 +248,19 @@ class ClassifiedPoints(PointResult):
     def part(self, where: slice, part: PointCloud) -> PointCloud:
         """Return points with their new classes; points that are not written become withheld."""
         part = dataclasses.replace(part, classification=self.classification[where])
+        part = self._memory.part(where, part)
         if self._inside is not None:
             part = dataclasses.replace(part, withheld=part.withheld | ~self._inside[where])
         return part
+
+    def refine(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
+        """Set further classes of some points, and count them; 0 leaves a class as it is."""
+        before = self.classification[where].copy()
+        classes = np.where(values > 0, values, before).astype(np.uint8)
+        self.classification[where] = classes
+        self._memory.add(where, part, classes)
+        counted = slice(None) if self._inside is None else self._inside[where]
+        self.class_counts += count_classes(classes[counted]) - count_classes(before[counted])
 
     @property
     def is_empty(self) -> bool:

@@ -11,8 +11,17 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
 from ..las.cloud import PointCloud
 from .blocks import Blocks
-from .leaf_index import LeafIndex, Sorted, code_of, smallest_integers
-from .store import BlockPoints, Corner, Leaves, Marks, gathered
+from .store import (
+    BlockPoints,
+    Corner,
+    LeafIndex,
+    Leaves,
+    Marks,
+    Sorted,
+    code_of,
+    gathered,
+    smallest_integers,
+)
 
 # Points that are sorted and read together.
 _CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15

@@ -19,11 +19,10 @@ from ..products.raster_block import BlockRasters
 from ..survey.files import Survey
 from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
 from .blocks import Block
-from .job_queue import JobQueue
+from .job_queue import JobQueue, block_jobs
 from .jobs import BlockJob, Share
-from .planning import block_jobs
+from .manifest import block_file, stamp_of
 from .rasters import AROUND_AREA, MakeRasters, RasterSize, no_point_in, write_rasters
-from .record import block_file, stamp_of
 from .workers import Workers
 
 
@@ -55,7 +54,7 @@ class RasterJob(BlockJob):
                     made[self._place_of(each.window)].append(each)
         progress(1.0)  # ends a job of a run that was cancelled, before it writes
         for place, file in zip(self.places, self.files):
-            _keep(file, made[place])
+            _store(file, made[place])
 
     def _is_wanted(self, block: Block) -> bool:
         """Return whether a block, or a part of one, is one of this job."""
@@ -73,7 +72,7 @@ class RasterJob(BlockJob):
         return BlockIndex(int(blocks.number(x)), int(blocks.number(y)))
 
 
-def _keep(file: Path, made: Sequence[BlockRasters]) -> None:
+def _store(file: Path, made: Sequence[BlockRasters]) -> None:
     """Write the rasters of a block, or of its parts."""
     content: dict[str, Any] = {}
     for number, each in enumerate(made):
@@ -86,13 +85,13 @@ def _keep(file: Path, made: Sequence[BlockRasters]) -> None:
         np.savez(stream, count=len(made), **content)
 
 
-class _Kept(Mapping[str, np.ndarray]):
+class _StoredArrays(Mapping[str, np.ndarray]):
     """Arrays that are read from a file each time they are used.
 
     Parameters
     ----------
     file : Path
-        A file of `_keep`.
+        A file of `_store`.
     start : str
         Prefix of the names of the arrays in the file.
     """
@@ -113,12 +112,14 @@ class _Kept(Mapping[str, np.ndarray]):
         return len(self._names)
 
 
-def _kept_in(file: Path) -> list[BlockRasters]:
-    """Return the rasters that `_keep` wrote; their large arrays stay in the file."""
+def _stored_in(file: Path) -> list[BlockRasters]:
+    """Return the rasters that `_store` wrote; their large arrays stay in the file."""
     made = []
     with np.load(file, allow_pickle=False) as kept:
         for number in map(str, range(int(kept["count"]))):
-            layers, loose = (_Kept(file, f"{number}.{each}.") for each in ("layers", "loose"))
+            layers, loose = (
+                _StoredArrays(file, f"{number}.{each}.") for each in ("layers", "loose")
+            )
             window = CellWindow(*kept[f"{number}.window"].tolist())
             made.append(
                 BlockRasters(
@@ -183,7 +184,7 @@ def make_rasters(
         queue.work()
         if queue.lost:
             raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
-        made = [each for file in files.values() for each in _kept_in(file)]
+        made = [each for file in files.values() for each in _stored_in(file)]
         last = progress.part(0.8, 1.0)
         per_file = (
             {split_name(each.path)[0]: each.box for each in survey.tiles} if step.per_file else None

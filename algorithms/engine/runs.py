@@ -14,7 +14,13 @@ from ..survey.files import is_one_file
 from .many_files import classify_files, rasters_of_files, write_files
 from .one_file import classify_file, rasters_of_file, write_points
 from .rasters import RasterSize
-from .requests import ClassifyRequest, HeightRequest, KeyPointRequest, TerrainRequest
+from .requests import (
+    AboveGroundRequest,
+    ClassifyRequest,
+    HeightRequest,
+    KeyPointRequest,
+    TerrainRequest,
+)
 from .workers import Workers
 
 Sources = Union[str, Path, Iterable[Union[str, Path]]]
@@ -134,6 +140,36 @@ def key_points(
     return write(sources, output, request, progress, workers, as_survey)
 
 
+def above_ground(
+    sources: Sources,
+    output: str | Path,
+    request: AboveGroundRequest = AboveGroundRequest(),
+    progress: Progress = SILENT,
+    workers: Workers | None = None,
+    as_survey: bool = False,
+) -> Any:
+    """Write classified files with the points above the ground classified too.
+
+    Parameters
+    ----------
+    request : AboveGroundRequest
+        Which points are ground, and which classes the others get.
+    sources, output, progress, workers, as_survey
+        As for `classify`.
+
+    Returns
+    -------
+    AboveGroundSummary or SurveySummary
+        What was done, of one file or of many.
+
+    Raises
+    ------
+    BareEarthError, Cancelled
+        As for `classify`, and if the input has no ground.
+    """
+    return write(sources, output, request, progress, workers, as_survey)
+
+
 def terrain(
     sources: Sources,
     request: TerrainRequest,
@@ -176,12 +212,12 @@ def terrain(
 def write(
     sources: Sources,
     output: str | Path,
-    request: HeightRequest | KeyPointRequest,
+    request: HeightRequest | KeyPointRequest | AboveGroundRequest,
     progress: Progress = SILENT,
     workers: Workers | None = None,
     as_survey: bool = False,
 ) -> Any:
-    """Do what `heights` or `key_points` does, as the type of the request says."""
+    """Do what `heights`, `key_points` or `above_ground` does, as the type of the request says."""
     paths, target = _paths(sources), Path(output)
     if _is_one(paths, as_survey):
         return write_points(paths[0], target, request, progress)

@@ -20,14 +20,16 @@ from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
+from ..las.extrabytes import REMEMBERED, ExtraDimension
 from ..las.lasfile import LasFile
+from ..survey.corrections import to_remember
 from ..survey.shapes import Geometry, Place
 from .blocks import Blocks
 from .memory import Resources
 from .store import Marks, Store
 
 # Returns an array of one value for each point of a file, given the type of the values.
-Room = Callable[[type], np.ndarray]
+Allocate = Callable[[type], np.ndarray]
 
 
 class Step:
@@ -147,7 +149,7 @@ class PointStep(Step):
     def tell_of_survey(self, done: Sequence[Any], progress: Progress) -> None:
         """Report on all files together, given their summaries."""
 
-    def result(self, path: Path, room: Room) -> PointResult:
+    def result(self, path: Path, allocate: Allocate) -> PointResult:
         """Return an object that collects the values of a file."""
         raise NotImplementedError
 
@@ -202,3 +204,39 @@ def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return hashlib.sha256(value.tobytes()).hexdigest()
     return str(value) if isinstance(value, Path) else value
+
+
+class RememberedClasses:
+    """The classes of a file that are to be remembered.
+
+    Parameters
+    ----------
+    allocate : callable
+        Returns an array of one value for each point.
+    begins : bool
+        Whether classes are remembered even if the file has none remembered yet.
+    """
+
+    def __init__(self, allocate: Allocate, begins: bool = False) -> None:
+        self._allocate, self._begins = allocate, begins
+        self._values: np.ndarray | None = None
+
+    def add(self, where: slice, part: PointCloud, classes: np.ndarray) -> None:
+        """Add the new classes of some points."""
+        if self._begins or part.remembered is not None:
+            if self._values is None:
+                self._values = self._allocate(np.uint8)
+            self._values[where] = to_remember(part, classes)
+
+    def part(self, where: slice, part: PointCloud) -> PointCloud:
+        """Return points as they will be read back."""
+        if self._values is None:
+            return part
+        return dataclasses.replace(part, remembered=self._values[where])
+
+    def added_to(self, edits: Edits) -> Edits:
+        """Return edits with the remembered classes."""
+        if self._values is None:
+            return edits
+        dimension = ExtraDimension(REMEMBERED, "Before changes by hand", self._values)
+        return dataclasses.replace(edits, remembered=dimension)

@@ -15,12 +15,9 @@ from ..las.cloud import survey_frame
 from ..las.lasfile import LasFile
 from ..survey.files import Survey, open_survey
 from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
-from .job_queue import JobQueue
+from .job_queue import JobQueue, block_jobs
 from .jobs import PointJob, Taken, TileJob
-from .planning import block_jobs
-from .raster_jobs import make_rasters
-from .rasters import MakeRasters
-from .record import (
+from .manifest import (
     Fingerprint,
     block_file,
     fingerprint_of,
@@ -29,6 +26,8 @@ from .record import (
     remove_record,
     stamp_of,
 )
+from .raster_jobs import make_rasters
+from .rasters import MakeRasters
 from .steps import PointStep
 from .workers import Workers
 

@@ -13,11 +13,11 @@ from typing import NamedTuple, Union
 
 from ..core.temporary import remove_leftovers
 from ..core.threads import Counter, SharedThreads
+from .blockwise import JobProgress
 from .cloud_cache import CloudCache
 from .jobs import BlockJob, JobResult, Share, TileJob, attempt
+from .manifest import folders_of
 from .memory import Resources
-from .record import folders_of
-from .scheduling import JobProgress
 
 # When the user cancels, jobs have so many seconds to stop by themselves.
 _PATIENCE = 0.7

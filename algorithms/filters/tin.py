@@ -299,6 +299,7 @@ def _classic(resolved: TinDensification) -> Pipeline:
                 gentle_border=GentleBorder(0.5),
                 level_border=None,
                 rocks=None,
+                ramps=None,
             ),
             Seeds(objects_wait=True),
             KnownGround(),

@@ -28,6 +28,10 @@
         <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt; für Felder, die leer bleiben</translation>
     </message>
     <message>
+        <source>A building has a plane of at least this area. Smaller planes are found only within 5 m of a larger one. Below about 5 m2, tops of conifers become buildings.</source>
+        <translation>Ein Gebäude hat eine Ebene von mindestens dieser Fläche. Kleinere Ebenen werden nur bis 5 m neben einer größeren gefunden. Unter etwa 5 m² werden Wipfel von Nadelbäumen zu Gebäuden.</translation>
+    </message>
+    <message>
         <source>A checkpoint has no height. Choose the attribute with the heights.</source>
         <translation>Ein Kontrollpunkt hat keine Höhe. Wählen Sie das Attribut mit den Höhen.</translation>
     </message>
@@ -378,8 +382,18 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Klassifiziert die Bodenpunkte vieler Dateien, als wären alle eine einzige, und schreibt jede Datei unter ihrem Namen in den Ausgabeordner. Eine virtuelle Punktwolke (.vpc) verzeichnet die Ergebnisse.</translation>
     </message>
     <message>
+        <source>Classifies the points above the ground of a classified point cloud: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18). Buildings are found by planes that laser pulses meet once; without return numbers the planes alone decide, and smooth crowns can become buildings.
+Only points of class 0 and 1 change, unless you ask for more. Nothing else in the file changes. Lengths are metres, whatever the unit of the CRS.</source>
+        <translation>Klassifiziert die Punkte über dem Boden einer klassifizierten Punktwolke: niedrige, mittlere und hohe Vegetation (3, 4, 5) nach der Höhe über Grund, Gebäude (6), Brücken (17) und hohes Rauschen (18). Gebäude werden an Ebenen erkannt, die ein Laserpuls nur einmal trifft; ohne Nummern der Echos entscheiden allein die Ebenen, und glatte Kronen können zu Gebäuden werden.
+Nur Punkte der Klassen 0 und 1 ändern sich, wenn Sie nicht mehr verlangen. Sonst ändert sich nichts in der Datei. Längen sind Meter, unabhängig von der Einheit des KBS.</translation>
+    </message>
+    <message>
         <source>Classifies the points in a window with each of the settings, and makes a web page, which opens from the Results Viewer. It shows the terrain of each setting, a profile, the share of ground, where the settings differ, and how to run each of them on all points. No point cloud is written. Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is read as a whole.</source>
         <translation>Klassifiziert die Punkte eines Fensters mit jeder der Einstellungen und macht eine Webseite, die sich aus der Ergebnisanzeige öffnen lässt. Sie zeigt das Gelände zu jeder Einstellung, ein Profil, den Anteil des Bodens, wo sich die Einstellungen unterscheiden, und wie man jede von ihnen auf alle Punkte anwendet. Es wird keine Punktwolke geschrieben. Von einer COPC-Datei wird nur das Fenster gelesen, in Sekunden; eine LAS- oder LAZ-Datei wird ganz gelesen.</translation>
+    </message>
+    <message>
+        <source>Classify above ground</source>
+        <translation>Über dem Boden klassifizieren</translation>
     </message>
     <message>
         <source>Classify ground (TIN densification)</source>
@@ -400,6 +414,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Classify model key points</source>
         <translation>Modell-Schlüsselpunkte klassifizieren</translation>
+    </message>
+    <message>
+        <source>Classify vegetation and buildings anew</source>
+        <translation>Vegetation und Gebäude neu klassifizieren</translation>
     </message>
     <message>
         <source>Closed lines that are shorter are left out: they show single plants and noise.</source>
@@ -484,6 +502,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Entscheidende Regeln</translation>
     </message>
     <message>
+        <source>Decks of bridges, found by their cross-sections. Otherwise they become buildings or vegetation. Points that have class 17 already keep it.</source>
+        <translation>Brückendecks, an ihren Querschnitten erkannt. Sonst werden sie zu Gebäuden oder Vegetation. Punkte, die schon Klasse 17 haben, behalten sie.</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Tiefe tiefer Ausreißer</translation>
     </message>
@@ -548,6 +570,18 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Höhe im letzten Durchgang</translation>
     </message>
     <message>
+        <source>Find bridges (17)</source>
+        <translation>Brücken finden (17)</translation>
+    </message>
+    <message>
+        <source>Find buildings (6)</source>
+        <translation>Gebäude finden (6)</translation>
+    </message>
+    <message>
+        <source>Find high noise (18)</source>
+        <translation>Hohes Rauschen finden (18)</translation>
+    </message>
+    <message>
         <source>Finds the few ground points of a classified point cloud that a terrain model needs. Of all other ground points, none lies farther above or below the triangulation (TIN) of these key points than the tolerances. Key points get a class of their own, or the key-point flag; nothing else in the file changes.
 Lengths are metres, whatever the unit of the CRS.</source>
         <translation>Findet die wenigen Bodenpunkte einer klassifizierten Punktwolke, die ein Geländemodell braucht. Von allen anderen Bodenpunkten liegt keiner weiter über oder unter der Dreiecksvermaschung (TIN) dieser Schlüsselpunkte, als die Toleranzen erlauben. Schlüsselpunkte bekommen eine eigene Klasse oder das Kennzeichen der Schlüsselpunkte; sonst ändert sich nichts in der Datei.
@@ -610,6 +644,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Finds the ground points of the many files of a survey, without seams between them.</source>
         <translation>Findet die Bodenpunkte der vielen Dateien einer Befliegung, ohne Nähte zwischen ihnen.</translation>
+    </message>
+    <message>
+        <source>Finds vegetation, buildings and bridges in a point cloud whose ground is known.</source>
+        <translation>Findet Vegetation, Gebäude und Brücken in einer Punktwolke, deren Boden bekannt ist.</translation>
     </message>
     <message>
         <source>First and single returns</source>
@@ -756,6 +794,18 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Höhe über Grund</translation>
     </message>
     <message>
+        <source>Height at which high vegetation begins</source>
+        <translation>Höhe, ab der hohe Vegetation beginnt</translation>
+    </message>
+    <message>
+        <source>Height at which low vegetation begins</source>
+        <translation>Höhe, ab der niedrige Vegetation beginnt</translation>
+    </message>
+    <message>
+        <source>Height at which medium vegetation begins</source>
+        <translation>Höhe, ab der mittlere Vegetation beginnt</translation>
+    </message>
+    <message>
         <source>Height of high outliers</source>
         <translation>Höhe hoher Ausreißer</translation>
     </message>
@@ -782,6 +832,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Heights of the bare ground.</source>
         <translation>Höhen des nackten Bodens.</translation>
+    </message>
+    <message>
+        <source>Heights of vegetation</source>
+        <translation>Höhen der Vegetation</translation>
     </message>
     <message>
         <source>Highest height</source>
@@ -822,6 +876,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>How many threads compute at the same time. The result does not depend on it. Empty: as many as there are processors.</source>
         <translation>Wie viele Threads gleichzeitig rechnen. Das Ergebnis hängt nicht davon ab. Leer: so viele, wie es Prozessoren gibt.</translation>
+    </message>
+    <message>
+        <source>If this is off, only points of class 0 and 1 change. If it is on, points of class 3 to 6 are decided anew as well. All others keep their class, such as water (9) and wires.</source>
+        <translation>Wenn dies aus ist, ändern sich nur Punkte der Klassen 0 und 1. Wenn es an ist, werden auch Punkte der Klassen 3 bis 6 neu entschieden. Alle anderen behalten ihre Klasse, etwa Wasser (9) und Leitungen.</translation>
     </message>
     <message>
         <source>Ignored classes of the reference</source>
@@ -940,8 +998,16 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Letzte Echos erreichen den Boden. Nehmen Sie alle Echos, wenn die Nummern der Echos in der Datei falsch sind.</translation>
     </message>
     <message>
+        <source>Least area of a roof</source>
+        <translation>Kleinste Fläche eines Dachs</translation>
+    </message>
+    <message>
         <source>Least confidence</source>
         <translation>Geringste Verlässlichkeit</translation>
+    </message>
+    <message>
+        <source>Least height of a roof</source>
+        <translation>Kleinste Höhe eines Dachs</translation>
     </message>
     <message>
         <source>Leave out</source>
@@ -1224,6 +1290,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Punkte werden mit ihren Nachbarn bis zu dieser Entfernung verglichen. Wählen Sie mindestens die halbe kürzere Seite des größten Gebäudes. Leer: aus der Voreinstellung, in der automatischen 18 m (mehr bei geringer Punktdichte), in Whitebox 2 m.</translation>
     </message>
     <message>
+        <source>Points below this height above ground, and points below the ground, become class 1.</source>
+        <translation>Punkte unter dieser Höhe über Grund und Punkte unter dem Boden bekommen Klasse 1.</translation>
+    </message>
+    <message>
         <source>Points in the area</source>
         <translation>Punkte im Gebiet</translation>
     </message>
@@ -1270,6 +1340,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Points up to this distance outside the window are read too, but not shown. A larger value is slower, and gives classes closer to those of the whole file near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
         <translation>Punkte bis zu dieser Entfernung außerhalb des Fensters werden auch gelesen, aber nicht gezeigt. Ein größerer Wert ist langsamer und gibt nahe dem Rand des Fensters und neben großen Gebäuden Klassen, die näher an denen der ganzen Datei sind. Leer: so weit die Verfahren schauen, höchstens 50 m.</translation>
+    </message>
+    <message>
+        <source>Points with a new class</source>
+        <translation>Punkte mit neuer Klasse</translation>
     </message>
     <message>
         <source>Polygons in which the terrain uses no ground points, such as bridges and roofs. The classes of the points do not change.</source>
@@ -1408,6 +1482,14 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Flüsse</translation>
     </message>
     <message>
+        <source>Roofs are at least this high above the ground. Lower ones are cars and hedges too.</source>
+        <translation>Dächer sind mindestens so hoch über dem Boden. Niedrigeres sind auch Autos und Hecken.</translation>
+    </message>
+    <message>
+        <source>Roofs are planes of some size that a laser pulse meets once. Walls below their edges, and chimneys and dormers, belong to them.</source>
+        <translation>Dächer sind Ebenen von einiger Größe, die ein Laserpuls nur einmal trifft. Wände unter ihren Rändern, Schornsteine und Gauben gehören dazu.</translation>
+    </message>
+    <message>
         <source>Rule that decided each cell</source>
         <translation>Regel, die über jede Zelle entschied</translation>
     </message>
@@ -1542,6 +1624,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Smoothing of pictures of the relief</source>
         <translation>Glättung der Bilder des Reliefs</translation>
+    </message>
+    <message>
+        <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
+        <translation>Kleine Gruppen von Punkten, die mindestens 10 m über allen anderen ihres Orts hängen: Vögel, Wolken.</translation>
     </message>
     <message>
         <source>Smoothing of the contour lines</source>
@@ -1780,6 +1866,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Dieselben Punkte, oder einige davon, mit ihren wahren Klassen.</translation>
     </message>
     <message>
+        <source>The same points, with the classes above the ground.</source>
+        <translation>Dieselben Punkte mit den Klassen über dem Boden.</translation>
+    </message>
+    <message>
         <source>The same points, with the key points marked.</source>
         <translation>Dieselben Punkte, mit gekennzeichneten Schlüsselpunkten.</translation>
     </message>
@@ -1904,8 +1994,24 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Wie die übrigen benutzen</translation>
     </message>
     <message>
+        <source>Used only with limits of your own.</source>
+        <translation>Nur mit eigenen Grenzen benutzt.</translation>
+    </message>
+    <message>
         <source>Vegetated land covers</source>
         <translation>Bewachsene Bodenbedeckungen</translation>
+    </message>
+    <message>
+        <source>Vegetation by limits of your own</source>
+        <translation>Vegetation nach eigenen Grenzen</translation>
+    </message>
+    <message>
+        <source>Vegetation low below 0.5 m, medium to 1.5 m, high above (IGN)</source>
+        <translation>Vegetation niedrig unter 0,5 m, mittel bis 1,5 m, darüber hoch (IGN)</translation>
+    </message>
+    <message>
+        <source>Vegetation low below 0.5 m, medium to 2 m, high above</source>
+        <translation>Vegetation niedrig unter 0,5 m, mittel bis 2 m, darüber hoch</translation>
     </message>
     <message>
         <source>Virtual point cloud</source>
@@ -1918,6 +2024,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
         <translation>Was gemacht wird, je ein Raster. Die archäologische Topographie (VAT) zeigt am meisten in einem Bild.</translation>
+    </message>
+    <message>
+        <source>What is no building, no bridge and no noise becomes low (3), medium (4) or high (5) vegetation by its height above ground. The LAS specification has these classes, but no limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.</source>
+        <translation>Was weder Gebäude noch Brücke noch Rauschen ist, wird nach seiner Höhe über Grund niedrige (3), mittlere (4) oder hohe (5) Vegetation. Die LAS-Spezifikation hat diese Klassen, aber keine Grenzen: 0,5 und 2 m sind üblich. LiDAR HD des IGN hat 0,5 und 1,5 m.</translation>
     </message>
     <message>
         <source>Wheel file of lazrs</source>
@@ -1990,6 +2100,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>between ditches</source>
         <translation>zwischen Gräben</translation>
+    </message>
+    <message>
+        <source>buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign</source>
+        <translation>Gebäude,Dächer,Bäume,Klassen,Klassifikation,Brücken,Rauschen,lasclassify,asprs,ign</translation>
     </message>
     <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
@@ -2098,6 +2212,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>m or ft</source>
         <translation>m oder ft</translation>
+    </message>
+    <message>
+        <source>m2</source>
+        <translation>m²</translation>
     </message>
     <message>
         <source>narrow pits</source>

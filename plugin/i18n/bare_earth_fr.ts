@@ -28,6 +28,10 @@
         <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt; pour les champs laissés vides</translation>
     </message>
     <message>
+        <source>A building has a plane of at least this area. Smaller planes are found only within 5 m of a larger one. Below about 5 m2, tops of conifers become buildings.</source>
+        <translation>Un bâtiment a un plan d'au moins cette surface. Les plans plus petits ne sont trouvés qu'à moins de 5 m d'un plus grand. En dessous d'environ 5 m², des cimes de conifères deviennent des bâtiments.</translation>
+    </message>
+    <message>
         <source>A checkpoint has no height. Choose the attribute with the heights.</source>
         <translation>Un point de contrôle n'a pas d'altitude. Choisissez l'attribut qui contient les altitudes.</translation>
     </message>
@@ -378,8 +382,18 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Classe les points sol de nombreux fichiers comme s'ils n'en formaient qu'un, et écrit chaque fichier sous son nom dans le dossier de sortie. Un nuage de points virtuel (.vpc) énumère les résultats.</translation>
     </message>
     <message>
+        <source>Classifies the points above the ground of a classified point cloud: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18). Buildings are found by planes that laser pulses meet once; without return numbers the planes alone decide, and smooth crowns can become buildings.
+Only points of class 0 and 1 change, unless you ask for more. Nothing else in the file changes. Lengths are metres, whatever the unit of the CRS.</source>
+        <translation>Classe les points au-dessus du sol d'un nuage de points classé : végétation basse, moyenne et haute (3, 4, 5) selon la hauteur au-dessus du sol, bâtiments (6), ponts (17) et bruit haut (18). Les bâtiments sont reconnus à des plans qu'une impulsion laser ne rencontre qu'une fois ; sans numéros de retour, seuls les plans décident, et des houppiers lisses peuvent devenir des bâtiments.
+Seuls les points des classes 0 et 1 changent, sauf demande contraire. Rien d'autre ne change dans le fichier. Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
+    </message>
+    <message>
         <source>Classifies the points in a window with each of the settings, and makes a web page, which opens from the Results Viewer. It shows the terrain of each setting, a profile, the share of ground, where the settings differ, and how to run each of them on all points. No point cloud is written. Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is read as a whole.</source>
         <translation>Classe les points d'une fenêtre avec chacun des réglages, et produit une page web, qui s'ouvre depuis le visualiseur de résultats. Elle montre le terrain de chaque réglage, un profil, la part du sol, les endroits où les réglages diffèrent, et comment appliquer chacun d'eux à tous les points. Aucun nuage de points n'est écrit. D'un fichier COPC, seule la fenêtre est lue, en quelques secondes ; un fichier LAS ou LAZ est lu en entier.</translation>
+    </message>
+    <message>
+        <source>Classify above ground</source>
+        <translation>Classer au-dessus du sol</translation>
     </message>
     <message>
         <source>Classify ground (TIN densification)</source>
@@ -400,6 +414,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Classify model key points</source>
         <translation>Classer les points clés du modèle</translation>
+    </message>
+    <message>
+        <source>Classify vegetation and buildings anew</source>
+        <translation>Reclasser la végétation et les bâtiments</translation>
     </message>
     <message>
         <source>Closed lines that are shorter are left out: they show single plants and noise.</source>
@@ -484,6 +502,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Règles décisives</translation>
     </message>
     <message>
+        <source>Decks of bridges, found by their cross-sections. Otherwise they become buildings or vegetation. Points that have class 17 already keep it.</source>
+        <translation>Tabliers de ponts, reconnus à leurs coupes en travers. Sinon, ils deviennent des bâtiments ou de la végétation. Les points qui ont déjà la classe 17 la gardent.</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Profondeur des points aberrants bas</translation>
     </message>
@@ -548,6 +570,18 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Hauteur finale</translation>
     </message>
     <message>
+        <source>Find bridges (17)</source>
+        <translation>Trouver les ponts (17)</translation>
+    </message>
+    <message>
+        <source>Find buildings (6)</source>
+        <translation>Trouver les bâtiments (6)</translation>
+    </message>
+    <message>
+        <source>Find high noise (18)</source>
+        <translation>Trouver le bruit haut (18)</translation>
+    </message>
+    <message>
         <source>Finds the few ground points of a classified point cloud that a terrain model needs. Of all other ground points, none lies farther above or below the triangulation (TIN) of these key points than the tolerances. Key points get a class of their own, or the key-point flag; nothing else in the file changes.
 Lengths are metres, whatever the unit of the CRS.</source>
         <translation>Trouve les quelques points sol d'un nuage de points classé dont un modèle de terrain a besoin. Parmi tous les autres points sol, aucun n'est plus haut ou plus bas par rapport à la triangulation (TIN) de ces points clés que les tolérances. Les points clés reçoivent une classe à part, ou l'indicateur de point clé ; rien d'autre ne change dans le fichier.
@@ -610,6 +644,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Finds the ground points of the many files of a survey, without seams between them.</source>
         <translation>Trouve les points sol des nombreux fichiers d'un levé, sans raccords visibles entre eux.</translation>
+    </message>
+    <message>
+        <source>Finds vegetation, buildings and bridges in a point cloud whose ground is known.</source>
+        <translation>Trouve la végétation, les bâtiments et les ponts dans un nuage de points dont le sol est connu.</translation>
     </message>
     <message>
         <source>First and single returns</source>
@@ -756,6 +794,18 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Hauteur au-dessus du sol</translation>
     </message>
     <message>
+        <source>Height at which high vegetation begins</source>
+        <translation>Hauteur à laquelle commence la végétation haute</translation>
+    </message>
+    <message>
+        <source>Height at which low vegetation begins</source>
+        <translation>Hauteur à laquelle commence la végétation basse</translation>
+    </message>
+    <message>
+        <source>Height at which medium vegetation begins</source>
+        <translation>Hauteur à laquelle commence la végétation moyenne</translation>
+    </message>
+    <message>
         <source>Height of high outliers</source>
         <translation>Hauteur des points aberrants hauts</translation>
     </message>
@@ -782,6 +832,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Heights of the bare ground.</source>
         <translation>Altitudes du sol nu.</translation>
+    </message>
+    <message>
+        <source>Heights of vegetation</source>
+        <translation>Hauteurs de la végétation</translation>
     </message>
     <message>
         <source>Highest height</source>
@@ -822,6 +876,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>How many threads compute at the same time. The result does not depend on it. Empty: as many as there are processors.</source>
         <translation>Le nombre de fils d'exécution qui calculent en même temps. Le résultat n'en dépend pas. Vide : autant qu'il y a de processeurs.</translation>
+    </message>
+    <message>
+        <source>If this is off, only points of class 0 and 1 change. If it is on, points of class 3 to 6 are decided anew as well. All others keep their class, such as water (9) and wires.</source>
+        <translation>Si ceci est désactivé, seuls les points des classes 0 et 1 changent. Sinon, les points des classes 3 à 6 sont aussi décidés à nouveau. Tous les autres gardent leur classe, comme l'eau (9) et les câbles.</translation>
     </message>
     <message>
         <source>Ignored classes of the reference</source>
@@ -940,8 +998,16 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Les derniers retours atteignent le sol. Prenez tous les retours si les numéros de retour du fichier sont faux.</translation>
     </message>
     <message>
+        <source>Least area of a roof</source>
+        <translation>Surface minimale d'un toit</translation>
+    </message>
+    <message>
         <source>Least confidence</source>
         <translation>Fiabilité minimale</translation>
+    </message>
+    <message>
+        <source>Least height of a roof</source>
+        <translation>Hauteur minimale d'un toit</translation>
     </message>
     <message>
         <source>Leave out</source>
@@ -1224,6 +1290,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Les points sont comparés à leurs voisins jusqu'à cette distance. Choisissez au moins la moitié du petit côté du plus grand bâtiment. Vide : d'après le préréglage, 18 m dans l'automatique (plus si la densité de points est faible), 2 m dans Whitebox.</translation>
     </message>
     <message>
+        <source>Points below this height above ground, and points below the ground, become class 1.</source>
+        <translation>Les points sous cette hauteur au-dessus du sol, et les points sous le sol, reçoivent la classe 1.</translation>
+    </message>
+    <message>
         <source>Points in the area</source>
         <translation>Points dans la zone</translation>
     </message>
@@ -1270,6 +1340,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Points up to this distance outside the window are read too, but not shown. A larger value is slower, and gives classes closer to those of the whole file near the edges of the window and beside large buildings. Empty: as far as the methods look, at most 50 m.</source>
         <translation>Les points jusqu'à cette distance hors de la fenêtre sont lus aussi, mais pas montrés. Une valeur plus grande est plus lente, et donne près des bords de la fenêtre et à côté de grands bâtiments des classes plus proches de celles du fichier entier. Vide : aussi loin que les méthodes regardent, au plus 50 m.</translation>
+    </message>
+    <message>
+        <source>Points with a new class</source>
+        <translation>Points dont la classe est nouvelle</translation>
     </message>
     <message>
         <source>Polygons in which the terrain uses no ground points, such as bridges and roofs. The classes of the points do not change.</source>
@@ -1408,6 +1482,14 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Rivières</translation>
     </message>
     <message>
+        <source>Roofs are at least this high above the ground. Lower ones are cars and hedges too.</source>
+        <translation>Les toits sont au moins à cette hauteur au-dessus du sol. Plus bas, il y a aussi des voitures et des haies.</translation>
+    </message>
+    <message>
+        <source>Roofs are planes of some size that a laser pulse meets once. Walls below their edges, and chimneys and dormers, belong to them.</source>
+        <translation>Les toits sont des plans d'une certaine taille qu'une impulsion laser ne rencontre qu'une fois. Les murs sous leurs bords, les cheminées et les lucarnes en font partie.</translation>
+    </message>
+    <message>
         <source>Rule that decided each cell</source>
         <translation>Règle qui a décidé de chaque cellule</translation>
     </message>
@@ -1542,6 +1624,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Smoothing of pictures of the relief</source>
         <translation>Lissage des images du relief</translation>
+    </message>
+    <message>
+        <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
+        <translation>Petits groupes de points suspendus à au moins 10 m au-dessus de tous les autres du lieu : oiseaux, nuages.</translation>
     </message>
     <message>
         <source>Smoothing of the contour lines</source>
@@ -1780,6 +1866,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Les mêmes points, ou certains d'entre eux, avec leurs vraies classes.</translation>
     </message>
     <message>
+        <source>The same points, with the classes above the ground.</source>
+        <translation>Les mêmes points, avec les classes au-dessus du sol.</translation>
+    </message>
+    <message>
         <source>The same points, with the key points marked.</source>
         <translation>Les mêmes points, avec les points clés marqués.</translation>
     </message>
@@ -1904,8 +1994,24 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Utiliser comme les autres</translation>
     </message>
     <message>
+        <source>Used only with limits of your own.</source>
+        <translation>Utilisé seulement avec vos propres limites.</translation>
+    </message>
+    <message>
         <source>Vegetated land covers</source>
         <translation>Occupations du sol avec végétation</translation>
+    </message>
+    <message>
+        <source>Vegetation by limits of your own</source>
+        <translation>Végétation selon vos propres limites</translation>
+    </message>
+    <message>
+        <source>Vegetation low below 0.5 m, medium to 1.5 m, high above (IGN)</source>
+        <translation>Végétation basse sous 0,5 m, moyenne jusqu'à 1,5 m, haute au-dessus (IGN)</translation>
+    </message>
+    <message>
+        <source>Vegetation low below 0.5 m, medium to 2 m, high above</source>
+        <translation>Végétation basse sous 0,5 m, moyenne jusqu'à 2 m, haute au-dessus</translation>
     </message>
     <message>
         <source>Virtual point cloud</source>
@@ -1918,6 +2024,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
         <translation>Ce qu'il faut produire, un raster pour chaque type. La topographie archéologique (VAT) en montre le plus en une seule image.</translation>
+    </message>
+    <message>
+        <source>What is no building, no bridge and no noise becomes low (3), medium (4) or high (5) vegetation by its height above ground. The LAS specification has these classes, but no limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.</source>
+        <translation>Ce qui n'est ni bâtiment, ni pont, ni bruit devient végétation basse (3), moyenne (4) ou haute (5) selon sa hauteur au-dessus du sol. La spécification LAS a ces classes, mais pas de limites : 0,5 et 2 m sont usuels. Le LiDAR HD de l'IGN a 0,5 et 1,5 m.</translation>
     </message>
     <message>
         <source>Wheel file of lazrs</source>
@@ -1990,6 +2100,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>between ditches</source>
         <translation>entre des fossés</translation>
+    </message>
+    <message>
+        <source>buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign</source>
+        <translation>bâtiments,toits,arbres,classes,classification,ponts,bruit,lasclassify,asprs,ign</translation>
     </message>
     <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
@@ -2098,6 +2212,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>m or ft</source>
         <translation>m ou ft</translation>
+    </message>
+    <message>
+        <source>m2</source>
+        <translation>m²</translation>
     </message>
     <message>
         <source>narrow pits</source>

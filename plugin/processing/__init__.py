@@ -2,6 +2,7 @@
 
 from .assess import AssessAlgorithm
 from .check import CheckAlgorithm
+from .classify_above_ground import ClassifyAboveGroundAlgorithm
 from .classify_tiles import ClassifyTilesAlgorithm
 from .compare_settings import CompareSettingsAlgorithm
 from .ground_filters import GROUND_FILTERS
@@ -18,6 +19,7 @@ ALGORITHMS = (
     ClassifyTilesAlgorithm,
     TerrainModelAlgorithm,
     HeightAboveGroundAlgorithm,
+    ClassifyAboveGroundAlgorithm,
     ModelKeyPointsAlgorithm,
     CompareSettingsAlgorithm,
     AssessAlgorithm,

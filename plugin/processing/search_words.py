@@ -28,6 +28,10 @@ _WORDS = {
     "classifytiles": (_CLOUD, _GROUND, _TERRAIN, _TILES),
     "terrainmodel": (_CLOUD, _TERRAIN, _CANOPY, _TIN, _RASTER),
     "heightaboveground": (_CLOUD, _CANOPY, _TIN, mark("height,extra bytes")),
+    "classifyaboveground": (
+        _CLOUD, _CANOPY,
+        mark("buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign"),
+    ),
     "modelkeypoints": (
         _CLOUD, _TERRAIN, _TIN, mark("ground,thin,thinning,generalize,keypoints,contours"),
     ),

@@ -24,8 +24,8 @@ from bare_earth.algorithms.engine import jobs as jobs_module
 from bare_earth.algorithms.engine import labelling as labelling_module
 from bare_earth.algorithms.engine import tile_run as tile_run_module
 from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
-from bare_earth.algorithms.engine.blocks import BRIDGE, GROUND, LOW, Blocks
-from bare_earth.algorithms.engine.ground import label_ground
+from bare_earth.algorithms.engine.blocks import Blocks
+from bare_earth.algorithms.engine.ground import Label, label_ground
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
 from bare_earth.algorithms.engine.output import Output
@@ -84,8 +84,8 @@ def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
     rows = points_of([path])
     unsorted = np.column_stack((cloud.x, cloud.y, cloud.z)).astype(np.int64)
     shift = np.round((np.array(cloud.offset) - (500_000.0, 5_700_000.0, 0.0)) / cloud.scale)
-    low, decks = labels == LOW, labels == BRIDGE
-    classes = selection.classes(cloud, labels == GROUND, low, decks=decks)
+    low, decks = labels == Label.LOW, labels == Label.BRIDGE
+    classes = selection.classes(cloud, labels == Label.GROUND, low, decks=decks)
     found = np.column_stack((unsorted + shift.astype(np.int64), classes))
     found = found[np.lexsort(found.T[::-1])]
     assert np.array_equal(found[:, :3], rows[:, :3])

@@ -14,11 +14,11 @@ from bare_earth.algorithms.core.progress import SILENT, Progress
 from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.engine import ground as ground_module
 from bare_earth.algorithms.engine.blocks import Blocks
+from bare_earth.algorithms.engine.blockwise import run_jobs
 from bare_earth.algorithms.engine.disk_store import DiskStore
 from bare_earth.algorithms.engine.ground import blocks_of, label_ground
 from bare_earth.algorithms.engine.memory import Cost, Resources, free_memory
 from bare_earth.algorithms.engine.one_file import classify_cloud
-from bare_earth.algorithms.engine.scheduling import run_jobs
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum

@@ -94,6 +94,11 @@ PARAMETERS = {
         "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP", "OUTPUT_AS", "THREADS", "MEMORY", "OUTPUT",
         "DTM",
     ],
+    "bareearth:classifyaboveground": [
+        "INPUT", "CRS", "ABOVE_GROUND", "MEDIUM_HEIGHT", "HIGH_HEIGHT", "LOW_HEIGHT", "BUILDINGS",
+        "BUILDING_AREA", "BUILDING_HEIGHT", "MARK_BRIDGES", "MARK_HIGH_NOISE", "RECLASSIFY",
+        "GROUND_CLASSES", "OVERLAP", "THREADS", "MEMORY", "OUTPUT",
+    ],
     "bareearth:modelkeypoints": [
         "INPUT", "CRS",
         "TOLERANCE_ABOVE", "TOLERANCE_BELOW", "GRID_SIZE",
@@ -162,6 +167,12 @@ OUTPUTS = {
         "GROUND_COUNT",
         "MINIMUM",
         "MAXIMUM",
+    ],
+    "bareearth:classifyaboveground": [
+        "OUTPUT",
+        "POINT_COUNT",
+        "GROUND_COUNT",
+        "CHANGED_COUNT",
     ],
     "bareearth:modelkeypoints": ["OUTPUT", "POINT_COUNT", "GROUND_COUNT", "KEY_POINT_COUNT"],
     "bareearth:terrainmodel": [

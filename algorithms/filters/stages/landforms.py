@@ -1,4 +1,4 @@
-"""Land that looks like objects: steps on slopes, rocks, low banks, and land between ditches."""
+"""Land that looks like objects: steps on slopes, rocks, ramps, banks, and land between ditches."""
 
 from __future__ import annotations
 
@@ -153,6 +153,71 @@ class Rocks(Rule):
             in_band = np.searchsorted(z, z + self.band) - np.arange(len(z))
             is_rock[rock] = in_band.max() <= self.band_share * len(z)
         return is_rock
+
+
+@dataclass(frozen=True)
+class Ramps(Rule):
+    """A straight strip that rises evenly from the ground is a ramp.
+
+    An example is a road on a dam with walls that climbs to a bridge: all of its border except one
+    end drops. The height of a bridge or a roof does not grow from one end to the other. No real
+    tile needs this rule so far. Without it, generated ramps lose 5 to 18 % of their ground.
+
+    Attributes
+    ----------
+    area : float
+        Least area in square metres.
+    length : float
+        Least length over width.
+    rise : float
+        Least rise in metres.
+    share : float
+        The place along it explains at least this share of the variance of its height above the
+        ground.
+    start : float
+        It begins at the height of the ground, within this share of its rise.
+    foot : float
+        It is level with the ground along at least this share of its width.
+    """
+
+    stage: ClassVar = Stage.TERRAIN
+
+    area: float = 100.0
+    length: float = 4.0
+    rise: float = 2.0
+    share: float = 0.9
+    start: float = 0.25
+    foot: float = 0.5
+
+    def fits(self, regions: RaisedRegions) -> np.ndarray:
+        """Return which regions are ramps; boolean, shape (regions,)."""
+        is_ramp = regions.area >= self.area
+        if not is_ramp.any():
+            return is_ramp
+        count, number = len(regions.area), regions.number
+        cells = np.maximum(np.bincount(number, minlength=count), 1)
+
+        def mean(values: np.ndarray) -> np.ndarray:
+            return np.bincount(number, values, count) / cells
+
+        row, column = np.divmod(regions.cells, regions.shape[1])
+        x, y, z = (
+            values - mean(values)[number]
+            for values in (regions.size * column, regions.size * row, regions.heights_above)
+        )
+        xx, xy, yy = (mean(product) for product in (x * x, x * y, y * y))
+        # Variances along the longer and the shorter axis, and the direction of the longer one.
+        apart = np.hypot((xx - yy) / 2.0, xy)
+        along, across = ((xx + yy) / 2.0 + sign * apart for sign in (1.0, -1.0))
+        angle = np.arctan2(2.0 * xy, xx - yy) / 2.0
+        length, width = (np.sqrt(12.0 * np.maximum(side, 0.0)) for side in (along, across))
+        common = np.abs(np.cos(angle) * mean(x * z) + np.sin(angle) * mean(y * z))
+        rise = length * common / np.maximum(along, 1e-9)
+        is_ramp &= (length >= self.length * width) & (rise >= self.rise)
+        is_ramp &= common**2 >= self.share * along * mean(z * z)
+        foot = np.bincount(regions.feet, minlength=count) * regions.size
+        is_ramp &= np.abs(regions.above - rise / 2.0) <= self.start * rise
+        return is_ramp & (foot >= self.foot * width)
 
 
 @dataclass(frozen=True)

@@ -191,6 +191,8 @@ class RaisedRegions(NamedTuple):
         Height of each of these cells, and its height above the ground, in metres.
     area, above : numpy.ndarray of float64, shape (regions,)
         Square metres; mean height above the ground in metres.
+    feet : numpy.ndarray of int64, shape (k,)
+        Region of each raised cell that is level with the ground beside it, once for each such side.
     filled : numpy.ndarray of float32, shape (rows, columns)
         Heights of all cells in metres, without NaN.
     borders : list
@@ -205,6 +207,7 @@ class RaisedRegions(NamedTuple):
     heights_above: np.ndarray
     area: np.ndarray
     above: np.ndarray
+    feet: np.ndarray
     filled: np.ndarray
     borders: list[list[_Pairs]]
 
@@ -247,6 +250,7 @@ def raised_regions(
     area = np.bincount(number, minlength=count) * size**2
     heights = grid.filled.ravel()[cells]
     above = heights - grid.surface.ravel()[cells]
+    feet = np.where(up[one], one, other)[(sign == 0) & (up[one] != up[other])]
     return RaisedRegions(
         size,
         raised.shape,
@@ -256,6 +260,7 @@ def raised_regions(
         above,
         area,
         np.bincount(number, above, count) * size**2 / area,
+        region[feet[seen[feet]]],
         grid.filled,
         _borders(region, up, steps, seen),
     )

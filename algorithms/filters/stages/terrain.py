@@ -14,7 +14,7 @@ import numpy as np
 from ...core.progress import SILENT, Progress
 from ..pipeline import GridRule, Rule, Stage
 from ..state import GridState
-from .landforms import LowBanks, OnSlope, Rocks
+from .landforms import LowBanks, OnSlope, Ramps, Rocks
 from .regions import RaisedRegions, raised_regions
 
 
@@ -116,13 +116,14 @@ class GentleRegions(GridRule):
     gentle_border: GentleBorder | None = GentleBorder()
     level_border: LevelBorder | None = LevelBorder()
     rocks: Rocks | None = Rocks()
+    ramps: Ramps | None = Ramps()
     low_banks: LowBanks | None = LowBanks()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Let regions be ground that are terrain; objects only where they are landforms."""
         regions = self.regions(grid)
         landforms = np.zeros(len(regions.area), dtype=bool)
-        for rule in (self.rocks, self.low_banks):
+        for rule in (self.rocks, self.ramps, self.low_banks):
             if rule:
                 landforms |= rule.fits(regions)
         terrain = self._joined(regions, landforms)
