@@ -1622,12 +1622,12 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Neigungsschwelle</translation>
     </message>
     <message>
-        <source>Smoothing of pictures of the relief</source>
-        <translation>Glättung der Bilder des Reliefs</translation>
-    </message>
-    <message>
         <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
         <translation>Kleine Gruppen von Punkten, die mindestens 10 m über allen anderen ihres Orts hängen: Vögel, Wolken.</translation>
+    </message>
+    <message>
+        <source>Smoothing of pictures of the relief</source>
+        <translation>Glättung der Bilder des Reliefs</translation>
     </message>
     <message>
         <source>Smoothing of the contour lines</source>
@@ -2022,12 +2022,12 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Gewässer</translation>
     </message>
     <message>
-        <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
-        <translation>Was gemacht wird, je ein Raster. Die archäologische Topographie (VAT) zeigt am meisten in einem Bild.</translation>
-    </message>
-    <message>
         <source>What is no building, no bridge and no noise becomes low (3), medium (4) or high (5) vegetation by its height above ground. The LAS specification has these classes, but no limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.</source>
         <translation>Was weder Gebäude noch Brücke noch Rauschen ist, wird nach seiner Höhe über Grund niedrige (3), mittlere (4) oder hohe (5) Vegetation. Die LAS-Spezifikation hat diese Klassen, aber keine Grenzen: 0,5 und 2 m sind üblich. LiDAR HD des IGN hat 0,5 und 1,5 m.</translation>
+    </message>
+    <message>
+        <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
+        <translation>Was gemacht wird, je ein Raster. Die archäologische Topographie (VAT) zeigt am meisten in einem Bild.</translation>
     </message>
     <message>
         <source>Wheel file of lazrs</source>

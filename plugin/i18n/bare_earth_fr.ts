@@ -1622,12 +1622,12 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Seuil de pente</translation>
     </message>
     <message>
-        <source>Smoothing of pictures of the relief</source>
-        <translation>Lissage des images du relief</translation>
-    </message>
-    <message>
         <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
         <translation>Petits groupes de points suspendus à au moins 10 m au-dessus de tous les autres du lieu : oiseaux, nuages.</translation>
+    </message>
+    <message>
+        <source>Smoothing of pictures of the relief</source>
+        <translation>Lissage des images du relief</translation>
     </message>
     <message>
         <source>Smoothing of the contour lines</source>
@@ -2022,12 +2022,12 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Eau</translation>
     </message>
     <message>
-        <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
-        <translation>Ce qu'il faut produire, un raster pour chaque type. La topographie archéologique (VAT) en montre le plus en une seule image.</translation>
-    </message>
-    <message>
         <source>What is no building, no bridge and no noise becomes low (3), medium (4) or high (5) vegetation by its height above ground. The LAS specification has these classes, but no limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.</source>
         <translation>Ce qui n'est ni bâtiment, ni pont, ni bruit devient végétation basse (3), moyenne (4) ou haute (5) selon sa hauteur au-dessus du sol. La spécification LAS a ces classes, mais pas de limites : 0,5 et 2 m sont usuels. Le LiDAR HD de l'IGN a 0,5 et 1,5 m.</translation>
+    </message>
+    <message>
+        <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
+        <translation>Ce qu'il faut produire, un raster pour chaque type. La topographie archéologique (VAT) en montre le plus en une seule image.</translation>
     </message>
     <message>
         <source>Wheel file of lazrs</source>
