@@ -43,9 +43,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         self.add_declared()
         add_limits(self)
         outputs.add_cloud(self, optional=True)
-        # *Relief of a terrain model* makes more of them.
-        rasters = "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF"
-        outputs.add_rasters(self, rasters, ("DTM", "HILLSHADE", "DSM", "CHM"))
+        outputs.add_rasters(self, default=("DTM", "HILLSHADE", "DSM", "CHM"))
         outputs.add_contours(self)
         self.add_numbers({"POINT_COUNT": "Points", "GROUND_COUNT": "Ground points"})
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from qgis.core import (
-    QgsProcessingContext,
     QgsProcessingOutputRasterLayer,
     QgsProcessingParameterFolderDestination,
     QgsProcessingParameterRasterLayer,
-    QgsProcessingUtils,
 )
 
 from ...algorithms.products.relief import KINDS, ReliefKinds, ReliefPictures, write_reliefs
+from .. import compat
 from ..i18n import mark
 from ..styles import layers
 from .base import BareEarthAlgorithm, command_line
@@ -70,9 +69,7 @@ class ReliefAlgorithm(BareEarthAlgorithm):
         made = write_reliefs(self._source, folder, kinds, how, progress)
         results = {_output_of(kind): str(path) for kind, path in made.items()}
         for name, path in results.items():
-            hint = QgsProcessingUtils.LayerHint.Raster
-            details = QgsProcessingContext.LayerDetails(name, context.project(), name, hint)
-            context.addLayerToLoadOnCompletion(path, details)
+            compat.load_raster(path, context)
             self.show(path, layers.RASTERS[name])
         return {"OUTPUT_FOLDER": str(folder), **results}
 
