@@ -118,7 +118,7 @@ def _classified(options: argparse.Namespace, request: ClassifyRequest) -> int:
     from ..engine.one_file import Summary
     from ..engine.runs import classify
 
-    as_survey = options.command == _TILES or bool(options.scheduler)
+    as_survey = options.command == _TILES or bool(options.scheduler) or None
     workers = workers_of(options, request.resources)
     with Terminal(options.verbose) as progress:
         done = classify(

@@ -152,7 +152,7 @@ def _write(options: argparse.Namespace) -> int:
         request = AboveGroundRequest.of(chosen(options), area=area_of(options), crs=options.crs)
     else:
         request = KeyPointRequest.of(chosen(options), crs=options.crs)
-    workers, as_survey = workers_of(options, request.resources), bool(options.scheduler)
+    workers, as_survey = workers_of(options, request.resources), bool(options.scheduler) or None
     with Terminal(options.verbose) as progress:
         done = write(options.input, options.output, request, progress, workers, as_survey)
     if isinstance(done, SurveySummary):

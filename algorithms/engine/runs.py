@@ -33,7 +33,7 @@ def classify(
     progress: Progress = SILENT,
     workers: Workers | None = None,
     vpc: Path | None = None,
-    as_survey: bool = False,
+    as_survey: bool | None = None,
 ) -> Any:
     """Classify the ground points of a file, or of many files as one survey.
 
@@ -52,8 +52,9 @@ def classify(
         The workers for many files; by default threads of this process.
     vpc : path, optional
         For many files, the virtual point cloud of the results; by default in the folder.
-    as_survey : bool
-        Whether one file is treated as a survey of many, and its output is in a folder.
+    as_survey : bool, optional
+        Whether the inputs are a survey, whose outputs are in a folder, or one file. By default, one
+        file is not a survey, and all else is.
 
     Returns
     -------
@@ -86,7 +87,7 @@ def heights(
     request: HeightRequest = HeightRequest(),
     progress: Progress = SILENT,
     workers: Workers | None = None,
-    as_survey: bool = False,
+    as_survey: bool | None = None,
 ) -> Any:
     """Write classified files with the height of every point above the ground.
 
@@ -116,7 +117,7 @@ def key_points(
     request: KeyPointRequest = KeyPointRequest(),
     progress: Progress = SILENT,
     workers: Workers | None = None,
-    as_survey: bool = False,
+    as_survey: bool | None = None,
 ) -> Any:
     """Write classified files with their model key points marked.
 
@@ -146,7 +147,7 @@ def above_ground(
     request: AboveGroundRequest = AboveGroundRequest(),
     progress: Progress = SILENT,
     workers: Workers | None = None,
-    as_survey: bool = False,
+    as_survey: bool | None = None,
 ) -> Any:
     """Write classified files with the points above the ground classified too.
 
@@ -215,7 +216,7 @@ def write(
     request: HeightRequest | KeyPointRequest | AboveGroundRequest,
     progress: Progress = SILENT,
     workers: Workers | None = None,
-    as_survey: bool = False,
+    as_survey: bool | None = None,
 ) -> Any:
     """Do what `heights`, `key_points` or `above_ground` does, as the type of the request says."""
     paths, target = _paths(sources), Path(output)
@@ -224,9 +225,9 @@ def write(
     return write_files(paths, target, [request.step], request, progress, workers)
 
 
-def _is_one(paths: list[Path], as_survey: bool = False) -> bool:
+def _is_one(paths: list[Path], as_survey: bool | None = None) -> bool:
     """Return whether a run works on one file."""
-    return not as_survey and is_one_file(paths)
+    return is_one_file(paths) if as_survey is None else not as_survey
 
 
 def _paths(sources: Sources) -> list[Path]:
