@@ -2,6 +2,7 @@
 
 from .assess import AssessAlgorithm
 from .check import CheckAlgorithm
+from .classify_above_ground import ClassifyAboveGroundAlgorithm
 from .classify_tiles import ClassifyTilesAlgorithm
 from .compare_settings import CompareSettingsAlgorithm
 from .ground_filters import GROUND_FILTERS
@@ -9,6 +10,7 @@ from .height_above_ground import HeightAboveGroundAlgorithm
 from .model_key_points import ModelKeyPointsAlgorithm
 from .point_cloud_to_terrain import PointCloudToTerrainAlgorithm
 from .quality import QualityAlgorithm
+from .relief import ReliefAlgorithm
 from .remove_off_terrain_objects import RemoveOffTerrainObjectsAlgorithm
 from .terrain_model import TerrainModelAlgorithm
 
@@ -18,10 +20,12 @@ ALGORITHMS = (
     ClassifyTilesAlgorithm,
     TerrainModelAlgorithm,
     HeightAboveGroundAlgorithm,
+    ClassifyAboveGroundAlgorithm,
     ModelKeyPointsAlgorithm,
     CompareSettingsAlgorithm,
     AssessAlgorithm,
     CheckAlgorithm,
     QualityAlgorithm,
+    ReliefAlgorithm,
     RemoveOffTerrainObjectsAlgorithm,
 )
