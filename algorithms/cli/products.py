@@ -189,6 +189,35 @@ def _terrain(options: argparse.Namespace) -> int:
     return DONE
 
 
+def _add_water(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..products.line_files import FORMATS
+    from ..products.water import Water
+    from ..survey.ground_classes import GroundClasses
+
+    add_inputs(parser, "a classified file, or ")
+    add_crs(parser)
+    kinds = f"({', '.join(FORMATS)}); all but .geojson need pyogrio"
+    parser.add_argument(
+        "output", metavar="OUTPUT", type=Path, help=f"the polygons of water to write {kinds}"
+    )
+    parser.add_argument(
+        "--breaklines-out", metavar="FILE", type=Path,
+        help=f"write shores, islands and the middles of rivers as lines with heights {kinds}",
+    )  # fmt: skip
+    add_json(parser)
+    add_parameters(parser, Water, GroundClasses)
+
+
+def _water(options: argparse.Namespace) -> int:
+    from ..products.water_files import WaterRequest, write_water
+
+    request = WaterRequest.of(chosen(options), crs=options.crs, breaklines=options.breaklines_out)
+    with Terminal(options.verbose) as progress:
+        summary = write_water(options.input, options.output, request, progress)
+    tell(options, summary, f"{options.output}: {summary.text}")
+    return DONE
+
+
 COMMANDS = (
     Command(
         "remove-off-terrain-objects",
@@ -238,5 +267,14 @@ COMMANDS = (
         " It shows mounds, ditches and old paths.",
         _add_relief,
         _relief,
+    ),
+    Command(
+        "water",
+        "find lakes and rivers in classified points",
+        "Finds water where hardly any last return is, and the ground along its shore is level or"
+        " falls steadily: polygons with level, spread of the shore and a grade of certainty, and"
+        " breaklines with heights.",
+        _add_water,
+        _water,
     ),
 )

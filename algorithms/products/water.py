@@ -24,8 +24,9 @@ from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_
 _CLOSE, _OPEN = 1.5, 1.5
 # Islands smaller than this, in square metres, belong to the water.
 _LEAST_ISLAND = 100.0
-# Spread in metres of a shore from its level, up to which it is water.
-_MOST_SPREAD = 0.3
+# Spread in metres of a shore from its level, up to which it is water. In coarse cells, banks have
+# so many metres for each metre of a cell.
+_MOST_SPREAD, _SPREAD_A_METRE = 0.3, 0.12
 # A river falls by so many metres, is so many times as long as wide, and its shore fits a falling
 # level so much better than one level.
 _FALL, _ELONGATED, _BETTER = 0.15, 3.0, 0.8
@@ -202,13 +203,14 @@ def _body_of(
         return None
     kind, levels = _levels_of(water, shore)
     width = levels.width * grid.cell
-    if levels.spread > _MOST_SPREAD * (1.0 + classified) or width < _least_width(kind, how):
+    most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell) * (1.0 + classified)
+    if levels.spread > most or width < (how.min_width if kind == "river" else 0.0):
         return None
     lowest = grid.lowest[window]
     if not _is_free(water, lowest, levels):
         return None
     filled = _filled(region, grid, usual)
-    certainty = _certainty(max(1.0 - filled, share), levels.spread, max(rising, share))
+    certainty = _certainty(max(1.0 - filled, share), levels.spread / most, max(rising, share))
     return _made(kind, region, grid, levels, (certainty, share, filled, width))
 
 
@@ -216,10 +218,6 @@ def _rising(shore: Shore) -> float:
     """Return the share of segments of a shore from which the land rises."""
     known = shore.rises[~np.isnan(shore.rises)]
     return float((known > _RISE).mean()) if len(known) else 0.0
-
-
-def _least_width(kind: str, how: Water) -> float:
-    return how.min_width if kind == "river" else 0.0
 
 
 def _levels_of(water: np.ndarray, shore: Shore) -> tuple[str, Levels]:
@@ -252,9 +250,8 @@ def _filled(region: _Region, grid: WaterGrid, usual: np.ndarray) -> float:
 
 
 def _certainty(evidence: float, spread: float, rising: float) -> float:
-    """Return how certain it is that a region is water, 0 to 1."""
-    level = max(1.0 - spread / (2.0 * _MOST_SPREAD), 0.0)
-    return float(evidence * level * rising) ** (1.0 / 3.0)
+    """Return how certain it is that a region is water, 0 to 1; `spread` is a share of the most."""
+    return float(evidence * (1.0 - spread / 2.0) * rising) ** (1.0 / 3.0)
 
 
 def _made(

@@ -10,8 +10,8 @@ import numpy as np
 # Cells round the water whose ground is its shore, and cells farther out that show whether the land
 # rises from it.
 _SHORE, _BEYOND = 2, 6
-# Length in metres of the segments of a shore; fewest segments that a small shore is cut into.
-_SEGMENT, _SEGMENTS = 20.0, 12
+# Length of the segments of a shore in metres, and least in cells; fewest segments of a small shore.
+_SEGMENT, _SEGMENT_CELLS, _SEGMENTS = 20.0, 8.0, 12
 # Share of the shore that is below its level: banks are higher.
 LEVEL_PERCENTILE = 10.0
 # Most cells in which the way along a river is searched.
@@ -102,7 +102,8 @@ def shore_of(water: np.ndarray, ground: np.ndarray, cell: float) -> Shore | None
     rows, columns = np.nonzero(is_shore & has_ground)
     if not len(rows):
         return None
-    length = min(_SEGMENT / cell, math.sqrt(water.sum()) * 4.0 / _SEGMENTS)
+    length = max(_SEGMENT / cell, _SEGMENT_CELLS)
+    length = min(length, math.sqrt(water.sum()) * 4.0 / _SEGMENTS)
     side = max(int(round(length)), 3)
     squares = (rows // side) * water.shape[1] + columns // side
     names, group = np.unique(squares, return_inverse=True)
