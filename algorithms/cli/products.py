@@ -20,6 +20,7 @@ from .surveys import (
     contours_after,
     raster_target_of,
     tell_of_survey,
+    with_found_water,
     workers_of,
 )
 from .terminal import Terminal, tell
@@ -175,7 +176,8 @@ def _terrain(options: argparse.Namespace) -> int:
     from ..engine.requests import TerrainRequest
     from ..engine.runs import terrain
 
-    known, sets = constraints_of(options), chosen(options)
+    known, sets = constraints_of(options, finds_water=True), chosen(options)
+    known = with_found_water(options, known, sets)
     with contours_after(options, sets) as (rasters, rest):
         request = TerrainRequest.of(
             rest, rasters=rasters, constraints=known, crs=options.crs, area=area_of(options),

@@ -18,10 +18,14 @@ from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isolines
 from ..grids.morphology import closing, dilation, erosion
 from .water_grid import WaterGrid
-from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of
+from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
 
 # Radius in cells of the disc that closes single stray cells, and of that which cuts thin links.
 _CLOSE, _OPEN = 1.5, 1.5
+# Radius in cells of the disc that closes gaps between points of class 9 alone.
+_CLOSE_CLASS = 3.5
+# Fewest segments of a shore.
+_FEWEST = 3
 # Islands smaller than this, in square metres, belong to the water.
 _LEAST_ISLAND = 100.0
 # Spread in metres of a shore from its level, up to which it is water. In coarse cells, banks have
@@ -145,12 +149,9 @@ def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list
     Cancelled
         If the user asked to stop.
     """
-    usual, is_class = grid.usual(), grid.is_water_class
-    found = []
+    usual, found = grid.usual(), []
     for region in _regions(grid, how, progress):
-        body = _body_of(region, grid, usual, is_class, how)
-        if body is not None:
-            found.append(body)
+        found += _bodies_of(region, grid, usual, how)
     return sorted(found, key=lambda each: (-each.rings[0][:, 1].max(), each.rings[0][:, 0].min()))
 
 
@@ -188,34 +189,68 @@ def _with_small_islands(water: np.ndarray, cell: float) -> np.ndarray:
     return water | small[others[1:-1, 1:-1]]
 
 
+def _bodies_of(
+    region: _Region, grid: WaterGrid, usual: np.ndarray, how: Water
+) -> Iterator[WaterBody]:
+    """Yield a region as water; if it is something else, its parts of class 9."""
+    window = region.rows, region.columns
+    is_class = region.water & grid.class_in(*window)
+    share = float(is_class[region.water].mean())
+    if share < _CLASSIFIED:
+        shore = shore_of(region.water, grid.ground[window], grid.cell)
+        rising = _rising(shore)
+        body = None
+        if shore is not None and shore.known >= _LEAST_KNOWN and rising >= _LEAST_RISING:
+            body = _body_of(region, shore, (share, rising), grid, usual, how)
+        if body is not None:
+            yield body
+            return
+    for part in _labelled(closing(is_class, _CLOSE_CLASS), how.min_area / grid.cell**2):
+        part = _with_small_islands(part, grid.cell)
+        shore = surface_of(part & is_class, grid.lowest[window], grid.cell)
+        share = float(is_class[part].mean())
+        body = _body_of(_Region(part, *window), shore, (share, 1.0), grid, usual, how)
+        if body is not None:
+            yield body
+
+
+def _labelled(cells: np.ndarray, least: float) -> Iterator[np.ndarray]:
+    """Yield the connected regions with at least so many cells."""
+    from scipy.ndimage import label
+
+    labels, _ = label(cells)
+    for number in np.flatnonzero(np.bincount(labels.ravel()) >= least):
+        if number:
+            yield labels == number
+
+
 def _body_of(
-    region: _Region, grid: WaterGrid, usual: np.ndarray, is_class: np.ndarray, how: Water
-) -> WaterBody | None:
-    """Return a region as water, or None if it is something else."""
-    water, window = region.water, (region.rows, region.columns)
-    shore = shore_of(water, grid.ground[window], grid.cell)
-    if shore is None or len(shore.lowest) < 3:
+    region: _Region, shore: Shore, marks: tuple[float, float], grid: WaterGrid, usual: np.ndarray,
+    how: Water,
+) -> WaterBody | None:  # fmt: skip
+    """Return a region as water, or None if its level is not that of water.
+
+    `marks` are its share of class 9, and that of the shore from which the land rises.
+    """
+    if len(shore.lowest) < _FEWEST:
         return None
-    share = float(is_class[window][water].mean())
-    classified = share >= _CLASSIFIED
-    rising = _rising(shore)
-    if not classified and (shore.known < _LEAST_KNOWN or rising < _LEAST_RISING):
-        return None
-    kind, levels = _levels_of(water, shore)
+    share, rising = marks
+    kind, levels = _levels_of(region.water, shore)
     width = levels.width * grid.cell
-    most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell) * (1.0 + classified)
+    most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell) * (1.0 + (share >= _CLASSIFIED))
     if levels.spread > most or width < (how.min_width if kind == "river" else 0.0):
         return None
-    lowest = grid.lowest[window]
-    if not _is_free(water, lowest, levels):
+    if not _is_free(region.water, grid.lowest[region.rows, region.columns], levels):
         return None
     filled = _filled(region, grid, usual)
-    certainty = _certainty(max(1.0 - filled, share), levels.spread / most, max(rising, share))
+    certainty = _certainty(max(1.0 - filled, share), levels.spread, rising)
     return _made(kind, region, grid, levels, (certainty, share, filled, width))
 
 
-def _rising(shore: Shore) -> float:
+def _rising(shore: Shore | None) -> float:
     """Return the share of segments of a shore from which the land rises."""
+    if shore is None:
+        return 0.0
     known = shore.rises[~np.isnan(shore.rises)]
     return float((known > _RISE).mean()) if len(known) else 0.0
 
@@ -250,8 +285,9 @@ def _filled(region: _Region, grid: WaterGrid, usual: np.ndarray) -> float:
 
 
 def _certainty(evidence: float, spread: float, rising: float) -> float:
-    """Return how certain it is that a region is water, 0 to 1; `spread` is a share of the most."""
-    return float(evidence * (1.0 - spread / 2.0) * rising) ** (1.0 / 3.0)
+    """Return how certain it is that a region is water, 0 to 1."""
+    level = max(1.0 - spread / (2.0 * _MOST_SPREAD), 0.0)
+    return float(evidence * level * rising) ** (1.0 / 3.0)
 
 
 def _made(

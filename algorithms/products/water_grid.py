@@ -111,10 +111,12 @@ class WaterGrid:
             which = which & inside
             lower_at(heights.reshape(-1), code[which], points.z[which].astype(np.float32))
 
-    @property
-    def is_water_class(self) -> np.ndarray:
-        """Which cells have mostly points of class 9; bool, shape (rows, columns)."""
-        return (self.water > 0) & (self.water >= _CLASS_SHARE * self.counts)
+    def class_in(
+        self, rows: slice = slice(None), columns: slice = slice(None)
+    ) -> np.ndarray:
+        """Return which cells of a window have mostly points of class 9; bool."""
+        water, counts = self.water[rows, columns], self.counts[rows, columns]
+        return (water > 0) & (water >= _CLASS_SHARE * counts)
 
     def usual(self) -> np.ndarray:
         """Return the usual count of last returns round each square of cells; float64.
@@ -144,7 +146,7 @@ class WaterGrid:
         rows, columns = (slice(0, side) for side in self.shape)
         usual = self.by_cell(self.usual().astype(np.float32), rows, columns)
         found = (counts <= _SPARSE * usual) & (round_each <= _SPARSE_ROUND * usual)
-        return found | self.is_water_class
+        return found | self.class_in()
 
     def by_cell(self, squares: np.ndarray, rows: slice, columns: slice) -> np.ndarray:
         """Return values of squares, as `usual` returns them, for the cells of a window."""

@@ -21,7 +21,7 @@ _DEVIATIONS = 2.563
 
 
 class Shore(NamedTuple):
-    """The shore of a region of water, in segments.
+    """The shore of a region of water, or its surface, in segments.
 
     Attributes
     ----------
@@ -36,6 +36,8 @@ class Shore(NamedTuple):
         The ground of all cells of the shore.
     known : float
         Share of the cells of the shore that have ground.
+    percentile : float
+        The level of a lake is this percentile of the heights.
     """
 
     places: np.ndarray
@@ -43,6 +45,7 @@ class Shore(NamedTuple):
     rises: np.ndarray
     heights: np.ndarray
     known: float
+    percentile: float = LEVEL_PERCENTILE
 
 
 class Levels(NamedTuple):
@@ -102,22 +105,49 @@ def shore_of(water: np.ndarray, ground: np.ndarray, cell: float) -> Shore | None
     rows, columns = np.nonzero(is_shore & has_ground)
     if not len(rows):
         return None
-    length = max(_SEGMENT / cell, _SEGMENT_CELLS)
-    length = min(length, math.sqrt(water.sum()) * 4.0 / _SEGMENTS)
-    side = max(int(round(length)), 3)
-    squares = (rows // side) * water.shape[1] + columns // side
-    names, group = np.unique(squares, return_inverse=True)
+    side = _side(water, cell)
     heights = ground[rows, columns].astype(np.float64)
-    order = np.lexsort((heights, group))
-    starts = np.searchsorted(group[order], np.arange(len(names)))
-    counts = np.diff(np.append(starts, len(group)))
-    lowest, median = heights[order][starts], heights[order][starts + counts // 2]
-    places = np.column_stack(
-        [np.bincount(group, each) / counts for each in (rows, columns)]
-    )
+    places, lowest, median = _segments(rows, columns, heights, side)
     outer = _beyond((away > _SHORE + 1) & (away <= _BEYOND) & has_ground, ground, places, side)
     known = len(rows) / int(is_shore.sum())
     return Shore(places, lowest, outer - median, heights, known)
+
+
+def surface_of(water: np.ndarray, heights: np.ndarray, cell: float) -> Shore:
+    """Return what is known of the level from points of water, as a shore.
+
+    Parameters
+    ----------
+    water : numpy.ndarray of bool, shape (rows, columns)
+        The cells with such points.
+    heights : numpy.ndarray of float, shape (rows, columns)
+        Their heights.
+    cell : float
+        Side of a cell in metres.
+    """
+    rows, columns = np.nonzero(water & np.isfinite(heights))
+    heights = heights[rows, columns].astype(np.float64)
+    places, _, median = _segments(rows, columns, heights, _side(water, cell))
+    return Shore(places, median, np.full(len(median), np.nan), heights, 1.0, 50.0)
+
+
+def _side(water: np.ndarray, cell: float) -> int:
+    """Return the length of a segment in cells."""
+    length = max(_SEGMENT / cell, _SEGMENT_CELLS)
+    return max(round(min(length, math.sqrt(water.sum()) * 4.0 / _SEGMENTS)), 3)
+
+
+def _segments(
+    rows: np.ndarray, columns: np.ndarray, heights: np.ndarray, side: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the middle, the lowest and the median height of the cells in each square."""
+    squares = (rows // side << 32) + columns // side
+    names, group = np.unique(squares, return_inverse=True)
+    order = np.lexsort((heights, group))
+    starts = np.searchsorted(group[order], np.arange(len(names)))
+    counts = np.bincount(group)
+    places = np.column_stack([np.bincount(group, each) / counts for each in (rows, columns)])
+    return places, heights[order][starts], heights[order][starts + counts // 2]
 
 
 def margin() -> int:
@@ -144,8 +174,8 @@ def _beyond(which: np.ndarray, ground: np.ndarray, places: np.ndarray, side: int
 
 
 def lake_level(water: np.ndarray, shore: Shore) -> Levels:
-    """Return one level: a low percentile of the ground along the shore."""
-    level = float(np.percentile(shore.heights, LEVEL_PERCENTILE))
+    """Return one level: a low percentile of the ground along the shore, or that of the surface."""
+    level = float(np.percentile(shore.heights, shore.percentile))
     middle = np.argwhere(water).mean(axis=0)[None]
     return Levels(middle, np.array([level]), _spread(shore.lowest), math.sqrt(water.sum()), 0.0)
 

@@ -176,3 +176,99 @@ def test_isotonic_regression_is_that_of_least_squares():
     assert fitted.sum() == pytest.approx(values.sum())
     # The least squares: residuals are at right angles to the fit.
     assert ((values - fitted) * fitted).sum() == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.fixture(scope="module")
+def survey(tmp_path_factory):
+    """A lake with points of class 9 along its shore, in one file, and in four."""
+    scene, folder = Scene(), tmp_path_factory.mktemp("survey")
+    scene.basin(lake)
+    scene.keep(scene.inside(lake) > 0)
+    order = np.lexsort((scene.y, scene.x))
+    scene.keep(order)
+    tiles = folder / "tiles"
+    tiles.mkdir()
+    columns = np.round(scene.x, 3), np.round(scene.y, 3), np.round(scene.z, 3), scene.classes
+    write(folder / "in.laz", *columns)
+    for number in range(4):
+        there = (columns[0] >= 200.3) + 2 * (columns[1] >= 190.7) == number
+        write(tiles / f"{number}.laz", *(each[there] for each in columns))
+    return folder
+
+
+def run(*arguments):
+    assert main([str(each) for each in arguments]) == 0
+
+
+def test_many_files_give_the_same_as_one(survey, tmp_path, capsys):
+    run("water", survey / "in.laz", tmp_path / "one.geojson", "--json")
+    figures = json.loads(capsys.readouterr().out)
+    assert figures["lakes"] == 1 and figures["rivers"] == 0
+    assert figures["grades"] == {"certain": 1}
+    run("water", survey / "tiles", tmp_path / "many.geojson")
+    one, many = (json.loads((tmp_path / f"{name}.geojson").read_text()) for name in ("one", "many"))
+    assert one["features"] == many["features"]
+    assert one["crs"]["properties"]["name"].endswith(":25832")
+    (feature,) = one["features"]
+    assert feature["properties"]["KIND"] == "lake"
+    assert feature["properties"]["LEVEL"] == pytest.approx(LEVEL, abs=0.2)
+    ring = np.array(feature["geometry"]["coordinates"][0])
+    assert (ring[0] == ring[-1]).all()
+    assert np.abs(ring.mean(axis=0) - (500_200, 5_600_210)).max() < 20
+
+
+@pytest.mark.parametrize("suffix", [".gpkg", ".geojson", ".shp", ".fgb"])
+def test_polygons_and_breaklines_are_read_again(survey, tmp_path, suffix):
+    from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
+
+    if suffix != ".geojson":
+        pytest.importorskip("pyogrio")
+    target, lines = tmp_path / f"water{suffix}", tmp_path / f"lines{suffix}"
+    run("water", survey / "in.laz", target, "--breaklines-out", lines)
+    ((ring, *_),) = read_boundary(target)
+    (line, *_) = read_lines(lines)
+    assert np.allclose(ring, line[:, :2], atol=0.002)
+    assert np.ptp(line[:, 2]) == 0 and abs(line[0, 2] - LEVEL) < 0.2
+
+
+def test_a_terrain_model_with_the_water_that_is_found(survey, tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    run("terrain", survey / "in.laz", "--dtm", tmp_path / "dtm.tif", "--water", "automatic")
+    with rasterio.open(tmp_path / "dtm.tif") as raster:
+        heights = raster.read(1)
+        x, y = np.meshgrid(*(np.arange(0.5, side) * raster.res[0] for side in raster.shape[::-1]))
+        west, north = raster.bounds.left - 500_000, raster.bounds.top - 5_600_000
+    inside = lake(x + west, north - y) < -5.0
+    assert np.ptp(heights[inside]) < 0.001
+    assert abs(heights[inside][0] - LEVEL) < 0.3
+
+
+def test_what_cannot_be_done_is_said(survey, tmp_path, capsys):
+    source, target = survey / "in.laz", tmp_path / "water.gpkg"
+    assert main(["water", str(source), str(tmp_path / "water.tif")]) == 1
+    assert ".gpkg" in capsys.readouterr().err
+    assert main(["water", str(source), str(target), "--ground-classes", "17"]) == 1
+    assert "no ground points" in capsys.readouterr().err
+    assert main(["water", str(source), str(target), "--breaklines-out", str(target)]) == 1
+    output = str(tmp_path / "out.laz")
+    assert main(["classify", str(source), output, "--water", "automatic"]) == 2
+    assert "terrain --water automatic" in capsys.readouterr().err
+    assert not any(tmp_path.iterdir())
+
+
+def test_too_many_cells_are_refused():
+    with pytest.raises(BareEarthError, match="Choose cells of 13 m"):
+        WaterGrid((0.0, 0.0, 1e5, 1e5), 1.0)
+    assert cell_for(1e6, 100_000_000) == 1.0
+    assert cell_for(1e6, 250_000, 2.0) == 2.0
+
+
+def test_water_in_feet_has_its_level_in_feet(tmp_path):
+    scene = lake_scene("empty")
+    feet = 0.3048
+    places = (np.round(each / feet, 3) for each in (scene.x, scene.y, scene.z))
+    write(tmp_path / "in.laz", *places, scene.classes, crs="EPSG:2223")  # Arizona, feet
+    run("water", tmp_path / "in.laz", tmp_path / "water.geojson", "--crs", "EPSG:2223+8228")
+    (feature,) = json.loads((tmp_path / "water.geojson").read_text())["features"]
+    assert feature["properties"]["LEVEL"] == pytest.approx(LEVEL / feet, abs=0.7)
+    assert feature["properties"]["AREA"] == pytest.approx(15_800, rel=0.05)
