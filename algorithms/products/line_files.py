@@ -1,4 +1,4 @@
-"""Writes lines, points or polygons with values: GeoJSON here, other formats by pyogrio, or GDAL in QGIS."""
+"""Writes lines, points or polygons: GeoJSON here, other formats by pyogrio, or GDAL in QGIS."""
 
 from __future__ import annotations
 

@@ -149,7 +149,8 @@ def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list
     Cancelled
         If the user asked to stop.
     """
-    usual, found = grid.usual(), []
+    usual = grid.usual()
+    found: list[WaterBody] = []
     for region in _regions(grid, how, progress):
         found += _bodies_of(region, grid, usual, how)
     return sorted(found, key=lambda each: (-each.rings[0][:, 1].max(), each.rings[0][:, 0].min()))

@@ -111,9 +111,7 @@ class WaterGrid:
             which = which & inside
             lower_at(heights.reshape(-1), code[which], points.z[which].astype(np.float32))
 
-    def class_in(
-        self, rows: slice = slice(None), columns: slice = slice(None)
-    ) -> np.ndarray:
+    def class_in(self, rows: slice = slice(None), columns: slice = slice(None)) -> np.ndarray:
         """Return which cells of a window have mostly points of class 9; bool."""
         water, counts = self.water[rows, columns], self.counts[rows, columns]
         return (water > 0) & (water >= _CLASS_SHARE * counts)
@@ -131,9 +129,7 @@ class WaterGrid:
         sides = [np.diff(np.append(each, side)) for each, side in zip(starts, self.shape)]
         means = sums / np.multiply.outer(*sides)
         size = 2 * _SQUARES + 1
-        squared, plain = (
-            uniform_filter(each, size, mode="constant") for each in (means**2, means)
-        )
+        squared, plain = (uniform_filter(each, size, mode="constant") for each in (means**2, means))
         everywhere = float((means**2).sum() / max(means.sum(), 1e-9))
         return np.maximum(squared / np.maximum(plain, 1e-9), _OF_SURVEY * everywhere)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -195,11 +195,9 @@ def river_level(water: np.ndarray, shore: Shore) -> Levels | None:
     length = float(steps.sum())
     station = cKDTree(line).query(shore.places)[1]
     order = np.argsort(station, kind="stable")
-    values, fitted = shore.lowest[order], None
-    for sign in (-1.0, 1.0):
-        some = sign * isotonic(sign * values)
-        if fitted is None or np.abs(some - values).sum() < np.abs(fitted - values).sum():
-            fitted = some
+    values = shore.lowest[order]
+    both = [sign * isotonic(sign * values) for sign in (-1.0, 1.0)]
+    fitted = min(both, key=lambda each: float(np.abs(each - values).sum()))
     spread = _spread(values - fitted)
     at, where = np.unique(station[order], return_index=True)
     heights = np.interp(np.arange(len(line)), at, fitted[where])
@@ -256,11 +254,11 @@ def middle_line(water: np.ndarray) -> np.ndarray:
     end = _farthest(plain, start)
     way = _way(costly, start, end)
     line = (places[way] + 0.5) * group - 0.5
-    step = max(1, int(round(deep.max() / 2.0)))
+    step = max(1, round(float(deep.max()) / 2.0))
     return _smoothed(line, step)[::step]
 
 
-def _graph(cells: np.ndarray, cost: np.ndarray):  # type: ignore[no-untyped-def]
+def _graph(cells: np.ndarray, cost: np.ndarray) -> Any:
     """Return the graph of neighbouring cells, weighted by distance and mean cost."""
     from scipy.sparse import coo_matrix
 
@@ -271,7 +269,7 @@ def _graph(cells: np.ndarray, cost: np.ndarray):  # type: ignore[no-untyped-def]
         left = max(-right, 0)
         one = (slice(0, cells.shape[0] - down), slice(left, cells.shape[1] - max(right, 0)))
         other = (slice(down, None), slice(left + right, cells.shape[1] - left))
-        both = cells[one] & cells[other]
+        both = np.asarray(cells[one] & cells[other])
         starts.append(number[one][both])
         ends.append(number[other][both])
         weights.append((cost[one] + cost[other])[both] / 2.0 * math.hypot(down, right))
@@ -280,14 +278,14 @@ def _graph(cells: np.ndarray, cost: np.ndarray):  # type: ignore[no-untyped-def]
     return coo_matrix((np.concatenate(weights), edges), shape=(size, size)).tocsr()
 
 
-def _farthest(graph, start: int) -> int:  # type: ignore[no-untyped-def]
+def _farthest(graph: Any, start: int) -> int:
     from scipy.sparse.csgraph import dijkstra
 
     far = dijkstra(graph, directed=False, indices=start)
     return int(np.argmax(np.where(np.isfinite(far), far, -1.0)))
 
 
-def _way(graph, start: int, end: int) -> list[int]:  # type: ignore[no-untyped-def]
+def _way(graph: Any, start: int, end: int) -> list[int]:
     """Return the nodes of the cheapest way."""
     from scipy.sparse.csgraph import dijkstra
 
