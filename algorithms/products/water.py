@@ -36,6 +36,8 @@ _MOST_SPREAD, _SPREAD_A_METRE = 0.3, 0.12
 _FALL, _ELONGATED, _BETTER = 0.15, 3.0, 0.8
 # Least share of the shore with ground, and of its segments from which the land rises by so much.
 _LEAST_KNOWN, _LEAST_RISING, _RISE = 0.2, 0.6, 0.05
+# Cells this near to the shore can hold its bank.
+_BANK = 2.0
 # Returns so many metres above the level are not water; most share of cells with such.
 _ABOVE, _MOST_ABOVE = 2.0, 0.05
 # Returns inside lie at most so far from the level, in metres, by their median.
@@ -269,12 +271,13 @@ def _levels_of(water: np.ndarray, shore: Shore) -> tuple[str, Levels]:
 
 
 def _is_free(water: np.ndarray, lowest: np.ndarray, levels: Levels) -> bool:
-    """Return whether what lies in a region is at its level."""
-    places = np.argwhere(water & np.isfinite(lowest))
+    """Return whether what lies in a region is at its level, away from its banks."""
+    inner = erosion(np.pad(water, 1).view(np.uint8), _BANK).view(bool)[1:-1, 1:-1]
+    places = np.argwhere(inner & np.isfinite(lowest))
     if not len(places):
         return True
     off = lowest[tuple(places.T)] - levels.at(places)
-    above = np.count_nonzero(off > _ABOVE) / np.count_nonzero(water)
+    above = np.count_nonzero(off > _ABOVE) / np.count_nonzero(inner)
     return bool(above <= _MOST_ABOVE and np.median(np.abs(off)) <= _MOST_OFF)
 
 

@@ -244,7 +244,7 @@ def middle_line(water: np.ndarray) -> np.ndarray:
     group = max(1, math.ceil(math.sqrt(water.sum() / _MOST_CELLS)))
     rows, columns = (-(-side // group) * group for side in water.shape)
     cells = np.pad(water, ((0, rows - water.shape[0]), (0, columns - water.shape[1])))
-    cells = cells.reshape(rows // group, group, columns // group, group).any(axis=(1, 3))
+    cells = cells.reshape(rows // group, group, columns // group, group).max(axis=(1, 3))
     deep = distance_transform_edt(np.pad(cells, 1))[1:-1, 1:-1]
     # A way along the middle is cheap.
     cost = (deep.max() / np.maximum(deep, 1.0)) ** 2
@@ -269,7 +269,7 @@ def _graph(cells: np.ndarray, cost: np.ndarray) -> Any:
         left = max(-right, 0)
         one = (slice(0, cells.shape[0] - down), slice(left, cells.shape[1] - max(right, 0)))
         other = (slice(down, None), slice(left + right, cells.shape[1] - left))
-        both = np.asarray(cells[one] & cells[other])
+        both = np.logical_and(cells[one], cells[other])
         starts.append(number[one][both])
         ends.append(number[other][both])
         weights.append((cost[one] + cost[other])[both] / 2.0 * math.hypot(down, right))
