@@ -56,7 +56,7 @@ class Water(ParameterSet):
         label="Smallest area",
         unit="m2",
         minimum=100.0,
-        maximum=1e9,
+        maximum=900_000.0,
         help="Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2"
         " acres) and more.",
     )

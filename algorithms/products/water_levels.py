@@ -16,6 +16,8 @@ _SEGMENT, _SEGMENT_CELLS, _SEGMENTS = 20.0, 8.0, 12
 LEVEL_PERCENTILE = 10.0
 # Most cells in which the way along a river is searched.
 _MOST_CELLS = 40_000
+# Stations that are left out from each end of a long line; four are as long as half the width.
+_ENDS = 3
 # Standard deviations in the distance between the 10th and the 90th percentile.
 _DEVIATIONS = 2.563
 
@@ -255,7 +257,9 @@ def middle_line(water: np.ndarray) -> np.ndarray:
     way = _way(costly, start, end)
     line = (places[way] + 0.5) * group - 0.5
     step = max(1, round(float(deep.max()) / 2.0))
-    return _smoothed(line, step)[::step]
+    line = _smoothed(line, step)[::step]
+    # The ends of the way run into corners.
+    return line[_ENDS:-_ENDS] if len(line) > 5 * _ENDS else line
 
 
 def _graph(cells: np.ndarray, cost: np.ndarray) -> Any:

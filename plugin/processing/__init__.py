@@ -10,6 +10,7 @@ from .model_key_points import ModelKeyPointsAlgorithm
 from .point_cloud_to_terrain import PointCloudToTerrainAlgorithm
 from .remove_off_terrain_objects import RemoveOffTerrainObjectsAlgorithm
 from .terrain_model import TerrainModelAlgorithm
+from .water import WaterAlgorithm
 
 ALGORITHMS = (
     PointCloudToTerrainAlgorithm,
@@ -18,6 +19,7 @@ ALGORITHMS = (
     TerrainModelAlgorithm,
     HeightAboveGroundAlgorithm,
     ModelKeyPointsAlgorithm,
+    WaterAlgorithm,
     CompareSettingsAlgorithm,
     AssessAlgorithm,
     CheckAlgorithm,

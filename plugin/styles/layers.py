@@ -77,6 +77,8 @@ RELIEF = Look(mark("Local relief"), 4, rasters.local_relief, 2)
 CONFIDENCE = Look(mark("Confidence"), 5, rasters.confidence, 1)
 RULES = Look(mark("Deciding rules"), 6, rasters.rules, 1)
 ERRORS = Look(mark("Errors"), 6, rasters.errors, 1)
+WATER = Look(mark("Water"), 8, vectors.water)
+BREAKLINES = Look(mark("Breaklines"), 9, vectors.breaklines)
 RASTERS = {
     "DTM": TERRAIN, "DSM": SURFACE, "CHM": CANOPY, "HILLSHADE": HILLSHADE,
     "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,
