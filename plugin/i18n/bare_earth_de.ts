@@ -166,6 +166,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Winkel des Lichts über dem Horizont.</translation>
     </message>
     <message>
+        <source>Area [m²]</source>
+        <translation>Fläche [m²]</translation>
+    </message>
+    <message>
         <source>As the filter classifies them</source>
         <translation>Wie der Filter sie klassifiziert</translation>
     </message>
@@ -256,6 +260,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Cells with a height</source>
         <translation>Zellen mit einer Höhe</translation>
+    </message>
+    <message>
+        <source>Certain</source>
+        <translation>Sicher</translation>
     </message>
     <message>
         <source>Check against checkpoints</source>
@@ -484,6 +492,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Fertig; ein Neustart ist nicht nötig.</translation>
     </message>
     <message>
+        <source>Doubtful</source>
+        <translation>Zweifelhaft</translation>
+    </message>
+    <message>
         <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
         <translation>Jede Stelle wird mit ihrer Umgebung bis zu dieser Entfernung verglichen. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere verschwinden.</translation>
     </message>
@@ -534,6 +546,14 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
     <message>
         <source>Final height</source>
         <translation>Höhe im letzten Durchgang</translation>
+    </message>
+    <message>
+        <source>Find water</source>
+        <translation>Gewässer finden</translation>
+    </message>
+    <message>
+        <source>Finds lakes and rivers as polygons with their levels, and as breaklines.</source>
+        <translation>Findet Seen und Flüsse als Polygone mit ihren Wasserspiegeln und als Bruchkanten.</translation>
     </message>
     <message>
         <source>Finds the few ground points of a classified point cloud that a terrain model needs. Of all other ground points, none lies farther above or below the triangulation (TIN) of these key points than the tolerances. Key points get a class of their own, or the key-point flag; nothing else in the file changes.
@@ -598,6 +618,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Finds the ground points of the many files of a survey, without seams between them.</source>
         <translation>Findet die Bodenpunkte der vielen Dateien einer Befliegung, ohne Nähte zwischen ihnen.</translation>
+    </message>
+    <message>
+        <source>Finds water in a classified point cloud: where hardly any last return is, and the ground along the shore is level or falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told from it. Each polygon has the level, the spread of the shore, and a grade of certainty. The terrain model takes the polygons as water.</source>
+        <translation>Findet Gewässer in einer klassifizierten Punktwolke: wo kaum letzte Echos sind und der Boden am Ufer eben ist oder stetig fällt, oder wo Punkte die Klasse 9 haben. Lücken zwischen Flugstreifen, Dächer und Wälder werden davon unterschieden. Jedes Polygon hat den Wasserspiegel, die Streuung des Ufers und einen Grad der Sicherheit. Das Geländemodell nimmt die Polygone als Gewässer.</translation>
     </message>
     <message>
         <source>First and single returns</source>
@@ -900,6 +924,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>LAZ-Unterstützung…</translation>
     </message>
     <message>
+        <source>Lakes</source>
+        <translation>Seen</translation>
+    </message>
+    <message>
         <source>Land cover of the checkpoints</source>
         <translation>Bodenbedeckung der Kontrollpunkte</translation>
     </message>
@@ -942,6 +970,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Light of the hillshade</source>
         <translation>Licht der Schummerung</translation>
+    </message>
+    <message>
+        <source>Likely</source>
+        <translation>Wahrscheinlich</translation>
     </message>
     <message>
         <source>Line of the profile</source>
@@ -1154,6 +1186,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Übersicht der virtuellen Punktwolke</translation>
     </message>
     <message>
+        <source>Parts of rivers</source>
+        <translation>Flussabschnitte</translation>
+    </message>
+    <message>
         <source>Point cloud</source>
         <translation>Punktwolke</translation>
     </message>
@@ -1240,6 +1276,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Polygons of water. Each is flattened to one level, that of the ground along its border.</source>
         <translation>Polygone von Gewässern. Jedes wird auf eine Höhe eingeebnet, die des Bodens an seinem Rand.</translation>
+    </message>
+    <message>
+        <source>Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD) and a grade of certainty (GRADE).</source>
+        <translation>Polygone mit dem Wasserspiegel (LEVEL), der Streuung des Ufers in Metern (SPREAD) und einem Grad der Sicherheit (GRADE).</translation>
     </message>
     <message>
         <source>Preset</source>
@@ -1350,6 +1390,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Flüsse</translation>
     </message>
     <message>
+        <source>Rivers that are narrower on average are left out. The Lidar Base Specification asks for 30 m (100 ft) and more.</source>
+        <translation>Flüsse, die im Mittel schmaler sind, werden weggelassen. Die Lidar Base Specification verlangt 30 m (100 ft) und mehr.</translation>
+    </message>
+    <message>
         <source>Rule that decided each cell</source>
         <translation>Regel, die über jede Zelle entschied</translation>
     </message>
@@ -1390,6 +1434,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Anteil falscher Punkte</translation>
     </message>
     <message>
+        <source>Shores, islands and the middles of rivers as lines with heights.</source>
+        <translation>Ufer, Inseln und die Mitten der Flüsse als Linien mit Höhen.</translation>
+    </message>
+    <message>
         <source>Shorter side of the largest building or other object. Nothing that is narrower and stands out from its surroundings can be a seed of the ground. A value that is too large takes longer and loses sharp hilltops. Empty: from the preset.</source>
         <translation>Kürzere Seite des größten Gebäudes oder sonstigen Objekts. Nichts, was schmaler ist und aus seiner Umgebung herausragt, kann ein Startpunkt des Bodens sein. Ein zu großer Wert dauert länger und verliert spitze Kuppen. Leer: aus der Voreinstellung.</translation>
     </message>
@@ -1420,6 +1468,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Side of a cell of the terrain model and of its hillshade. Choose about the distance between ground points; smaller cells only make the file larger.</source>
         <translation>Seite einer Zelle des Geländemodells und seiner Schummerung. Wählen Sie etwa den Abstand der Bodenpunkte; kleinere Zellen machen nur die Datei größer.</translation>
+    </message>
+    <message>
+        <source>Side of the cells in which points are counted. Empty: twice the distance between points, and at least 1 m.</source>
+        <translation>Seite der Zellen, in denen Punkte gezählt werden. Leer: das Doppelte des Punktabstands und mindestens 1 m.</translation>
     </message>
     <message>
         <source>Side of the cells whose lowest points are compared. Not used with the preset Whitebox. Empty: the usual distance between points, at least 1 m.</source>
@@ -1468,6 +1520,18 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Slope threshold</source>
         <translation>Neigungsschwelle</translation>
+    </message>
+    <message>
+        <source>Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2 acres) and more.</source>
+        <translation>Kleinere Gewässer werden weggelassen. Die Lidar Base Specification verlangt Seen von 8.000 m² (2 acres) und mehr.</translation>
+    </message>
+    <message>
+        <source>Smallest area</source>
+        <translation>Kleinste Fläche</translation>
+    </message>
+    <message>
+        <source>Smallest width of a river</source>
+        <translation>Kleinste Breite eines Flusses</translation>
     </message>
     <message>
         <source>Smoothing of hillshade and local relief</source>
@@ -1982,6 +2046,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>bekannter Boden</translation>
     </message>
     <message>
+        <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>
+        <translation>See,Fluss,Teich,Ufer,Uferlinie,Gewässer,Bruchkanten</translation>
+    </message>
+    <message>
         <source>lazrs could not be installed: {}</source>
         <translation>lazrs ließ sich nicht installieren: {}</translation>
     </message>
@@ -2016,6 +2084,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>m or ft</source>
         <translation>m oder ft</translation>
+    </message>
+    <message>
+        <source>m2</source>
+        <translation>m²</translation>
     </message>
     <message>
         <source>narrow pits</source>

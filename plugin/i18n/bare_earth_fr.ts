@@ -166,6 +166,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Angle de la lumière au-dessus de l'horizon.</translation>
     </message>
     <message>
+        <source>Area [m²]</source>
+        <translation>Surface [m²]</translation>
+    </message>
+    <message>
         <source>As the filter classifies them</source>
         <translation>Comme le filtre les classe</translation>
     </message>
@@ -256,6 +260,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Cells with a height</source>
         <translation>Cellules avec une altitude</translation>
+    </message>
+    <message>
+        <source>Certain</source>
+        <translation>Certain</translation>
     </message>
     <message>
         <source>Check against checkpoints</source>
@@ -484,6 +492,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Terminé ; il n'est pas nécessaire de redémarrer.</translation>
     </message>
     <message>
+        <source>Doubtful</source>
+        <translation>Douteux</translation>
+    </message>
+    <message>
         <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
         <translation>Chaque lieu est comparé à son voisinage jusqu'à cette distance. Choisissez environ la largeur des formes que vous voulez voir ; les formes plus grandes disparaissent.</translation>
     </message>
@@ -534,6 +546,14 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
     <message>
         <source>Final height</source>
         <translation>Hauteur finale</translation>
+    </message>
+    <message>
+        <source>Find water</source>
+        <translation>Trouver l'eau</translation>
+    </message>
+    <message>
+        <source>Finds lakes and rivers as polygons with their levels, and as breaklines.</source>
+        <translation>Trouve les lacs et les rivières sous forme de polygones avec leurs niveaux, et de lignes de rupture.</translation>
     </message>
     <message>
         <source>Finds the few ground points of a classified point cloud that a terrain model needs. Of all other ground points, none lies farther above or below the triangulation (TIN) of these key points than the tolerances. Key points get a class of their own, or the key-point flag; nothing else in the file changes.
@@ -598,6 +618,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Finds the ground points of the many files of a survey, without seams between them.</source>
         <translation>Trouve les points sol des nombreux fichiers d'un levé, sans raccords visibles entre eux.</translation>
+    </message>
+    <message>
+        <source>Finds water in a classified point cloud: where hardly any last return is, and the ground along the shore is level or falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told from it. Each polygon has the level, the spread of the shore, and a grade of certainty. The terrain model takes the polygons as water.</source>
+        <translation>Trouve l'eau dans un nuage de points classé : là où il n'y a presque pas de derniers retours et où le sol le long de la rive est horizontal ou descend régulièrement, ou là où les points ont la classe 9. Les lacunes entre les bandes, les toits et les forêts en sont distingués. Chaque polygone a le niveau, la dispersion de la rive et un degré de certitude. Le modèle de terrain prend les polygones comme eau.</translation>
     </message>
     <message>
         <source>First and single returns</source>
@@ -900,6 +924,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Prise en charge LAZ…</translation>
     </message>
     <message>
+        <source>Lakes</source>
+        <translation>Lacs</translation>
+    </message>
+    <message>
         <source>Land cover of the checkpoints</source>
         <translation>Occupation du sol des points de contrôle</translation>
     </message>
@@ -942,6 +970,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Light of the hillshade</source>
         <translation>Lumière de l'ombrage</translation>
+    </message>
+    <message>
+        <source>Likely</source>
+        <translation>Probable</translation>
     </message>
     <message>
         <source>Line of the profile</source>
@@ -1154,6 +1186,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Vue d'ensemble du nuage de points virtuel</translation>
     </message>
     <message>
+        <source>Parts of rivers</source>
+        <translation>Tronçons de rivière</translation>
+    </message>
+    <message>
         <source>Point cloud</source>
         <translation>Nuage de points</translation>
     </message>
@@ -1240,6 +1276,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Polygons of water. Each is flattened to one level, that of the ground along its border.</source>
         <translation>Polygones d'eau. Chacun est aplani à un seul niveau, celui du sol le long de son bord.</translation>
+    </message>
+    <message>
+        <source>Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD) and a grade of certainty (GRADE).</source>
+        <translation>Polygones avec le niveau (LEVEL), la dispersion de la rive en mètres (SPREAD) et un degré de certitude (GRADE).</translation>
     </message>
     <message>
         <source>Preset</source>
@@ -1350,6 +1390,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Rivières</translation>
     </message>
     <message>
+        <source>Rivers that are narrower on average are left out. The Lidar Base Specification asks for 30 m (100 ft) and more.</source>
+        <translation>Les rivières plus étroites en moyenne sont omises. La Lidar Base Specification demande 30 m (100 ft) et plus.</translation>
+    </message>
+    <message>
         <source>Rule that decided each cell</source>
         <translation>Règle qui a décidé de chaque cellule</translation>
     </message>
@@ -1390,6 +1434,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Part des points erronés</translation>
     </message>
     <message>
+        <source>Shores, islands and the middles of rivers as lines with heights.</source>
+        <translation>Rives, îles et milieux des rivières sous forme de lignes avec altitudes.</translation>
+    </message>
+    <message>
         <source>Shorter side of the largest building or other object. Nothing that is narrower and stands out from its surroundings can be a seed of the ground. A value that is too large takes longer and loses sharp hilltops. Empty: from the preset.</source>
         <translation>Petit côté du plus grand bâtiment ou autre objet. Rien de plus étroit qui ressort de son entourage ne peut être un point de départ du sol. Une valeur trop grande prend plus de temps et perd des sommets pointus. Vide : d'après le préréglage.</translation>
     </message>
@@ -1420,6 +1468,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Side of a cell of the terrain model and of its hillshade. Choose about the distance between ground points; smaller cells only make the file larger.</source>
         <translation>Côté d'une cellule du modèle de terrain et de son ombrage. Choisissez environ la distance entre points sol ; des cellules plus petites ne font qu'agrandir le fichier.</translation>
+    </message>
+    <message>
+        <source>Side of the cells in which points are counted. Empty: twice the distance between points, and at least 1 m.</source>
+        <translation>Côté des cellules dans lesquelles les points sont comptés. Vide : deux fois la distance entre les points, et au moins 1 m.</translation>
     </message>
     <message>
         <source>Side of the cells whose lowest points are compared. Not used with the preset Whitebox. Empty: the usual distance between points, at least 1 m.</source>
@@ -1468,6 +1520,18 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Slope threshold</source>
         <translation>Seuil de pente</translation>
+    </message>
+    <message>
+        <source>Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2 acres) and more.</source>
+        <translation>Les eaux plus petites sont omises. La Lidar Base Specification demande les lacs de 8 000 m² (2 acres) et plus.</translation>
+    </message>
+    <message>
+        <source>Smallest area</source>
+        <translation>Surface minimale</translation>
+    </message>
+    <message>
+        <source>Smallest width of a river</source>
+        <translation>Largeur minimale d'une rivière</translation>
     </message>
     <message>
         <source>Smoothing of hillshade and local relief</source>
@@ -1982,6 +2046,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>sol connu</translation>
     </message>
     <message>
+        <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>
+        <translation>lac,rivière,étang,rive,rivage,eau,lignes de rupture</translation>
+    </message>
+    <message>
         <source>lazrs could not be installed: {}</source>
         <translation>lazrs n'a pas pu être installé : {}</translation>
     </message>
@@ -2016,6 +2084,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>m or ft</source>
         <translation>m ou ft</translation>
+    </message>
+    <message>
+        <source>m2</source>
+        <translation>m²</translation>
     </message>
     <message>
         <source>narrow pits</source>
