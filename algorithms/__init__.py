@@ -57,6 +57,9 @@ if TYPE_CHECKING:
     from .products.relief import write_relief as write_relief
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
+    from .products.water import Water as Water
+    from .products.water_files import WaterRequest as WaterRequest
+    from .products.water_files import write_water as find_water  # noqa: F401
     from .rasters.sampling import HeightRaster as HeightRaster
     from .survey.area import Area as Area
     from .survey.checkpoint_files import Checkpoints as Checkpoints
@@ -118,6 +121,9 @@ _MODULES = {
     "write_relief": "products.relief",
     "SurfaceModel": "products.surface_model",
     "TerrainModel": "products.terrain_model",
+    "Water": "products.water",
+    "WaterRequest": "products.water_files",
+    "find_water": "products.water_files:write_water",
     "HeightRaster": "rasters.sampling",
     "Area": "survey.area",
     "Checkpoints": "survey.checkpoint_files",

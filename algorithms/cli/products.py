@@ -20,6 +20,7 @@ from .surveys import (
     contours_after,
     raster_target_of,
     tell_of_survey,
+    with_found_water,
     workers_of,
 )
 from .terminal import Terminal, tell
@@ -188,7 +189,8 @@ def _terrain(options: argparse.Namespace) -> int:
     from ..engine.requests import TerrainRequest
     from ..engine.runs import terrain
 
-    known, sets = constraints_of(options), chosen(options)
+    known, sets = constraints_of(options, finds_water=True), chosen(options)
+    known = with_found_water(options, known, sets)
     with contours_after(options, sets) as (rasters, rest):
         request = TerrainRequest.of(
             rest, rasters=rasters, constraints=known, crs=options.crs, area=area_of(options),
@@ -199,6 +201,35 @@ def _terrain(options: argparse.Namespace) -> int:
             summary = terrain(options.input, request, progress, workers)
     text = f"{summary.columns:,} x {summary.rows:,} cells of {summary.ground_count:,} ground points"
     tell(options, summary, f"{options.input[0]}: {text}")
+    return DONE
+
+
+def _add_water(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..products.line_files import FORMATS
+    from ..products.water import Water
+    from ..survey.ground_classes import GroundClasses
+
+    add_inputs(parser, "a classified file, or ")
+    add_crs(parser)
+    kinds = f"({', '.join(FORMATS)}); all but .geojson need pyogrio"
+    parser.add_argument(
+        "output", metavar="OUTPUT", type=Path, help=f"the polygons of water to write {kinds}"
+    )
+    parser.add_argument(
+        "--breaklines-out", metavar="FILE", type=Path,
+        help=f"write shores, islands and the middles of rivers as lines with heights {kinds}",
+    )  # fmt: skip
+    add_json(parser)
+    add_parameters(parser, Water, GroundClasses)
+
+
+def _water(options: argparse.Namespace) -> int:
+    from ..products.water_files import WaterRequest, write_water
+
+    request = WaterRequest.of(chosen(options), crs=options.crs, breaklines=options.breaklines_out)
+    with Terminal(options.verbose) as progress:
+        summary = write_water(options.input, options.output, request, progress)
+    tell(options, summary, f"{options.output}: {summary.text}")
     return DONE
 
 
@@ -261,5 +292,14 @@ COMMANDS = (
         " them (vat, red-relief). They show mounds, walls, ditches and old paths.",
         _add_relief,
         _relief,
+    ),
+    Command(
+        "water",
+        "find lakes and rivers in classified points",
+        "Finds water where hardly any last return is, and the ground along its shore is level or"
+        " falls steadily: polygons with level, spread of the shore and a grade of certainty, and"
+        " breaklines with heights.",
+        _add_water,
+        _water,
     ),
 )

@@ -27,10 +27,13 @@ if TYPE_CHECKING:
 _CONSTRAINTS = {
     "breaklines": "lines that no triangle of the terrain crosses; z is in the unit of heights of"
     " the points, and a line without z gets the height of the nearest ground point on each side",
-    "water": "polygons of water; each is flattened to one level",
+    "water": "polygons of water; each is flattened to one level; with the word automatic, 'terrain'"
+    " finds the water first, as the command 'water' does",
     "rivers": "lines along which the level of the water polygons falls",
     "no-ground": "polygons in which the terrain uses no ground points, such as bridges and roofs",
 }
+# The word for water that is found.
+_AUTOMATIC = "automatic"
 
 
 def add_rasters(parser: argparse.ArgumentParser) -> None:
@@ -152,16 +155,50 @@ def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:
         )
 
 
-def constraints_of(options: argparse.Namespace) -> Constraints:
-    """Return the lines and polygons of the options."""
+def water_is_automatic(options: argparse.Namespace) -> bool:
+    """Return whether water is to be found, and not read."""
+    return str(options.water).lower() == _AUTOMATIC
+
+
+def with_found_water(
+    options: argparse.Namespace, known: Constraints, sets: Sequence[ParameterSet]
+) -> Constraints:
+    """Return constraints with the water of the input, if that is to be found."""
+    from ..products.water_files import SurveyWater, WaterRequest
+    from ..survey.ground_classes import GroundClasses
+
+    if not water_is_automatic(options):
+        return known
+    request = WaterRequest(ground=GroundClasses.among(sets), crs=options.crs)
+    with Terminal(options.verbose) as progress:
+        found = SurveyWater.of(options.input, request, progress)
+        progress.info(f"Water: {found.summary.text}.")
+    return dataclasses.replace(
+        known, water=found.constraints.water, rivers=(*known.rivers, *found.constraints.rivers)
+    )
+
+
+def constraints_of(options: argparse.Namespace, finds_water: bool = False) -> Constraints:
+    """Return the lines and polygons of the options; `finds_water`: the command can find water.
+
+    Raises
+    ------
+    UsageError
+        If water is to be found by a command that cannot.
+    """
     from ..products.constraints import Constraints
     from ..survey.vector_files import read_boundary, read_lines
 
+    if water_is_automatic(options) and not finds_water:
+        raise UsageError(
+            "Water is found in classified points: make the rasters with 'bare-earth terrain"
+            " --water automatic'."
+        )
     found: dict[str, Any] = {}
     for name in _CONSTRAINTS:
         attribute = name.replace("-", "_")
         path = getattr(options, attribute)
-        if path is not None:
+        if path is not None and not (name == "water" and water_is_automatic(options)):
             read = read_lines if attribute in ("breaklines", "rivers") else read_boundary
             found[attribute] = read(path)
     return Constraints(**found)

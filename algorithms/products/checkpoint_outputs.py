@@ -134,7 +134,7 @@ def _rows_of(found: Residuals) -> Iterator[tuple[Any, ...]]:
 
 
 def _write_layer(target: Path, found: Residuals, survey: Survey, progress: Progress) -> None:
-    layer = Layer("checkpoints", "Point", FIELDS, survey.crs.wkt, survey.crs.epsg)
+    layer = Layer("checkpoints", "Point Z", FIELDS, survey.crs.wkt, survey.crs.epsg)
     places = found.checkpoints.places
     features = (Feature(row[2:], place) for row, place in zip(_rows_of(found), places))
     feature_writer(target, "the errors at checkpoints")(target, features, layer, progress)

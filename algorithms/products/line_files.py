@@ -1,4 +1,4 @@
-"""Writes lines or points with values: GeoJSON here, other formats by pyogrio, or GDAL in QGIS."""
+"""Writes lines, points or polygons: GeoJSON here, other formats by pyogrio, or GDAL in QGIS."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _BESIDE = {
 _AT_ONCE = (".fgb",)
 _FEATURES_A_STEP = 20_000
 # Numbers of the kinds in well-known binary; those with z are 1000 more.
-_KINDS = {"Point": 1, "LineString": 2}
+_KINDS = {"Point Z": 1001, "LineString": 2, "LineString Z": 1002, "Polygon": 3}
 
 
 class Layer(NamedTuple):
@@ -39,7 +39,7 @@ class Layer(NamedTuple):
     name : str
         The name of the layer, in formats with several layers.
     kind : str
-        "LineString", or "Point" with z.
+        "LineString", "LineString Z", "Polygon" or "Point Z".
     fields : mapping of str to type
         The names of the fields, and the types of their values: int, float or str.
     wkt : str or None
@@ -56,18 +56,19 @@ class Layer(NamedTuple):
 
 
 class Feature(NamedTuple):
-    """A line or a point to write.
+    """A line, a point or a polygon to write.
 
     Attributes
     ----------
     values : tuple
         One value for each field; NaN and None for none.
-    corners : numpy.ndarray of float64, shape (n, 2) or (1, 3)
-        x and y of a line; x, y and z of a point.
+    corners : numpy.ndarray of float64, shape (n, 2) or (n, 3), or sequence of such
+        x and y of a line, and z if its kind has z; x, y and z of a point, shape (1, 3). The closed
+        rings of a polygon, x and y, the outer one first.
     """
 
     values: tuple[Any, ...]
-    corners: np.ndarray
+    corners: Any
 
 
 def feature_writer(target: Path, what: str) -> Callable[..., int]:
@@ -118,11 +119,9 @@ def _geojson(
     with target.open("w", encoding="utf-8", newline="\n") as file:
         file.write(f'{head[:-1]}, "features": [')
         for feature in features:
-            places = np.round(feature.corners, 3).tolist()
             values = dict(zip(layer.fields, map(_or_none, feature.values)))
-            shape = {"type": layer.kind, "coordinates": places}
-            if layer.kind == "Point":
-                shape["coordinates"] = places[0]
+            places = _lists(layer.kind, feature.corners)
+            shape = {"type": layer.kind.split()[0], "coordinates": places}
             whole = {"type": "Feature", "properties": values, "geometry": shape}
             file.write(f"{',' if count else ''}\n{json.dumps(whole)}")
             count += 1
@@ -150,7 +149,7 @@ def _by_pyogrio(
                 pyogrio.raw.write(
                     str(target), shapes, fields, list(layer.fields), crs=layer.wkt,
                     layer=_layer_of(target, layer), driver=FORMATS[target.suffix.lower()],
-                    geometry_type=layer.kind + _with_z(layer.kind, " Z"), append=count > 0,
+                    geometry_type=layer.kind, append=count > 0,
                 )  # fmt: skip
             count += len(some)
     except (BareEarthError, MemoryError):
@@ -167,7 +166,10 @@ def _by_gdal(
 
     count = 0
     kinds = {int: ogr.OFTInteger, float: ogr.OFTReal, str: ogr.OFTString}
-    shapes = {"Point": ogr.wkbPoint25D, "LineString": ogr.wkbLineString}
+    shapes = {
+        "Point Z": ogr.wkbPoint25D, "LineString": ogr.wkbLineString,
+        "LineString Z": ogr.wkbLineString25D, "Polygon": ogr.wkbPolygon,
+    }  # fmt: skip
     with GdalErrors(gdal, "write") as errors:
         driver = ogr.GetDriverByName(FORMATS[target.suffix.lower()])
         made = driver.CreateDataSource(str(target))
@@ -204,14 +206,27 @@ def _or_none(value: Any) -> Any:
     return None if isinstance(value, float) and math.isnan(value) else value
 
 
-def _with_z(kind: str, yes: Any, no: Any = "") -> Any:
-    return yes if kind == "Point" else no
+def _lists(kind: str, corners: Any) -> list[Any]:
+    """Return the coordinates of a feature as GeoJSON has them."""
+    if kind == "Polygon":
+        return [np.round(ring, 3).tolist() for ring in corners]
+    places = np.round(corners, 3).tolist()
+    return places[0] if kind == "Point Z" else places
 
 
-def _wkb(kind: str, corners: np.ndarray) -> bytes:
-    code, count = _KINDS[kind] + _with_z(kind, 1000, 0), struct.pack("<I", len(corners))
-    head = struct.pack("<BI", 1, code) + _with_z(kind, b"", count)
-    return head + np.ascontiguousarray(corners, "<f8").tobytes()
+def _wkb(kind: str, corners: Any) -> bytes:
+    """Return a feature as well-known binary."""
+    head = struct.pack("<BI", 1, _KINDS[kind])
+    if kind == "Point Z":
+        return head + _coordinates(corners)
+    if kind != "Polygon":
+        return head + struct.pack("<I", len(corners)) + _coordinates(corners)
+    rings = (struct.pack("<I", len(ring)) + _coordinates(ring) for ring in corners)
+    return head + struct.pack("<I", len(corners)) + b"".join(rings)
+
+
+def _coordinates(corners: np.ndarray) -> bytes:
+    return np.ascontiguousarray(corners, "<f8").tobytes()
 
 
 def _in_steps(features: Iterable[Feature], most: int | None) -> Iterator[list[Feature]]:

@@ -2497,5 +2497,85 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <source>{} is not on this computer. Download it as .las or .laz first.</source>
         <translation>{} ist keine Datei auf diesem Rechner. Laden Sie sie zuerst als .las oder .laz herunter.</translation>
     </message>
+    <message>
+        <source>Area [m²]</source>
+        <translation>Fläche [m²]</translation>
+    </message>
+    <message>
+        <source>Certain</source>
+        <translation>Sicher</translation>
+    </message>
+    <message>
+        <source>Doubtful</source>
+        <translation>Zweifelhaft</translation>
+    </message>
+    <message>
+        <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
+        <translation>Jede Stelle wird mit ihrer Umgebung bis zu dieser Entfernung verglichen. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere verschwinden.</translation>
+    </message>
+    <message>
+        <source>Find water</source>
+        <translation>Gewässer finden</translation>
+    </message>
+    <message>
+        <source>Finds lakes and rivers as polygons with their levels, and as breaklines.</source>
+        <translation>Findet Seen und Flüsse als Polygone mit ihren Wasserspiegeln und als Bruchkanten.</translation>
+    </message>
+    <message>
+        <source>Finds water in a classified point cloud: where hardly any last return is, and the ground along the shore is level or falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told from it. Each polygon has the level, the spread of the shore, and a grade of certainty. The terrain model takes the polygons as water.</source>
+        <translation>Findet Gewässer in einer klassifizierten Punktwolke: wo kaum letzte Echos sind und der Boden am Ufer eben ist oder stetig fällt, oder wo Punkte die Klasse 9 haben. Lücken zwischen Flugstreifen, Dächer und Wälder werden davon unterschieden. Jedes Polygon hat den Wasserspiegel, die Streuung des Ufers und einen Grad der Sicherheit. Das Geländemodell nimmt die Polygone als Gewässer.</translation>
+    </message>
+    <message>
+        <source>Lakes</source>
+        <translation>Seen</translation>
+    </message>
+    <message>
+        <source>Likely</source>
+        <translation>Wahrscheinlich</translation>
+    </message>
+    <message>
+        <source>Parts of rivers</source>
+        <translation>Flussabschnitte</translation>
+    </message>
+    <message>
+        <source>Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD) and a grade of certainty (GRADE).</source>
+        <translation>Polygone mit dem Wasserspiegel (LEVEL), der Streuung des Ufers in Metern (SPREAD) und einem Grad der Sicherheit (GRADE).</translation>
+    </message>
+    <message>
+        <source>Radius of the local relief</source>
+        <translation>Radius des lokalen Reliefs</translation>
+    </message>
+    <message>
+        <source>Rivers that are narrower on average are left out. The Lidar Base Specification asks for 30 m (100 ft) and more.</source>
+        <translation>Flüsse, die im Mittel schmaler sind, werden weggelassen. Die Lidar Base Specification verlangt 30 m (100 ft) und mehr.</translation>
+    </message>
+    <message>
+        <source>Shores, islands and the middles of rivers as lines with heights.</source>
+        <translation>Ufer, Inseln und die Mitten der Flüsse als Linien mit Höhen.</translation>
+    </message>
+    <message>
+        <source>Side of the cells in which points are counted. Empty: twice the distance between points, and at least 1 m.</source>
+        <translation>Seite der Zellen, in denen Punkte gezählt werden. Leer: das Doppelte des Punktabstands und mindestens 1 m.</translation>
+    </message>
+    <message>
+        <source>Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2 acres) and more.</source>
+        <translation>Kleinere Gewässer werden weggelassen. Die Lidar Base Specification verlangt Seen von 8.000 m² (2 acres) und mehr.</translation>
+    </message>
+    <message>
+        <source>Smallest area</source>
+        <translation>Kleinste Fläche</translation>
+    </message>
+    <message>
+        <source>Smallest width of a river</source>
+        <translation>Kleinste Breite eines Flusses</translation>
+    </message>
+    <message>
+        <source>Smoothing of hillshade and local relief</source>
+        <translation>Glättung von Schummerung und lokalem Relief</translation>
+    </message>
+    <message>
+        <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>
+        <translation>See,Fluss,Teich,Ufer,Uferlinie,Gewässer,Bruchkanten</translation>
+    </message>
 </context>
 </TS>

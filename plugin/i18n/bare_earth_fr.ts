@@ -2497,5 +2497,85 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <source>{} is not on this computer. Download it as .las or .laz first.</source>
         <translation>{} n'est pas sur cet ordinateur. Téléchargez-le d'abord en .las ou .laz.</translation>
     </message>
+    <message>
+        <source>Area [m²]</source>
+        <translation>Surface [m²]</translation>
+    </message>
+    <message>
+        <source>Certain</source>
+        <translation>Certain</translation>
+    </message>
+    <message>
+        <source>Doubtful</source>
+        <translation>Douteux</translation>
+    </message>
+    <message>
+        <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
+        <translation>Chaque lieu est comparé à son voisinage jusqu'à cette distance. Choisissez environ la largeur des formes que vous voulez voir ; les formes plus grandes disparaissent.</translation>
+    </message>
+    <message>
+        <source>Find water</source>
+        <translation>Trouver l'eau</translation>
+    </message>
+    <message>
+        <source>Finds lakes and rivers as polygons with their levels, and as breaklines.</source>
+        <translation>Trouve les lacs et les rivières sous forme de polygones avec leurs niveaux, et de lignes de rupture.</translation>
+    </message>
+    <message>
+        <source>Finds water in a classified point cloud: where hardly any last return is, and the ground along the shore is level or falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told from it. Each polygon has the level, the spread of the shore, and a grade of certainty. The terrain model takes the polygons as water.</source>
+        <translation>Trouve l'eau dans un nuage de points classé : là où il n'y a presque pas de derniers retours et où le sol le long de la rive est horizontal ou descend régulièrement, ou là où les points ont la classe 9. Les lacunes entre les bandes, les toits et les forêts en sont distingués. Chaque polygone a le niveau, la dispersion de la rive et un degré de certitude. Le modèle de terrain prend les polygones comme eau.</translation>
+    </message>
+    <message>
+        <source>Lakes</source>
+        <translation>Lacs</translation>
+    </message>
+    <message>
+        <source>Likely</source>
+        <translation>Probable</translation>
+    </message>
+    <message>
+        <source>Parts of rivers</source>
+        <translation>Tronçons de rivière</translation>
+    </message>
+    <message>
+        <source>Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD) and a grade of certainty (GRADE).</source>
+        <translation>Polygones avec le niveau (LEVEL), la dispersion de la rive en mètres (SPREAD) et un degré de certitude (GRADE).</translation>
+    </message>
+    <message>
+        <source>Radius of the local relief</source>
+        <translation>Rayon du relief local</translation>
+    </message>
+    <message>
+        <source>Rivers that are narrower on average are left out. The Lidar Base Specification asks for 30 m (100 ft) and more.</source>
+        <translation>Les rivières plus étroites en moyenne sont omises. La Lidar Base Specification demande 30 m (100 ft) et plus.</translation>
+    </message>
+    <message>
+        <source>Shores, islands and the middles of rivers as lines with heights.</source>
+        <translation>Rives, îles et milieux des rivières sous forme de lignes avec altitudes.</translation>
+    </message>
+    <message>
+        <source>Side of the cells in which points are counted. Empty: twice the distance between points, and at least 1 m.</source>
+        <translation>Côté des cellules dans lesquelles les points sont comptés. Vide : deux fois la distance entre les points, et au moins 1 m.</translation>
+    </message>
+    <message>
+        <source>Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2 acres) and more.</source>
+        <translation>Les eaux plus petites sont omises. La Lidar Base Specification demande les lacs de 8 000 m² (2 acres) et plus.</translation>
+    </message>
+    <message>
+        <source>Smallest area</source>
+        <translation>Surface minimale</translation>
+    </message>
+    <message>
+        <source>Smallest width of a river</source>
+        <translation>Largeur minimale d'une rivière</translation>
+    </message>
+    <message>
+        <source>Smoothing of hillshade and local relief</source>
+        <translation>Lissage de l'ombrage et du relief local</translation>
+    </message>
+    <message>
+        <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>
+        <translation>lac,rivière,étang,rive,rivage,eau,lignes de rupture</translation>
+    </message>
 </context>
 </TS>

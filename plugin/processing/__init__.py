@@ -13,6 +13,7 @@ from .quality import QualityAlgorithm
 from .relief import ReliefAlgorithm
 from .remove_off_terrain_objects import RemoveOffTerrainObjectsAlgorithm
 from .terrain_model import TerrainModelAlgorithm
+from .water import WaterAlgorithm
 
 ALGORITHMS = (
     PointCloudToTerrainAlgorithm,
@@ -22,6 +23,7 @@ ALGORITHMS = (
     HeightAboveGroundAlgorithm,
     ClassifyAboveGroundAlgorithm,
     ModelKeyPointsAlgorithm,
+    WaterAlgorithm,
     CompareSettingsAlgorithm,
     AssessAlgorithm,
     CheckAlgorithm,

@@ -35,6 +35,9 @@ _WORDS = {
     "modelkeypoints": (
         _CLOUD, _TERRAIN, _TIN, mark("ground,thin,thinning,generalize,keypoints,contours"),
     ),
+    "water": (
+        _CLOUD, mark("lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines"),
+    ),
     "comparesettings": (
         _CLOUD, _GROUND, _TERRAIN, mark("preview,try,test,preset,parameters,compare,profile"),
     ),

@@ -85,6 +85,8 @@ RED_RELIEF = Look(mark("Red relief image map"), 5, rasters.colour_picture, 3)
 CONFIDENCE = Look(mark("Confidence"), 5, rasters.confidence, 1)
 RULES = Look(mark("Deciding rules"), 6, rasters.rules, 1)
 ERRORS = Look(mark("Errors"), 6, rasters.errors, 1)
+WATER = Look(mark("Water"), 8, vectors.water)
+BREAKLINES = Look(mark("Breaklines"), 9, vectors.breaklines)
 RASTERS = {
     "DTM": TERRAIN, "DSM": SURFACE, "CHM": CANOPY, "HILLSHADE": HILLSHADE,
     "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,

@@ -1,10 +1,11 @@
-"""Styles of contour lines, and of errors at checkpoints."""
+"""Styles of contour lines, of errors at checkpoints, and of water."""
 
 from __future__ import annotations
 
 from typing import Callable
 
 from qgis.core import (
+    QgsFillSymbol,
     QgsLineSymbol,
     QgsMarkerSymbol,
     QgsPalLayerSettings,
@@ -23,6 +24,13 @@ from ..i18n import tr
 
 _THIN = {"line_color": "110,72,36,160", "line_width": "0.2"}
 _THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
+# Fill and outline of water by its grade; the last one is that of all others.
+_WATER = {
+    "certain": ("70,140,220,190", "20,80,170"),
+    "likely": ("130,185,235,170", "20,80,170"),
+    "doubtful": ("190,215,240,150", "150,90,30"),
+}
+_SHORE = {"line_color": "20,80,170,230", "line_width": "0.4"}
 # Of the labels: colours of text and halo, and sizes in points and millimetres.
 _TEXT, _HALO = (96, 60, 28), (255, 255, 255, 200)
 _SIZE, _HALO_SIZE = 7.0, 0.7
@@ -72,6 +80,24 @@ def residuals(scale: float) -> Callable[[QgsVectorLayer], None]:
         layer.setRenderer(QgsRuleBasedRenderer(root))
 
     return dress
+
+
+def water(layer: QgsVectorLayer) -> None:
+    """Draw water in blue, the paler the less certain."""
+    words = {"certain": tr("Certain"), "likely": tr("Likely"), "doubtful": tr("Doubtful")}
+    root = QgsRuleBasedRenderer.Rule(None)
+    for grade, (fill, outline) in _WATER.items():
+        symbol = QgsFillSymbol.createSimple(
+            {"color": fill, "outline_color": outline, "outline_width": "0.3"}
+        )
+        rule = f"\"GRADE\" = '{grade}'"
+        root.appendChild(QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, words[grade]))
+    layer.setRenderer(QgsRuleBasedRenderer(root))
+
+
+def breaklines(layer: QgsVectorLayer) -> None:
+    """Draw breaklines of water in dark blue."""
+    layer.renderer().setSymbol(QgsLineSymbol.createSimple(_SHORE))
 
 
 def _mark(colour: str, size: str = "3") -> QgsMarkerSymbol:

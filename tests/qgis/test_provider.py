@@ -105,6 +105,10 @@ PARAMETERS = {
         "GROUND_CLASSES", "OVERLAP", "MARK_AS", "KEY_CLASS",
         "THREADS", "MEMORY", "OUTPUT",
     ],
+    "bareearth:water": [
+        "INPUT", "CRS", "MIN_AREA", "MIN_WIDTH", "WATER_CELL", "GROUND_CLASSES", "OVERLAP",
+        "OUTPUT", "BREAKLINES",
+    ],
     "bareearth:terrainmodel": [
         "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP",
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
@@ -179,6 +183,7 @@ OUTPUTS = {
         "CHANGED_COUNT",
     ],
     "bareearth:modelkeypoints": ["OUTPUT", "POINT_COUNT", "GROUND_COUNT", "KEY_POINT_COUNT"],
+    "bareearth:water": ["OUTPUT", "BREAKLINES", "LAKES", "RIVERS", "AREA"],
     "bareearth:terrainmodel": [
         "DTM",
         "DSM",

@@ -1,0 +1,350 @@
+"""Finds lakes and rivers: regions with hardly any last return, whose shore is level.
+
+Lasers get few returns from water. A void is also a gap between strips, the outside of the survey,
+or a roof that swallows light. So the shore must be level, or fall steadily along a river, and the
+land must rise from it; or the points there have class 9. A level shore as a mark of water, and its
+spread as a measure of quality, are those of r.hydro.flatten of GRASS.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Iterator, NamedTuple
+
+import numpy as np
+
+from ..core.parameters import ParameterSet, parameter
+from ..core.progress import SILENT, Progress
+from ..grids.isolines import Isolines
+from ..grids.morphology import closing, dilation, erosion
+from .water_grid import WaterGrid
+from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
+
+# Radius in cells of the disc that closes single stray cells, and of that which cuts thin links.
+_CLOSE, _OPEN = 1.5, 1.5
+# Radius in cells of the disc that closes gaps between points of class 9 alone.
+_CLOSE_CLASS = 3.5
+# Fewest segments of a shore.
+_FEWEST = 3
+# Islands smaller than this, in square metres, belong to the water.
+_LEAST_ISLAND = 100.0
+# Spread in metres of a shore from its level, up to which it is water. In coarse cells, banks have
+# so many metres for each metre of a cell.
+_MOST_SPREAD, _SPREAD_A_METRE = 0.3, 0.12
+# A river falls by so many metres, is so many times as long as wide, and its shore fits a falling
+# level so much better than one level.
+_FALL, _ELONGATED, _BETTER = 0.15, 3.0, 0.8
+# Least share of the shore with ground, and of its segments from which the land rises by so much.
+_LEAST_KNOWN, _LEAST_RISING, _RISE = 0.2, 0.6, 0.05
+# Cells this near to the shore can hold its bank.
+_BANK = 2.0
+# Returns so many metres above the level are not water; most share of cells with such.
+_ABOVE, _MOST_ABOVE = 2.0, 0.05
+# Returns inside lie at most so far from the level, in metres, by their median.
+_MOST_OFF = 0.5
+# Share of class 9 among the points from which a region needs no rising shore.
+_CLASSIFIED = 0.5
+_GRADES = ((0.75, "certain"), (0.5, "likely"), (0.0, "doubtful"))
+
+
+@dataclass(frozen=True)
+class Water(ParameterSet):
+    """Which water is found."""
+
+    min_area: float = parameter(
+        8000.0,
+        label="Smallest area",
+        unit="m2",
+        minimum=100.0,
+        maximum=900_000.0,
+        help="Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2"
+        " acres) and more.",
+    )
+    min_width: float = parameter(
+        30.0,
+        label="Smallest width of a river",
+        unit="m",
+        minimum=1.0,
+        maximum=10_000.0,
+        help="Rivers that are narrower on average are left out. The Lidar Base Specification asks"
+        " for 30 m (100 ft) and more.",
+    )
+    water_cell: float | None = parameter(
+        None,
+        kind="number",
+        label="Cell size",
+        unit="m",
+        minimum=0.1,
+        maximum=100.0,
+        advanced=True,
+        empty="automatic",
+        help="Side of the cells in which points are counted. Empty: twice the distance between"
+        " points, and at least 1 m.",
+    )
+
+
+class WaterBody(NamedTuple):
+    """A lake, or a part of a river.
+
+    Attributes
+    ----------
+    kind : str
+        "lake" or "river".
+    rings : tuple of numpy.ndarray of float64, shape (n, 3)
+        Shore and islands, closed: x, y and level in metres.
+    line : numpy.ndarray of float64, shape (m, 3)
+        The middle of a river, downstream, with its level; empty for a lake.
+    level, lowest : float
+        The level in metres; of a river, the level at its upper and lower end.
+    spread : float
+        Robust standard deviation of the shore from the level in metres.
+    certainty : float
+        0 to 1.
+    area : float
+        In square metres.
+    width : float
+        Mean width in metres.
+    class_share, filled : float
+        Share of cells with mostly points of class 9, and number of last returns relative to land.
+    """
+
+    kind: str
+    rings: tuple[np.ndarray, ...]
+    line: np.ndarray
+    level: float
+    lowest: float
+    spread: float
+    certainty: float
+    area: float
+    width: float
+    class_share: float
+    filled: float
+
+    @property
+    def grade(self) -> str:
+        """The grade of certainty: certain, likely or doubtful."""
+        return next(name for least, name in _GRADES if self.certainty >= least)
+
+
+class _Region(NamedTuple):
+    """Connected cells, with a margin."""
+
+    water: np.ndarray
+    rows: slice
+    columns: slice
+
+
+def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list[WaterBody]:
+    """Return the water of a survey, from north to south.
+
+    Parameters
+    ----------
+    grid : WaterGrid
+        Counts and heights of all points.
+    how : Water
+        Which water is found.
+    progress : Progress
+        Receives progress.
+
+    Raises
+    ------
+    Cancelled
+        If the user asked to stop.
+    """
+    usual = grid.usual()
+    found: list[WaterBody] = []
+    for region in _regions(grid, how, progress):
+        found += _bodies_of(region, grid, usual, how)
+    return sorted(found, key=lambda each: (-each.rings[0][:, 1].max(), each.rings[0][:, 0].min()))
+
+
+def _regions(grid: WaterGrid, how: Water, progress: Progress) -> Iterator[_Region]:
+    """Yield the connected regions that are large enough."""
+    from scipy.ndimage import find_objects, label
+
+    cells = closing(grid.candidates(), _CLOSE)
+    # Cells beyond the survey must not eat its border away.
+    kept = erosion(cells.view(np.uint8), _OPEN).view(bool)
+    cells &= dilation(kept, _OPEN)
+    labels, _ = label(cells)
+    sizes = np.bincount(labels.ravel())
+    reach, least = margin(), how.min_area / grid.cell**2
+    boxes = find_objects(labels)
+    for number, box in enumerate(boxes, start=1):
+        progress(number / len(boxes))
+        if sizes[number] < least:
+            continue
+        rows, columns = (
+            slice(max(each.start - reach, 0), min(each.stop + reach, side))
+            for each, side in zip(box, grid.shape)
+        )
+        water = labels[rows, columns] == number
+        yield _Region(_with_small_islands(water, grid.cell), rows, columns)
+
+
+def _with_small_islands(water: np.ndarray, cell: float) -> np.ndarray:
+    from scipy.ndimage import label
+
+    others, count = label(np.pad(~water, 1, constant_values=True), np.ones((3, 3)))
+    sizes = np.bincount(others.ravel(), minlength=count + 1)
+    small = sizes * cell**2 < _LEAST_ISLAND
+    small[others[0, 0]] = False
+    return water | small[others[1:-1, 1:-1]]
+
+
+def _bodies_of(
+    region: _Region, grid: WaterGrid, usual: np.ndarray, how: Water
+) -> Iterator[WaterBody]:
+    """Yield a region as water; if it is something else, its parts of class 9."""
+    window = region.rows, region.columns
+    is_class = region.water & grid.class_in(*window)
+    share = float(is_class[region.water].mean())
+    if share < _CLASSIFIED:
+        shore = shore_of(region.water, grid.ground[window], grid.cell)
+        rising = _rising(shore)
+        body = None
+        if shore is not None and shore.known >= _LEAST_KNOWN and rising >= _LEAST_RISING:
+            body = _body_of(region, shore, (share, rising), grid, usual, how)
+        if body is not None:
+            yield body
+            return
+    for part in _labelled(closing(is_class, _CLOSE_CLASS), how.min_area / grid.cell**2):
+        part = _with_small_islands(part, grid.cell)
+        shore = surface_of(part & is_class, grid.lowest[window], grid.cell)
+        share = float(is_class[part].mean())
+        body = _body_of(_Region(part, *window), shore, (share, 1.0), grid, usual, how)
+        if body is not None:
+            yield body
+
+
+def _labelled(cells: np.ndarray, least: float) -> Iterator[np.ndarray]:
+    """Yield the connected regions with at least so many cells."""
+    from scipy.ndimage import label
+
+    labels, _ = label(cells)
+    for number in np.flatnonzero(np.bincount(labels.ravel()) >= least):
+        if number:
+            yield labels == number
+
+
+def _body_of(
+    region: _Region, shore: Shore, marks: tuple[float, float], grid: WaterGrid, usual: np.ndarray,
+    how: Water,
+) -> WaterBody | None:  # fmt: skip
+    """Return a region as water, or None if its level is not that of water.
+
+    `marks` are its share of class 9, and that of the shore from which the land rises.
+    """
+    if len(shore.lowest) < _FEWEST:
+        return None
+    share, rising = marks
+    kind, levels = _levels_of(region.water, shore)
+    width = levels.width * grid.cell
+    most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell) * (1.0 + (share >= _CLASSIFIED))
+    if levels.spread > most or width < (how.min_width if kind == "river" else 0.0):
+        return None
+    if not _is_free(region.water, grid.lowest[region.rows, region.columns], levels):
+        return None
+    filled = _filled(region, grid, usual)
+    certainty = _certainty(max(1.0 - filled, share), levels.spread, rising)
+    return _made(kind, region, grid, levels, (certainty, share, filled, width))
+
+
+def _rising(shore: Shore | None) -> float:
+    """Return the share of segments of a shore from which the land rises."""
+    if shore is None:
+        return 0.0
+    known = shore.rises[~np.isnan(shore.rises)]
+    return float((known > _RISE).mean()) if len(known) else 0.0
+
+
+def _levels_of(water: np.ndarray, shore: Shore) -> tuple[str, Levels]:
+    """Return the kind of water, and its level."""
+    flat, falling = lake_level(water, shore), river_level(water, shore)
+    if falling is None or falling.length < _ELONGATED * falling.width:
+        return "lake", flat
+    fall = float(falling.heights[0] - falling.heights[-1])
+    if fall >= _FALL and falling.spread < _BETTER * flat.spread:
+        return "river", falling
+    # A long region with one level is a river that hardly falls, or a long lake: both are flat.
+    return "lake", flat._replace(width=falling.width)
+
+
+def _is_free(water: np.ndarray, lowest: np.ndarray, levels: Levels) -> bool:
+    """Return whether what lies in a region is at its level, away from its banks."""
+    inner = erosion(np.pad(water, 1).view(np.uint8), _BANK).view(bool)[1:-1, 1:-1]
+    places = np.argwhere(inner & np.isfinite(lowest))
+    if not len(places):
+        return True
+    off = lowest[tuple(places.T)] - levels.at(places)
+    above = np.count_nonzero(off > _ABOVE) / np.count_nonzero(inner)
+    return bool(above <= _MOST_ABOVE and np.median(np.abs(off)) <= _MOST_OFF)
+
+
+def _filled(region: _Region, grid: WaterGrid, usual: np.ndarray) -> float:
+    """Return the number of last returns relative to that of as much land."""
+    counts = grid.counts[region.rows, region.columns][region.water]
+    expected = grid.by_cell(usual, region.rows, region.columns)[region.water]
+    return float(min(counts.sum() / max(expected.sum(), 1e-9), 1.0))
+
+
+def _certainty(evidence: float, spread: float, rising: float) -> float:
+    """Return how certain it is that a region is water, 0 to 1."""
+    level = max(1.0 - spread / (2.0 * _MOST_SPREAD), 0.0)
+    return float(evidence * level * rising) ** (1.0 / 3.0)
+
+
+def _made(
+    kind: str,
+    region: _Region,
+    grid: WaterGrid,
+    levels: Levels,
+    figures: tuple[float, float, float, float],
+) -> WaterBody:
+    """Return a region as water with coordinates."""
+    certainty, share, filled, width = figures
+    start = np.array((region.rows.start + grid.row, region.columns.start + grid.column))
+
+    def placed(places: np.ndarray) -> np.ndarray:
+        y, x = ((places + start + 0.5) * grid.cell).T
+        return np.column_stack((x, y, levels.at(places)))
+
+    rings = tuple(placed(each) for each in rings_of(region.water))
+    line = placed(levels.line) if kind == "river" else np.zeros((0, 3))
+    if len(line):
+        line[:, 2] = levels.heights
+    return WaterBody(
+        kind, rings, line, float(levels.heights[0]), float(levels.heights[-1]), levels.spread,
+        certainty, float(region.water.sum()) * grid.cell**2, width, share, filled,
+    )  # fmt: skip
+
+
+def rings_of(cells: np.ndarray) -> list[np.ndarray]:
+    """Return the outline of a connected region, and then those of its holes.
+
+    Parameters
+    ----------
+    cells : numpy.ndarray of bool, shape (rows, columns)
+        The region.
+
+    Returns
+    -------
+    list of numpy.ndarray of float64, shape (n, 2)
+        Row and column; whole numbers are centres of cells. Corners are cut, and rings are closed.
+    """
+    heights = np.pad(cells, 1) + 0.5
+    lines = [each.places - 1.0 for each in Isolines(1.0, heights.shape[1]).add(heights, 0, True)]
+    return [_without_straight(each) for each in sorted(lines, key=lambda each: -abs(_area(each)))]
+
+
+def _area(ring: np.ndarray) -> float:
+    row, column = ring.T
+    return float((row[:-1] * column[1:] - row[1:] * column[:-1]).sum() / 2.0)
+
+
+def _without_straight(ring: np.ndarray) -> np.ndarray:
+    """Return a closed ring without the corners that lie on straight lines."""
+    corners = ring[:-1]
+    back, on = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
+    kept = corners[back[:, 0] * on[:, 1] != back[:, 1] * on[:, 0]]
+    return np.concatenate((kept, kept[:1]))

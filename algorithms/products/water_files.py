@@ -1,0 +1,264 @@
+"""Finds the water of a survey, and writes it as polygons and as breaklines with heights."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Iterable, Iterator, Sequence
+
+import numpy as np
+
+from ..core.files import check_distinct, check_output, replace_with_files_of, temporary_folder
+from ..core.parameters import ParameterSet
+from ..core.progress import SILENT, Progress
+from ..crs.system import Crs
+from ..las.cloud import PointCloud
+from ..survey.ground_classes import GroundClasses
+from ..survey.kept_classes import NOISE, is_one_of
+from .constraints import Constraints
+from .line_files import Feature, Layer, feature_writer, files_beside
+from .survey_ground import SurveyGround
+from .water import Water, WaterBody, find_water
+from .water_grid import WaterGrid, cell_for
+
+# The class of water in the LAS specification.
+WATER_CLASS = 9
+# Fields of the polygons. Levels are in the unit of the heights, all others in metres.
+FIELDS: dict[str, type] = {
+    "ID": int, "KIND": str, "LEVEL": float, "LEVEL_LOW": float, "SPREAD": float,
+    "CERTAINTY": float, "GRADE": str, "AREA": float, "WIDTH": float, "CLASS9": float,
+    "RETURNS": float,
+}  # fmt: skip
+# Fields of the breaklines: ID is that of the polygon.
+LINE_FIELDS: dict[str, type] = {"ID": int, "KIND": str}
+
+
+@dataclass(frozen=True)
+class WaterRequest:
+    """A request to find water.
+
+    Attributes
+    ----------
+    water : Water
+        Which water is found.
+    ground : GroundClasses
+        Which points are ground.
+    crs : str or None
+        The CRS of the points in place of the one that files state, as for `stated_wkt`.
+    breaklines : Path or None
+        A file for the shores, islands and middles of rivers as lines with heights.
+    """
+
+    water: Water = field(default_factory=Water)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    crs: str | None = None
+    breaklines: Path | None = None
+
+    @classmethod
+    def of(cls, sets: Iterable[ParameterSet], **others: Any) -> WaterRequest:
+        """Return a request with parameter sets, given in any order, and other attributes."""
+        names = {type(value): name for name, value in vars(cls()).items()}
+        others.update((names[type(each)], each) for each in sets)
+        return cls(**others)
+
+
+@dataclass(frozen=True)
+class WaterSummary:
+    """What was found.
+
+    Attributes
+    ----------
+    lakes, rivers : int
+        Number of polygons.
+    area : float
+        Their area in square metres.
+    grades : dict of str to int
+        Number of polygons by grade of certainty.
+    cell : float
+        Side in metres of the cells in which points were counted.
+    """
+
+    lakes: int
+    rivers: int
+    area: float
+    grades: dict[str, int]
+    cell: float
+
+    @property
+    def text(self) -> str:
+        """The result as words."""
+        grades = ", ".join(f"{count:,} {grade}" for grade, count in self.grades.items())
+        return (
+            f"{self.lakes:,} lakes and {self.rivers:,} parts of rivers, {self.area / 10_000:,.1f}"
+            f" ha{f' ({grades})' if grades else ''}, in cells of {self.cell:g} m"
+        )
+
+
+@dataclass(frozen=True)
+class SurveyWater:
+    """The water of a survey.
+
+    Attributes
+    ----------
+    bodies : list of WaterBody
+        In metres, in the frame with its origin at (0, 0) of the CRS.
+    crs : Crs
+        The CRS of the points.
+    cell : float
+        Side of the cells in metres.
+    """
+
+    bodies: list[WaterBody]
+    crs: Crs
+    cell: float
+
+    @classmethod
+    def of(
+        cls, sources: Sequence[Path], request: WaterRequest, progress: Progress = SILENT
+    ) -> SurveyWater:
+        """Find the water. Points are read in parts, so that memory depends on the area only.
+
+        Raises
+        ------
+        BareEarthError
+            If a file cannot be read, there is no ground, or there are too many cells.
+        Cancelled
+            If the user asked to stop.
+        """
+        survey = SurveyGround.of(sources, request.ground, progress.part(0.0, 0.05), request.crs)
+        unit, tiles = survey.frame.horizontal_unit, survey.survey.tiles
+        boxes = np.array([each.outer_box for each in tiles]) * unit
+        area = float((boxes[:, 2:] - boxes[:, :2]).prod(axis=1).sum())
+        cell = cell_for(area, survey.survey.count, request.water.water_cell)
+        west, south, east, north = (float(each) * unit for each in survey.survey.box)
+        grid = WaterGrid((west, south, east, north), cell)
+        for cloud, ground in survey.parts(progress.part(0.05, 0.9)):
+            used = request.ground.used(cloud) & ~is_one_of(cloud.classification, NOISE)
+            last = cloud.return_number >= cloud.number_of_returns
+            is_water = cloud.classification == WATER_CLASS
+            _add(grid, cloud, survey, (ground, used & is_water, used & last))
+        survey.check()
+        found = find_water(grid, request.water, progress.part(0.9, 1.0))
+        return cls(found, survey.survey.crs, cell)
+
+    @property
+    def summary(self) -> WaterSummary:
+        """What was found."""
+        kinds = [each.kind for each in self.bodies]
+        grades = [each.grade for each in self.bodies]
+        return WaterSummary(
+            kinds.count("lake"), kinds.count("river"), sum(each.area for each in self.bodies),
+            {each: grades.count(each) for each in dict.fromkeys(sorted(grades))}, self.cell,
+        )  # fmt: skip
+
+    def in_crs(self, places: np.ndarray) -> np.ndarray:
+        """Return x, y and level, shape (n, 3), in units of the CRS."""
+        across, up = self.crs.horizontal_unit, self.crs.vertical_unit
+        return places / (across, across, up)
+
+    @property
+    def constraints(self) -> Constraints:
+        """The water as constraints of a terrain model, in coordinates of the CRS."""
+        return Constraints(
+            water=tuple(
+                tuple(self.in_crs(ring)[:, :2] for ring in each.rings) for each in self.bodies
+            ),
+            rivers=tuple(self.in_crs(each.line) for each in self.bodies if len(each.line)),
+        )
+
+    def polygons(self) -> Iterator[Feature]:
+        """Yield the polygons with `FIELDS`."""
+        up = self.crs.vertical_unit
+        for number, each in enumerate(self.bodies, start=1):
+            figures = (
+                each.level / up, each.lowest / up, each.spread, each.certainty, each.grade,
+                each.area, each.width, each.class_share, each.filled,
+            )  # fmt: skip
+            values = [round(value, 3) if isinstance(value, float) else value for value in figures]
+            rings = [self.in_crs(ring)[:, :2] for ring in each.rings]
+            yield Feature((number, each.kind, *values), rings)
+
+    def lines(self) -> Iterator[Feature]:
+        """Yield the breaklines with `LINE_FIELDS`: shores, islands and the middles of rivers."""
+        for number, each in enumerate(self.bodies, start=1):
+            for place, ring in enumerate(each.rings):
+                yield Feature((number, "island" if place else "shore"), self.in_crs(ring))
+            if len(each.line):
+                yield Feature((number, "river"), self.in_crs(each.line))
+
+
+def _add(
+    grid: WaterGrid,
+    cloud: PointCloud,
+    survey: SurveyGround,
+    marks: tuple[np.ndarray, np.ndarray, np.ndarray],
+) -> None:
+    """Add the points of a part that have any mark: ground, water, last return."""
+    which = np.flatnonzero(np.logical_or.reduce(marks))
+    grid.add(cloud.points(which, survey.frame), *(each[which] for each in marks))
+
+
+def write_water(
+    sources: Iterable[Path],
+    target: Path,
+    request: WaterRequest = WaterRequest(),
+    progress: Progress = SILENT,
+) -> WaterSummary:
+    """Find the water of one classified file or many, and write it as polygons.
+
+    Parameters
+    ----------
+    sources : iterable of Path
+        Classified LAS, LAZ and COPC files, folders of them, virtual point clouds and lists: all of
+        them together are one survey.
+    target : Path
+        The polygons to write: .gpkg, .geojson, .shp or .fgb.
+    request : WaterRequest
+        Which water is found, and a file for breaklines.
+    progress : Progress
+        Receives progress and messages.
+
+    Returns
+    -------
+    WaterSummary
+
+    Raises
+    ------
+    BareEarthError
+        If an input cannot be read, there is no ground, the survey is too large for its cells, or an
+        output cannot be written.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+
+    Examples
+    --------
+    >>> from bare_earth.algorithms import find_water
+    >>> find_water(["ground.laz"], "water.gpkg").lakes  # doctest: +SKIP
+    3
+    """
+    paths, target = [Path(each) for each in sources], Path(target)
+    outputs = [target] if request.breaklines is None else [target, Path(request.breaklines)]
+    check_distinct(outputs)
+    for each in outputs:
+        check_output(each, tuple(paths))
+        feature_writer(each, "water")
+    found = SurveyWater.of(paths, request, progress.part(0.0, 0.95))
+    layers = (
+        (found.polygons, Layer("water", "Polygon", FIELDS, *_named(found.crs))),
+        (found.lines, Layer("breaklines", "LineString Z", LINE_FIELDS, *_named(found.crs))),
+    )
+    with contextlib.ExitStack() as opened:
+        folders = []
+        for output, (features, layer) in zip(outputs, layers):
+            folders.append(opened.enter_context(temporary_folder(output.parent)))
+            write = feature_writer(output, "water")
+            write(folders[-1] / output.name, features(), layer, progress)
+        progress(1.0)  # the last moment to cancel
+        for output, folder in zip(outputs, folders):
+            replace_with_files_of(folder, output, files_beside(output))
+    return found.summary
+
+
+def _named(crs: Crs) -> tuple[str | None, int | None]:
+    return crs.wkt, crs.epsg

@@ -1,0 +1,274 @@
+"""Water, on land where it is known."""
+
+import json
+
+import numpy as np
+import pytest
+from test_checkpoints import write
+
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.products.water import Water, find_water
+from bare_earth.algorithms.products.water_grid import WaterGrid, cell_for
+from bare_earth.algorithms.products.water_levels import isotonic
+
+WIDE, DENSITY, LEVEL = 400.0, 4.0, 100.0
+
+
+class Scene:
+    """Last returns of rolling land that slopes by 3 %."""
+
+    def __init__(self, wide=WIDE, high=WIDE, density=DENSITY, slope=0.03, rolling=1.0, seed=1):
+        self.random = np.random.default_rng(seed)
+        count = int(wide * high * density)
+        self.x, self.y = self.random.uniform(0, wide, count), self.random.uniform(0, high, count)
+        self.size = wide, high
+        self.z = LEVEL + slope * (self.x - wide / 2) + self.random.normal(0, 0.03, count)
+        self.z += rolling * np.sin(self.x / 37.0) * np.cos(self.y / 41.0)
+        self.classes = np.full(count, 2)
+
+    def inside(self, shape):
+        return shape(self.x, self.y)
+
+    def basin(self, away, level=LEVEL, slope=0.3):
+        """Carve land round water, `away` metres from its shore, with banks of some slope."""
+        at = level(self.x, self.y) if callable(level) else level
+        # A dam holds the water on the low side.
+        bank = at + slope * np.clip(away(self.x, self.y), 0, None)
+        low = np.minimum(bank, at + 1.0)
+        near = away(self.x, self.y) < 25.0
+        self.z = np.where(near, np.clip(self.z, low, bank), self.z)
+        self.z += self.random.normal(0, 0.03, len(self.z))
+
+    def keep(self, which):
+        self.x, self.y, self.z, self.classes = (
+            each[which] for each in (self.x, self.y, self.z, self.classes)
+        )
+
+    def grid(self, cell=1.0):
+        grid = WaterGrid((0.0, 0.0, self.size[0] - 1e-6, self.size[1] - 1e-6), cell)
+        every = np.ones(len(self.x), dtype=bool)
+        grid.add(Points(self.x, self.y, self.z), self.classes == 2, self.classes == 9, every)
+        return grid
+
+    def water(self, cell=1.0, **how):
+        return find_water(self.grid(cell), Water(**how))
+
+
+def lake(x, y):
+    """Return how far places are from a lake of 1.6 ha with an irregular shore; negative inside."""
+    east, north = x - 200.0, y - 210.0
+    angle = np.arctan2(north, east)
+    return np.hypot(east, north) - 70.0 * (1.0 + 0.25 * np.sin(3 * angle) + 0.1 * np.cos(5 * angle))
+
+
+def contains(body, x, y):
+    """Return which places lie in the rings of water, by counting crossings."""
+    inside = np.zeros(np.shape(x), dtype=bool)
+    for ring in body.rings:
+        for (x0, y0, _), (x1, y1, _) in zip(ring[:-1], ring[1:]):
+            if y0 != y1:
+                crosses = (y0 > y) != (y1 > y)
+                inside ^= crosses & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
+    return inside
+
+
+def overlap(bodies, away, size=(WIDE, WIDE)):
+    """Return the intersection over union of found and true water."""
+    x, y = np.meshgrid(np.arange(0.5, size[0]), np.arange(0.5, size[1]))
+    true, found = away(x, y) < 0, np.zeros(x.shape, dtype=bool)
+    for body in bodies:
+        found |= contains(body, x, y)
+    return (true & found).sum() / (true | found).sum()
+
+
+def lake_scene(kind):
+    scene = Scene()
+    scene.basin(lake)
+    inside = scene.inside(lake) < 0
+    scene.z[inside] = LEVEL + scene.random.normal(0, 0.03, inside.sum())
+    left = {"empty": 0.0, "sparse": 0.1, "class 9": 0.6}[kind]
+    scene.classes[inside] = 9 if kind == "class 9" else 1
+    scene.keep(~inside | (scene.random.random(len(inside)) < left))
+    return scene
+
+
+@pytest.mark.parametrize("kind", ["empty", "sparse", "class 9"])
+def test_a_lake_is_found_with_its_level(kind):
+    (body,) = lake_scene(kind).water()
+    assert body.kind == "lake"
+    assert overlap([body], lake) > 0.9
+    assert abs(body.level - LEVEL) < 0.2 and body.spread < 0.15
+    assert body.grade == "certain"
+    assert (body.class_share > 0.9) == (kind == "class 9")
+    assert np.ptp(body.rings[0][:, 2]) == 0
+
+
+def river(x, y):
+    """Return how far places are from a river, 40 m wide, that winds from west to east."""
+    return np.abs(y - 150.0 - 30.0 * np.sin(x / 90.0)) - 20.0
+
+
+def test_a_river_falls_by_a_metre_in_500_m():
+    scene = Scene(500.0, 300.0)
+    scene.basin(river, lambda x, y: LEVEL - 0.002 * x)
+    scene.keep(scene.inside(river) > 0)
+    (body,) = scene.water()
+    assert body.kind == "river"
+    assert overlap([body], river, (500.0, 300.0)) > 0.9
+    assert (np.diff(body.line[:, 2]) <= 0).all()
+    x, _, level = body.line[2:-2].T
+    assert np.abs(level - (LEVEL - 0.002 * x)).max() < 0.25
+    assert body.level - body.lowest == pytest.approx(1.0, abs=0.25)
+    assert 30 < body.width < 50
+    assert scene.water(min_width=60.0) == []
+
+
+def hall(scene):
+    on = (np.abs(scene.x - 200) < 75) & (np.abs(scene.y - 200) < 60)
+    scene.z[on], scene.classes[on] = LEVEL + 9.0, 6
+
+
+def black_roof(scene):
+    scene.keep((np.abs(scene.x - 200) > 75) | (np.abs(scene.y - 200) > 60))
+
+
+def dense_forest(scene):
+    wood = np.hypot(scene.x - 200, scene.y - 200) < 90
+    scene.z[wood] += scene.random.uniform(5, 25, wood.sum())
+    scene.classes[wood] = 5
+
+
+def thin_forest(scene):
+    """Few returns, all of them high."""
+    dense_forest(scene)
+    scene.keep((scene.classes == 2) | (scene.random.random(len(scene.x)) < 0.15))
+
+
+def slanted_border(scene):
+    scene.keep(scene.y > 0.7 * scene.x)
+
+
+def gap(scene):
+    scene.keep(np.abs(scene.y - 200 - 0.2 * scene.x) > 25)
+
+
+def sparser_half(scene):
+    scene.keep((scene.x < 200) | (scene.random.random(len(scene.x)) < 0.15))
+
+
+@pytest.mark.parametrize("slope, rolling", [(0.0, 0.0), (0.0, 1.0), (0.03, 0.0), (0.03, 1.0)])
+@pytest.mark.parametrize(
+    "changed", [hall, black_roof, dense_forest, thin_forest, slanted_border, gap, sparser_half]
+)
+def test_what_is_not_water_is_not_found(changed, slope, rolling):
+    scene = Scene(slope=slope, rolling=rolling)
+    changed(scene)
+    assert scene.water(min_area=1000.0, min_width=10.0) == []
+
+
+def test_isotonic_regression_is_that_of_least_squares():
+    random = np.random.default_rng(4)
+    values = np.cumsum(random.normal(0.1, 1.0, 200))
+    fitted = isotonic(values)
+    assert (np.diff(fitted) >= 0).all()
+    assert fitted.sum() == pytest.approx(values.sum())
+    # The least squares: residuals are at right angles to the fit.
+    assert ((values - fitted) * fitted).sum() == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.fixture(scope="module")
+def survey(tmp_path_factory):
+    """A lake with points of class 9 along its shore, in one file, and in four."""
+    scene, folder = Scene(), tmp_path_factory.mktemp("survey")
+    scene.basin(lake)
+    scene.keep(scene.inside(lake) > 0)
+    order = np.lexsort((scene.y, scene.x))
+    scene.keep(order)
+    tiles = folder / "tiles"
+    tiles.mkdir()
+    columns = np.round(scene.x, 3), np.round(scene.y, 3), np.round(scene.z, 3), scene.classes
+    write(folder / "in.laz", *columns)
+    for number in range(4):
+        there = (columns[0] >= 200.3) + 2 * (columns[1] >= 190.7) == number
+        write(tiles / f"{number}.laz", *(each[there] for each in columns))
+    return folder
+
+
+def run(*arguments):
+    assert main([str(each) for each in arguments]) == 0
+
+
+def test_many_files_give_the_same_as_one(survey, tmp_path, capsys):
+    run("water", survey / "in.laz", tmp_path / "one.geojson", "--json")
+    figures = json.loads(capsys.readouterr().out)
+    assert figures["lakes"] == 1 and figures["rivers"] == 0
+    assert figures["grades"] == {"certain": 1}
+    run("water", survey / "tiles", tmp_path / "many.geojson")
+    one, many = (json.loads((tmp_path / f"{name}.geojson").read_text()) for name in ("one", "many"))
+    assert one["features"] == many["features"]
+    assert one["crs"]["properties"]["name"].endswith(":25832")
+    (feature,) = one["features"]
+    assert feature["properties"]["KIND"] == "lake"
+    assert feature["properties"]["LEVEL"] == pytest.approx(LEVEL, abs=0.2)
+    ring = np.array(feature["geometry"]["coordinates"][0])
+    assert (ring[0] == ring[-1]).all()
+    assert np.abs(ring.mean(axis=0) - (500_200, 5_600_210)).max() < 20
+
+
+@pytest.mark.parametrize("suffix", [".gpkg", ".geojson", ".shp", ".fgb"])
+def test_polygons_and_breaklines_are_read_again(survey, tmp_path, suffix):
+    from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
+
+    if suffix != ".geojson":
+        pytest.importorskip("pyogrio")
+    target, lines = tmp_path / f"water{suffix}", tmp_path / f"lines{suffix}"
+    run("water", survey / "in.laz", target, "--breaklines-out", lines)
+    ((ring, *_),) = read_boundary(target)
+    (line, *_) = read_lines(lines)
+    assert np.allclose(ring, line[:, :2], atol=0.002)
+    assert np.ptp(line[:, 2]) == 0 and abs(line[0, 2] - LEVEL) < 0.2
+
+
+def test_a_terrain_model_with_the_water_that_is_found(survey, tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    run("terrain", survey / "in.laz", "--dtm", tmp_path / "dtm.tif", "--water", "automatic")
+    with rasterio.open(tmp_path / "dtm.tif") as raster:
+        heights = raster.read(1)
+        x, y = np.meshgrid(*(np.arange(0.5, side) * raster.res[0] for side in raster.shape[::-1]))
+        west, north = raster.bounds.left - 500_000, raster.bounds.top - 5_600_000
+    inside = lake(x + west, north - y) < -5.0
+    assert np.ptp(heights[inside]) < 0.001
+    assert abs(heights[inside][0] - LEVEL) < 0.3
+
+
+def test_what_cannot_be_done_is_said(survey, tmp_path, capsys):
+    source, target = survey / "in.laz", tmp_path / "water.gpkg"
+    assert main(["water", str(source), str(tmp_path / "water.tif")]) == 1
+    assert ".gpkg" in capsys.readouterr().err
+    assert main(["water", str(source), str(target), "--ground-classes", "17"]) == 1
+    assert "no ground points" in capsys.readouterr().err
+    assert main(["water", str(source), str(target), "--breaklines-out", str(target)]) == 1
+    output = str(tmp_path / "out.laz")
+    assert main(["classify", str(source), output, "--water", "automatic"]) == 2
+    assert "terrain --water automatic" in capsys.readouterr().err
+    assert not any(tmp_path.iterdir())
+
+
+def test_too_many_cells_are_refused():
+    with pytest.raises(BareEarthError, match="Choose cells of 13 m"):
+        WaterGrid((0.0, 0.0, 1e5, 1e5), 1.0)
+    assert cell_for(1e6, 100_000_000) == 1.0
+    assert cell_for(1e6, 250_000, 2.0) == 2.0
+
+
+def test_water_in_feet_has_its_level_in_feet(tmp_path):
+    scene = lake_scene("empty")
+    feet = 0.3048
+    places = (np.round(each / feet, 3) for each in (scene.x, scene.y, scene.z))
+    write(tmp_path / "in.laz", *places, scene.classes, crs="EPSG:2223")  # Arizona, feet
+    run("water", tmp_path / "in.laz", tmp_path / "water.geojson", "--crs", "EPSG:2223+8228")
+    (feature,) = json.loads((tmp_path / "water.geojson").read_text())["features"]
+    assert feature["properties"]["LEVEL"] == pytest.approx(LEVEL / feet, abs=0.7)
+    assert feature["properties"]["AREA"] == pytest.approx(15_800, rel=0.05)
