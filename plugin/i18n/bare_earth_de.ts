@@ -186,6 +186,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Archäologische Topographie (VAT)</translation>
     </message>
     <message>
+        <source>Area [m²]</source>
+        <translation>Fläche [m²]</translation>
+    </message>
+    <message>
         <source>As the filter classifies them</source>
         <translation>Wie der Filter sie klassifiziert</translation>
     </message>
@@ -280,6 +284,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Cells with a height</source>
         <translation>Zellen mit einer Höhe</translation>
+    </message>
+    <message>
+        <source>Certain</source>
+        <translation>Sicher</translation>
     </message>
     <message>
         <source>Check against checkpoints</source>
@@ -534,6 +542,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Fertig; ein Neustart ist nicht nötig.</translation>
     </message>
     <message>
+        <source>Doubtful</source>
+        <translation>Zweifelhaft</translation>
+    </message>
+    <message>
         <source>Elevation raster</source>
         <translation>Höhenraster</translation>
     </message>
@@ -592,6 +604,14 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
     <message>
         <source>Find high noise (18)</source>
         <translation>Hohes Rauschen finden (18)</translation>
+    </message>
+    <message>
+        <source>Find water</source>
+        <translation>Gewässer finden</translation>
+    </message>
+    <message>
+        <source>Finds lakes and rivers as polygons with their levels, and as breaklines.</source>
+        <translation>Findet Seen und Flüsse als Polygone mit ihren Wasserspiegeln und als Bruchkanten.</translation>
     </message>
     <message>
         <source>Finds the few ground points of a classified point cloud that a terrain model needs. Of all other ground points, none lies farther above or below the triangulation (TIN) of these key points than the tolerances. Key points get a class of their own, or the key-point flag; nothing else in the file changes.
@@ -660,6 +680,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Finds vegetation, buildings and bridges in a point cloud whose ground is known.</source>
         <translation>Findet Vegetation, Gebäude und Brücken in einer Punktwolke, deren Boden bekannt ist.</translation>
+    </message>
+    <message>
+        <source>Finds water in a classified point cloud: where hardly any last return is, and the ground along the shore is level or falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told from it. Each polygon has the level, the spread of the shore, and a grade of certainty. The terrain model takes the polygons as water.</source>
+        <translation>Findet Gewässer in einer klassifizierten Punktwolke: wo kaum letzte Echos sind und der Boden am Ufer eben ist oder stetig fällt, oder wo Punkte die Klasse 9 haben. Lücken zwischen Flugstreifen, Dächer und Wälder werden davon unterschieden. Jedes Polygon hat den Wasserspiegel, die Streuung des Ufers und einen Grad der Sicherheit. Das Geländemodell nimmt die Polygone als Gewässer.</translation>
     </message>
     <message>
         <source>First and single returns</source>
@@ -1006,6 +1030,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>LINZ, New Zealand National Aerial LiDAR Base Specification (PGF-Fassung)</translation>
     </message>
     <message>
+        <source>Lakes</source>
+        <translation>Seen</translation>
+    </message>
+    <message>
         <source>Land cover of the checkpoints</source>
         <translation>Bodenbedeckung der Kontrollpunkte</translation>
     </message>
@@ -1056,6 +1084,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Light of the hillshade</source>
         <translation>Licht der Schummerung</translation>
+    </message>
+    <message>
+        <source>Likely</source>
+        <translation>Wahrscheinlich</translation>
     </message>
     <message>
         <source>Line of the profile</source>
@@ -1306,6 +1338,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Seite über die Qualität</translation>
     </message>
     <message>
+        <source>Parts of rivers</source>
+        <translation>Flussabschnitte</translation>
+    </message>
+    <message>
         <source>Point cloud</source>
         <translation>Punktwolke</translation>
     </message>
@@ -1404,6 +1440,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Polygons of water. Each is flattened to one level, that of the ground along its border.</source>
         <translation>Polygone von Gewässern. Jedes wird auf eine Höhe eingeebnet, die des Bodens an seinem Rand.</translation>
+    </message>
+    <message>
+        <source>Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD) and a grade of certainty (GRADE).</source>
+        <translation>Polygone mit dem Wasserspiegel (LEVEL), der Streuung des Ufers in Metern (SPREAD) und einem Grad der Sicherheit (GRADE).</translation>
     </message>
     <message>
         <source>Positive openness</source>
@@ -1534,6 +1574,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Flüsse</translation>
     </message>
     <message>
+        <source>Rivers that are narrower on average are left out. The Lidar Base Specification asks for 30 m (100 ft) and more.</source>
+        <translation>Flüsse, die im Mittel schmaler sind, werden weggelassen. Die Lidar Base Specification verlangt 30 m (100 ft) und mehr.</translation>
+    </message>
+    <message>
         <source>Roofs are at least this high above the ground. Lower ones are cars and hedges too.</source>
         <translation>Dächer sind mindestens so hoch über dem Boden. Niedrigeres sind auch Autos und Hecken.</translation>
     </message>
@@ -1582,6 +1626,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Anteil falscher Punkte</translation>
     </message>
     <message>
+        <source>Shores, islands and the middles of rivers as lines with heights.</source>
+        <translation>Ufer, Inseln und die Mitten der Flüsse als Linien mit Höhen.</translation>
+    </message>
+    <message>
         <source>Shorter side of the largest building or other object. Nothing that is narrower and stands out from its surroundings can be a seed of the ground. A value that is too large takes longer and loses sharp hilltops. Empty: from the preset.</source>
         <translation>Kürzere Seite des größten Gebäudes oder sonstigen Objekts. Nichts, was schmaler ist und aus seiner Umgebung herausragt, kann ein Startpunkt des Bodens sein. Ein zu großer Wert dauert länger und verliert spitze Kuppen. Leer: aus der Voreinstellung.</translation>
     </message>
@@ -1616,6 +1664,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Side of a cell of the terrain model and of its hillshade. Choose about the distance between ground points; smaller cells only make the file larger.</source>
         <translation>Seite einer Zelle des Geländemodells und seiner Schummerung. Wählen Sie etwa den Abstand der Bodenpunkte; kleinere Zellen machen nur die Datei größer.</translation>
+    </message>
+    <message>
+        <source>Side of the cells in which points are counted. Empty: twice the distance between points, and at least 1 m.</source>
+        <translation>Seite der Zellen, in denen Punkte gezählt werden. Leer: das Doppelte des Punktabstands und mindestens 1 m.</translation>
     </message>
     <message>
         <source>Side of the cells of densities and voids. Strips and maximum heights have cells of twice this size.</source>
@@ -1680,6 +1732,18 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
         <translation>Kleine Gruppen von Punkten, die mindestens 10 m über allen anderen ihres Orts hängen: Vögel, Wolken.</translation>
+    </message>
+    <message>
+        <source>Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2 acres) and more.</source>
+        <translation>Kleinere Gewässer werden weggelassen. Die Lidar Base Specification verlangt Seen von 8.000 m² (2 acres) und mehr.</translation>
+    </message>
+    <message>
+        <source>Smallest area</source>
+        <translation>Kleinste Fläche</translation>
+    </message>
+    <message>
+        <source>Smallest width of a river</source>
+        <translation>Kleinste Breite eines Flusses</translation>
     </message>
     <message>
         <source>Smoothing of pictures of the relief</source>
@@ -2254,6 +2318,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>bekannter Boden</translation>
     </message>
     <message>
+        <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>
+        <translation>See,Fluss,Teich,Ufer,Uferlinie,Gewässer,Bruchkanten</translation>
+    </message>
+    <message>
         <source>lazrs could not be installed: {}</source>
         <translation>lazrs ließ sich nicht installieren: {}</translation>
     </message>
@@ -2496,86 +2564,6 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>{} is not on this computer. Download it as .las or .laz first.</source>
         <translation>{} ist keine Datei auf diesem Rechner. Laden Sie sie zuerst als .las oder .laz herunter.</translation>
-    </message>
-    <message>
-        <source>Area [m²]</source>
-        <translation>Fläche [m²]</translation>
-    </message>
-    <message>
-        <source>Certain</source>
-        <translation>Sicher</translation>
-    </message>
-    <message>
-        <source>Doubtful</source>
-        <translation>Zweifelhaft</translation>
-    </message>
-    <message>
-        <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
-        <translation>Jede Stelle wird mit ihrer Umgebung bis zu dieser Entfernung verglichen. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere verschwinden.</translation>
-    </message>
-    <message>
-        <source>Find water</source>
-        <translation>Gewässer finden</translation>
-    </message>
-    <message>
-        <source>Finds lakes and rivers as polygons with their levels, and as breaklines.</source>
-        <translation>Findet Seen und Flüsse als Polygone mit ihren Wasserspiegeln und als Bruchkanten.</translation>
-    </message>
-    <message>
-        <source>Finds water in a classified point cloud: where hardly any last return is, and the ground along the shore is level or falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told from it. Each polygon has the level, the spread of the shore, and a grade of certainty. The terrain model takes the polygons as water.</source>
-        <translation>Findet Gewässer in einer klassifizierten Punktwolke: wo kaum letzte Echos sind und der Boden am Ufer eben ist oder stetig fällt, oder wo Punkte die Klasse 9 haben. Lücken zwischen Flugstreifen, Dächer und Wälder werden davon unterschieden. Jedes Polygon hat den Wasserspiegel, die Streuung des Ufers und einen Grad der Sicherheit. Das Geländemodell nimmt die Polygone als Gewässer.</translation>
-    </message>
-    <message>
-        <source>Lakes</source>
-        <translation>Seen</translation>
-    </message>
-    <message>
-        <source>Likely</source>
-        <translation>Wahrscheinlich</translation>
-    </message>
-    <message>
-        <source>Parts of rivers</source>
-        <translation>Flussabschnitte</translation>
-    </message>
-    <message>
-        <source>Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD) and a grade of certainty (GRADE).</source>
-        <translation>Polygone mit dem Wasserspiegel (LEVEL), der Streuung des Ufers in Metern (SPREAD) und einem Grad der Sicherheit (GRADE).</translation>
-    </message>
-    <message>
-        <source>Radius of the local relief</source>
-        <translation>Radius des lokalen Reliefs</translation>
-    </message>
-    <message>
-        <source>Rivers that are narrower on average are left out. The Lidar Base Specification asks for 30 m (100 ft) and more.</source>
-        <translation>Flüsse, die im Mittel schmaler sind, werden weggelassen. Die Lidar Base Specification verlangt 30 m (100 ft) und mehr.</translation>
-    </message>
-    <message>
-        <source>Shores, islands and the middles of rivers as lines with heights.</source>
-        <translation>Ufer, Inseln und die Mitten der Flüsse als Linien mit Höhen.</translation>
-    </message>
-    <message>
-        <source>Side of the cells in which points are counted. Empty: twice the distance between points, and at least 1 m.</source>
-        <translation>Seite der Zellen, in denen Punkte gezählt werden. Leer: das Doppelte des Punktabstands und mindestens 1 m.</translation>
-    </message>
-    <message>
-        <source>Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2 acres) and more.</source>
-        <translation>Kleinere Gewässer werden weggelassen. Die Lidar Base Specification verlangt Seen von 8.000 m² (2 acres) und mehr.</translation>
-    </message>
-    <message>
-        <source>Smallest area</source>
-        <translation>Kleinste Fläche</translation>
-    </message>
-    <message>
-        <source>Smallest width of a river</source>
-        <translation>Kleinste Breite eines Flusses</translation>
-    </message>
-    <message>
-        <source>Smoothing of hillshade and local relief</source>
-        <translation>Glättung von Schummerung und lokalem Relief</translation>
-    </message>
-    <message>
-        <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>
-        <translation>See,Fluss,Teich,Ufer,Uferlinie,Gewässer,Bruchkanten</translation>
     </message>
 </context>
 </TS>

@@ -186,6 +186,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Topographie archéologique (VAT)</translation>
     </message>
     <message>
+        <source>Area [m²]</source>
+        <translation>Surface [m²]</translation>
+    </message>
+    <message>
         <source>As the filter classifies them</source>
         <translation>Comme le filtre les classe</translation>
     </message>
@@ -280,6 +284,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Cells with a height</source>
         <translation>Cellules avec une altitude</translation>
+    </message>
+    <message>
+        <source>Certain</source>
+        <translation>Certain</translation>
     </message>
     <message>
         <source>Check against checkpoints</source>
@@ -534,6 +542,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Terminé ; il n'est pas nécessaire de redémarrer.</translation>
     </message>
     <message>
+        <source>Doubtful</source>
+        <translation>Douteux</translation>
+    </message>
+    <message>
         <source>Elevation raster</source>
         <translation>Raster d'altitudes</translation>
     </message>
@@ -592,6 +604,14 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
     <message>
         <source>Find high noise (18)</source>
         <translation>Trouver le bruit haut (18)</translation>
+    </message>
+    <message>
+        <source>Find water</source>
+        <translation>Trouver l'eau</translation>
+    </message>
+    <message>
+        <source>Finds lakes and rivers as polygons with their levels, and as breaklines.</source>
+        <translation>Trouve les lacs et les rivières sous forme de polygones avec leurs niveaux, et de lignes de rupture.</translation>
     </message>
     <message>
         <source>Finds the few ground points of a classified point cloud that a terrain model needs. Of all other ground points, none lies farther above or below the triangulation (TIN) of these key points than the tolerances. Key points get a class of their own, or the key-point flag; nothing else in the file changes.
@@ -660,6 +680,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Finds vegetation, buildings and bridges in a point cloud whose ground is known.</source>
         <translation>Trouve la végétation, les bâtiments et les ponts dans un nuage de points dont le sol est connu.</translation>
+    </message>
+    <message>
+        <source>Finds water in a classified point cloud: where hardly any last return is, and the ground along the shore is level or falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told from it. Each polygon has the level, the spread of the shore, and a grade of certainty. The terrain model takes the polygons as water.</source>
+        <translation>Trouve l'eau dans un nuage de points classé : là où il n'y a presque pas de derniers retours et où le sol le long de la rive est horizontal ou descend régulièrement, ou là où les points ont la classe 9. Les lacunes entre les bandes, les toits et les forêts en sont distingués. Chaque polygone a le niveau, la dispersion de la rive et un degré de certitude. Le modèle de terrain prend les polygones comme eau.</translation>
     </message>
     <message>
         <source>First and single returns</source>
@@ -1006,6 +1030,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>LINZ, New Zealand National Aerial LiDAR Base Specification (version PGF)</translation>
     </message>
     <message>
+        <source>Lakes</source>
+        <translation>Lacs</translation>
+    </message>
+    <message>
         <source>Land cover of the checkpoints</source>
         <translation>Occupation du sol des points de contrôle</translation>
     </message>
@@ -1056,6 +1084,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Light of the hillshade</source>
         <translation>Lumière de l'ombrage</translation>
+    </message>
+    <message>
+        <source>Likely</source>
+        <translation>Probable</translation>
     </message>
     <message>
         <source>Line of the profile</source>
@@ -1306,6 +1338,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Page sur la qualité</translation>
     </message>
     <message>
+        <source>Parts of rivers</source>
+        <translation>Tronçons de rivière</translation>
+    </message>
+    <message>
         <source>Point cloud</source>
         <translation>Nuage de points</translation>
     </message>
@@ -1404,6 +1440,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Polygons of water. Each is flattened to one level, that of the ground along its border.</source>
         <translation>Polygones d'eau. Chacun est aplani à un seul niveau, celui du sol le long de son bord.</translation>
+    </message>
+    <message>
+        <source>Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD) and a grade of certainty (GRADE).</source>
+        <translation>Polygones avec le niveau (LEVEL), la dispersion de la rive en mètres (SPREAD) et un degré de certitude (GRADE).</translation>
     </message>
     <message>
         <source>Positive openness</source>
@@ -1534,6 +1574,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Rivières</translation>
     </message>
     <message>
+        <source>Rivers that are narrower on average are left out. The Lidar Base Specification asks for 30 m (100 ft) and more.</source>
+        <translation>Les rivières plus étroites en moyenne sont omises. La Lidar Base Specification demande 30 m (100 ft) et plus.</translation>
+    </message>
+    <message>
         <source>Roofs are at least this high above the ground. Lower ones are cars and hedges too.</source>
         <translation>Les toits sont au moins à cette hauteur au-dessus du sol. Plus bas, il y a aussi des voitures et des haies.</translation>
     </message>
@@ -1582,6 +1626,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Part des points erronés</translation>
     </message>
     <message>
+        <source>Shores, islands and the middles of rivers as lines with heights.</source>
+        <translation>Rives, îles et milieux des rivières sous forme de lignes avec altitudes.</translation>
+    </message>
+    <message>
         <source>Shorter side of the largest building or other object. Nothing that is narrower and stands out from its surroundings can be a seed of the ground. A value that is too large takes longer and loses sharp hilltops. Empty: from the preset.</source>
         <translation>Petit côté du plus grand bâtiment ou autre objet. Rien de plus étroit qui ressort de son entourage ne peut être un point de départ du sol. Une valeur trop grande prend plus de temps et perd des sommets pointus. Vide : d'après le préréglage.</translation>
     </message>
@@ -1616,6 +1664,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Side of a cell of the terrain model and of its hillshade. Choose about the distance between ground points; smaller cells only make the file larger.</source>
         <translation>Côté d'une cellule du modèle de terrain et de son ombrage. Choisissez environ la distance entre points sol ; des cellules plus petites ne font qu'agrandir le fichier.</translation>
+    </message>
+    <message>
+        <source>Side of the cells in which points are counted. Empty: twice the distance between points, and at least 1 m.</source>
+        <translation>Côté des cellules dans lesquelles les points sont comptés. Vide : deux fois la distance entre les points, et au moins 1 m.</translation>
     </message>
     <message>
         <source>Side of the cells of densities and voids. Strips and maximum heights have cells of twice this size.</source>
@@ -1680,6 +1732,18 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
         <translation>Petits groupes de points suspendus à au moins 10 m au-dessus de tous les autres du lieu : oiseaux, nuages.</translation>
+    </message>
+    <message>
+        <source>Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2 acres) and more.</source>
+        <translation>Les eaux plus petites sont omises. La Lidar Base Specification demande les lacs de 8 000 m² (2 acres) et plus.</translation>
+    </message>
+    <message>
+        <source>Smallest area</source>
+        <translation>Surface minimale</translation>
+    </message>
+    <message>
+        <source>Smallest width of a river</source>
+        <translation>Largeur minimale d'une rivière</translation>
     </message>
     <message>
         <source>Smoothing of pictures of the relief</source>
@@ -2254,6 +2318,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>sol connu</translation>
     </message>
     <message>
+        <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>
+        <translation>lac,rivière,étang,rive,rivage,eau,lignes de rupture</translation>
+    </message>
+    <message>
         <source>lazrs could not be installed: {}</source>
         <translation>lazrs n'a pas pu être installé : {}</translation>
     </message>
@@ -2496,86 +2564,6 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>{} is not on this computer. Download it as .las or .laz first.</source>
         <translation>{} n'est pas sur cet ordinateur. Téléchargez-le d'abord en .las ou .laz.</translation>
-    </message>
-    <message>
-        <source>Area [m²]</source>
-        <translation>Surface [m²]</translation>
-    </message>
-    <message>
-        <source>Certain</source>
-        <translation>Certain</translation>
-    </message>
-    <message>
-        <source>Doubtful</source>
-        <translation>Douteux</translation>
-    </message>
-    <message>
-        <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
-        <translation>Chaque lieu est comparé à son voisinage jusqu'à cette distance. Choisissez environ la largeur des formes que vous voulez voir ; les formes plus grandes disparaissent.</translation>
-    </message>
-    <message>
-        <source>Find water</source>
-        <translation>Trouver l'eau</translation>
-    </message>
-    <message>
-        <source>Finds lakes and rivers as polygons with their levels, and as breaklines.</source>
-        <translation>Trouve les lacs et les rivières sous forme de polygones avec leurs niveaux, et de lignes de rupture.</translation>
-    </message>
-    <message>
-        <source>Finds water in a classified point cloud: where hardly any last return is, and the ground along the shore is level or falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told from it. Each polygon has the level, the spread of the shore, and a grade of certainty. The terrain model takes the polygons as water.</source>
-        <translation>Trouve l'eau dans un nuage de points classé : là où il n'y a presque pas de derniers retours et où le sol le long de la rive est horizontal ou descend régulièrement, ou là où les points ont la classe 9. Les lacunes entre les bandes, les toits et les forêts en sont distingués. Chaque polygone a le niveau, la dispersion de la rive et un degré de certitude. Le modèle de terrain prend les polygones comme eau.</translation>
-    </message>
-    <message>
-        <source>Lakes</source>
-        <translation>Lacs</translation>
-    </message>
-    <message>
-        <source>Likely</source>
-        <translation>Probable</translation>
-    </message>
-    <message>
-        <source>Parts of rivers</source>
-        <translation>Tronçons de rivière</translation>
-    </message>
-    <message>
-        <source>Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD) and a grade of certainty (GRADE).</source>
-        <translation>Polygones avec le niveau (LEVEL), la dispersion de la rive en mètres (SPREAD) et un degré de certitude (GRADE).</translation>
-    </message>
-    <message>
-        <source>Radius of the local relief</source>
-        <translation>Rayon du relief local</translation>
-    </message>
-    <message>
-        <source>Rivers that are narrower on average are left out. The Lidar Base Specification asks for 30 m (100 ft) and more.</source>
-        <translation>Les rivières plus étroites en moyenne sont omises. La Lidar Base Specification demande 30 m (100 ft) et plus.</translation>
-    </message>
-    <message>
-        <source>Shores, islands and the middles of rivers as lines with heights.</source>
-        <translation>Rives, îles et milieux des rivières sous forme de lignes avec altitudes.</translation>
-    </message>
-    <message>
-        <source>Side of the cells in which points are counted. Empty: twice the distance between points, and at least 1 m.</source>
-        <translation>Côté des cellules dans lesquelles les points sont comptés. Vide : deux fois la distance entre les points, et au moins 1 m.</translation>
-    </message>
-    <message>
-        <source>Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2 acres) and more.</source>
-        <translation>Les eaux plus petites sont omises. La Lidar Base Specification demande les lacs de 8 000 m² (2 acres) et plus.</translation>
-    </message>
-    <message>
-        <source>Smallest area</source>
-        <translation>Surface minimale</translation>
-    </message>
-    <message>
-        <source>Smallest width of a river</source>
-        <translation>Largeur minimale d'une rivière</translation>
-    </message>
-    <message>
-        <source>Smoothing of hillshade and local relief</source>
-        <translation>Lissage de l'ombrage et du relief local</translation>
-    </message>
-    <message>
-        <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>
-        <translation>lac,rivière,étang,rive,rivage,eau,lignes de rupture</translation>
     </message>
 </context>
 </TS>
