@@ -24,10 +24,12 @@ if TYPE_CHECKING:
     from .engine.options import TileInput as TileInput
     from .engine.options import TileOutput as TileOutput
     from .engine.output import Output as Output
+    from .engine.requests import AboveGroundRequest as AboveGroundRequest
     from .engine.requests import ClassifyRequest as ClassifyRequest
     from .engine.requests import HeightRequest as HeightRequest
     from .engine.requests import KeyPointRequest as KeyPointRequest
     from .engine.requests import TerrainRequest as TerrainRequest
+    from .engine.runs import above_ground as above_ground
     from .engine.runs import classify as classify
     from .engine.runs import heights as heights
     from .engine.runs import key_points as key_points
@@ -36,6 +38,7 @@ if TYPE_CHECKING:
     from .filters.slope import SlopeFilter as SlopeFilter
     from .filters.tin import TinDensification as TinDensification
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
+    from .products.above_ground import AboveGround as AboveGround
     from .products.accuracy import Accuracy as Accuracy
     from .products.assessment import assess_files as assess  # noqa: F401
     from .products.checkpoint_outputs import CheckOutputs as CheckOutputs
@@ -45,10 +48,10 @@ if TYPE_CHECKING:
     from .products.constraints import Constraints as Constraints
     from .products.contours import Contours as Contours
     from .products.contours import write_contours as write_contours
-    from .products.local_relief import LocalRelief as LocalRelief
-    from .products.local_relief import write_local_relief as write_local_relief
     from .products.raster_files import RasterFiles as RasterFiles
     from .products.raster_grid import RasterTarget as RasterTarget
+    from .products.relief import ReliefPictures as ReliefPictures
+    from .products.relief import write_relief as write_relief
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
     from .products.water import Water as Water
@@ -83,10 +86,12 @@ _MODULES = {
     "Output": "engine.output",
     "RasterFiles": "products.raster_files",
     "RasterTarget": "products.raster_grid",
+    "AboveGroundRequest": "engine.requests",
     "ClassifyRequest": "engine.requests",
     "HeightRequest": "engine.requests",
     "KeyPointRequest": "engine.requests",
     "TerrainRequest": "engine.requests",
+    "above_ground": "engine.runs",
     "classify": "engine.runs",
     "heights": "engine.runs",
     "key_points": "engine.runs",
@@ -97,6 +102,7 @@ _MODULES = {
     "SlopeFilter": "filters.slope",
     "TinDensification": "filters.tin",
     "ModelKeyPoints": "grids.model_key_points",
+    "AboveGround": "products.above_ground",
     "assess": "products.assessment:assess_files",
     "Accuracy": "products.accuracy",
     "CheckOptions": "products.checkpoints",
@@ -105,8 +111,8 @@ _MODULES = {
     "check": "products.checkpoints:check_files",
     "Contours": "products.contours",
     "write_contours": "products.contours",
-    "LocalRelief": "products.local_relief",
-    "write_local_relief": "products.local_relief",
+    "ReliefPictures": "products.relief",
+    "write_relief": "products.relief",
     "SurfaceModel": "products.surface_model",
     "TerrainModel": "products.terrain_model",
     "Water": "products.water",

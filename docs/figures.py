@@ -25,11 +25,13 @@ from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+from above_ground_figure import above_ground
 from by_hand_figure import by_hand
 from drawing import FEW_COLOURS, IMAGES, OTHER, draw_errors, save, shade, shrink
 from method_figures import grid_minimum_steps, slope_filter_steps, tin_densification_steps
 from noise_figure import noise
 from outline_figures import canopy_pits, terrain_outline
+from relief_figure import relief, walls
 from water_figure import water
 
 from bare_earth.algorithms import (
@@ -88,9 +90,12 @@ def main() -> None:
         "tin-densification-steps": tin_densification_steps,
         "slope-filter-steps": slope_filter_steps,
         "grid-minimum-steps": grid_minimum_steps,
+        "above-ground": above_ground,
         "by-hand": by_hand,
         "noise": noise,
         "relief-smoothing": relief_smoothing,
+        "relief-pictures": relief,
+        "relief-walls": walls,
         "terrain-outline": terrain_outline,
         "canopy-pits": canopy_pits,
         "presets": print_presets,

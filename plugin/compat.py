@@ -95,11 +95,18 @@ def can_load(path: str) -> bool:
 
 def load_point_cloud(path: str, context: QgsProcessingContext) -> None:
     """Let QGIS load a point cloud as a layer after the run, also a .vpc file."""
+    _load(path, context, QgsProcessingUtils.LayerHint.PointCloud)
+
+
+def load_raster(path: str, context: QgsProcessingContext) -> None:
+    """Let QGIS load a raster as a layer after the run."""
+    _load(path, context, QgsProcessingUtils.LayerHint.Raster)
+
+
+def _load(path: str, context: QgsProcessingContext, hint: QgsProcessingUtils.LayerHint) -> None:
     if context.project() is None:
         return
-    details = QgsProcessingContext.LayerDetails(
-        "", context.project(), "", QgsProcessingUtils.LayerHint.PointCloud
-    )
+    details = QgsProcessingContext.LayerDetails("", context.project(), "", hint)
     context.addLayerToLoadOnCompletion(path, details)
 
 

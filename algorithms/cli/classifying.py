@@ -33,6 +33,7 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     from ..engine.memory import Resources
     from ..engine.options import RasterOutput, TileInput, TileOutput
     from ..engine.output import Output
+    from ..products.above_ground import ThenAboveGround
     from ..products.contours import Contours
     from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
@@ -71,12 +72,12 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     method = _add_method(parser, arguments)
     add_json(parser, "the counts ")
     add_parameters(
-        parser, method.parameters, Selection, TerrainModel, SurfaceModel, Contours, Output,
-        TileInput, TileOutput, RasterOutput, Resources,
+        parser, method.parameters, Selection, ThenAboveGround, TerrainModel, SurfaceModel,
+        Contours, Output, TileInput, TileOutput, RasterOutput, Resources,
         titles=(
-            f"{method.label} parameters", "Which points, which classes", "Terrain model",
-            "Surface model and gaps", "Contour lines", "Output", "Files", "Output of many files",
-            "Rasters of many files", "Threads and memory",
+            f"{method.label} parameters", "Which points, which classes", "Above the ground",
+            "Terrain model", "Surface model and gaps", "Contour lines", "Output", "Files",
+            "Output of many files", "Rasters of many files", "Threads and memory",
         ),
     )  # fmt: skip
 
@@ -117,7 +118,7 @@ def _classified(options: argparse.Namespace, request: ClassifyRequest) -> int:
     from ..engine.one_file import Summary
     from ..engine.runs import classify
 
-    as_survey = options.command == _TILES or bool(options.scheduler)
+    as_survey = options.command == _TILES or bool(options.scheduler) or None
     workers = workers_of(options, request.resources)
     with Terminal(options.verbose) as progress:
         done = classify(

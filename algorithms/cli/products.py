@@ -76,19 +76,23 @@ def _contours(options: argparse.Namespace) -> int:
 
 
 def _add_relief(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.local_relief import LocalRelief
+    from ..products.relief import KINDS, LOCAL_RELIEF, ReliefPictures
 
     parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
     parser.add_argument("output", metavar="OUTPUT", type=Path, help="a GeoTIFF (.tif) to write")
-    add_parameters(parser, LocalRelief)
+    parser.add_argument(
+        "--kind", choices=list(KINDS), default=LOCAL_RELIEF,
+        help=f"what to make (default: {LOCAL_RELIEF})",
+    )  # fmt: skip
+    add_parameters(parser, ReliefPictures)
 
 
 def _relief(options: argparse.Namespace) -> int:
-    from ..products.local_relief import LocalRelief, write_local_relief
+    from ..products.relief import ReliefPictures, write_relief
 
-    how = LocalRelief.among(chosen(options))
+    how = ReliefPictures.among(chosen(options))
     with Terminal(options.verbose) as progress:
-        write_local_relief(options.input, options.output, how, progress)
+        write_relief(options.input, options.output, options.kind, how, progress)
     return DONE
 
 
@@ -110,8 +114,15 @@ def _add_key_points(parser: argparse.ArgumentParser, arguments: Sequence[str]) -
     _add_files(parser, ModelKeyPoints, KeyPointMark)
 
 
+def _add_above_ground(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..products.above_ground import AboveGround
+
+    _add_files(parser, AboveGround)
+    add_area(parser, "change only points in", "; points outside keep their class")
+
+
 def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> None:
-    """Add the options of `height` and `key-points`."""
+    """Add the options of `height`, `key-points` and `above-ground`."""
     from ..engine.memory import Resources
     from ..engine.options import TileInput, TileOutput
     from ..survey.ground_classes import GroundClasses
@@ -128,19 +139,21 @@ def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> No
 
 
 def _write(options: argparse.Namespace) -> int:
-    """Write classified files with the heights or key points."""
+    """Write classified files with the heights, key points or further classes."""
     from ..engine.many_files import SurveySummary
-    from ..engine.requests import HeightRequest, KeyPointRequest
+    from ..engine.requests import AboveGroundRequest, HeightRequest, KeyPointRequest
     from ..engine.runs import write
     from ..rasters.sampling import HeightRaster
 
-    request: HeightRequest | KeyPointRequest
+    request: HeightRequest | KeyPointRequest | AboveGroundRequest
     if options.command == "height":
         dtm = None if options.dtm is None else HeightRaster.of(options.dtm)
         request = HeightRequest.of(chosen(options), dtm=dtm, crs=options.crs)
+    elif options.command == "above-ground":
+        request = AboveGroundRequest.of(chosen(options), area=area_of(options), crs=options.crs)
     else:
         request = KeyPointRequest.of(chosen(options), crs=options.crs)
-    workers, as_survey = workers_of(options, request.resources), bool(options.scheduler)
+    workers, as_survey = workers_of(options, request.resources), bool(options.scheduler) or None
     with Terminal(options.verbose) as progress:
         done = write(options.input, options.output, request, progress, workers, as_survey)
     if isinstance(done, SurveySummary):
@@ -239,6 +252,15 @@ COMMANDS = (
         _write,
     ),
     Command(
+        "above-ground",
+        "classify vegetation, buildings and bridges",
+        "Classifies the points above the ground of a classified file, or of many as one survey:"
+        " low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges"
+        " (17) and high noise (18). Only points of class 0 and 1 change.",
+        _add_above_ground,
+        _write,
+    ),
+    Command(
         "key-points",
         "mark the ground points that a terrain model needs",
         "Marks the model key points of a classified file, or of many as one survey: the few ground"
@@ -251,7 +273,7 @@ COMMANDS = (
         "terrain",
         "make rasters of the terrain and of what stands on it",
         "Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Give at least one"
-        " of --dtm, --dsm, --chm, --hillshade, --confidence, --relief and --contours.",
+        " of --contours and of --dtm, --dsm and the other options with GeoTIFF files.",
         _add_terrain,
         _terrain,
     ),
@@ -264,9 +286,10 @@ COMMANDS = (
     ),
     Command(
         "relief",
-        "make the local relief of a terrain model",
-        "Makes the local relief (GeoTIFF) of an elevation raster: the heights minus smoothed ones."
-        " It shows mounds, ditches and old paths.",
+        "make pictures of the relief of a terrain model",
+        "Makes a raster (GeoTIFF) that shows the relief of an elevation raster: local relief,"
+        " sky-view factor, openness, local dominance, slope, hillshade, or a picture of several of"
+        " them (vat, red-relief). They show mounds, walls, ditches and old paths.",
         _add_relief,
         _relief,
     ),

@@ -42,8 +42,9 @@ def add_rasters(parser: argparse.ArgumentParser) -> None:
 
     for name, each in RASTERS.items():
         parser.add_argument(
-            f"--{name}", metavar="FILE", type=Path, help=f"GeoTIFF (.tif). {each.help}"
-        )
+            f"--{name.replace('_', '-')}", metavar="FILE", type=Path,
+            help=f"GeoTIFF (.tif). {each.help}",
+        )  # fmt: skip
 
 
 def rasters_of(options: argparse.Namespace) -> RasterFiles:

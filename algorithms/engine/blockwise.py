@@ -15,7 +15,7 @@ from ..core.errors import Cancelled
 from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads, shared_threads
 from .blocks import Block, Blocks
-from .memory import Resources, give_back
+from .memory import GIGABYTE, Resources, give_back
 from .store import BlockPoints, Corner, Store
 
 # Blocks that take so many bytes give their memory back to the system when they are done, and all
@@ -59,6 +59,11 @@ def over_blocks(
     ]
     at_once = _at_once(len(todo), max(memory), resources)
     jobs = [partial(work, each, len(todo) == 1) for each in todo]
+    if max(memory) > max(resources.bytes, _MUCH):
+        progress.info(
+            f"The largest block takes about {max(memory) / GIGABYTE:.2f} GB of memory, more than"
+            f" the {resources.bytes / GIGABYTE:.2f} GB that may be used."
+        )
     is_tight = sum(memory) > resources.bytes
     if is_tight:
         progress = _GivingBack(progress)

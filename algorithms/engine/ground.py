@@ -26,7 +26,7 @@ from .blockwise import over_blocks
 from .explanation import ExplainedCells, Explanation
 from .memory import Resources
 from .store import BlockPoints, Store
-from .surroundings import near, tell_spacing, thinned
+from .surroundings import EVERYWHERE, near, tell_spacing, thinned
 
 # Shares of the time of a block for finding bridges and low outliers.
 _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
@@ -100,9 +100,10 @@ def label_ground(
             f"{method.label} does not start from known ground; it only keeps these"
             " points as ground."
         )
-    work = partial(
-        _labelled, store, blocks, partial(_label, parameters, selection, explanation is not None)
-    )
+    label = partial(_label, parameters, selection, explanation is not None)
+    # Classic presets do what another program does with all points.
+    thins = not method.is_classic(parameters)
+    work = partial(_labelled, store, blocks, label, thins)
     notes = {}
     for number, result in over_blocks(store, blocks, work, resources, progress):
         store.put(result.positions, result.labels)
@@ -160,12 +161,20 @@ def _label(
 
 
 def _labelled(
-    store: Store, blocks: Blocks, label: _Label, block: Block, is_only: bool, progress: Progress
+    store: Store,
+    blocks: Blocks,
+    label: _Label,
+    thins: bool,
+    block: Block,
+    is_only: bool,
+    progress: Progress,
 ) -> _Labelled:
     """Label the points of a block."""
     corner = blocks.corner(block)
     west, south, east, north = block.box
-    box = near((west - corner[0], south - corner[1], east - corner[0], north - corner[1]))
+    box = EVERYWHERE
+    if thins:
+        box = near((west - corner[0], south - corner[1], east - corner[0], north - corner[1]))
     contents = thinned(blocks.contents(block, store, progress.part(0.0, 0.15)), box)
     core = blocks.core(block, contents, is_only)
     positions = contents.positions if core.all() else contents.positions[core]

@@ -248,9 +248,19 @@ class ClassifiedPoints(PointResult):
     def part(self, where: slice, part: PointCloud) -> PointCloud:
         """Return points with their new classes; points that are not written become withheld."""
         part = dataclasses.replace(part, classification=self.classification[where])
+        part = self._memory.part(where, part)
         if self._inside is not None:
             part = dataclasses.replace(part, withheld=part.withheld | ~self._inside[where])
         return part
+
+    def refine(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
+        """Set further classes of some points, and count them; 0 leaves a class as it is."""
+        before = self.classification[where].copy()
+        classes = np.where(values > 0, values, before).astype(np.uint8)
+        self.classification[where] = classes
+        self._memory.add(where, part, classes)
+        counted = slice(None) if self._inside is None else self._inside[where]
+        self.class_counts += count_classes(classes[counted]) - count_classes(before[counted])
 
     @property
     def is_empty(self) -> bool:

@@ -122,6 +122,13 @@ def classify_files(
     if request.output.height_above_ground:
         heights = replace(request.height_step, ground_only=request.output.ground_only)
         steps = [replace(steps[0], output=Output(area_only=request.output.area_only)), heights]
+    if request.above_ground.wanted:
+        if len(steps) > 1:
+            raise BareEarthError(
+                "Of many files, one run makes classes above the ground or heights above ground."
+                " Make the classes, and add the heights to them afterwards."
+            )
+        steps = [steps[0], request.above_ground_step]
     rasters = request.raster_step if request.rasters.wanted else None
     if request.output.ground_only and rasters is not None and not rasters.covers_ground:
         raise BareEarthError(

@@ -79,8 +79,8 @@ class Cost(NamedTuple):
         Bytes for each square metre of them.
     """
 
-    a_point: float = 110.0
-    a_square_metre: float = 100.0
+    a_point: float = 80.0
+    a_square_metre: float = 80.0
 
 
 def give_back() -> None:

@@ -28,7 +28,13 @@ from .file_points import FilePoints
 from .labelling import ClassifiedPoints, LabelGround
 from .memory import Resources
 from .rasters import MakeRasters, RasterSize, write_rasters
-from .requests import ClassifyRequest, HeightRequest, KeyPointRequest, TerrainRequest
+from .requests import (
+    AboveGroundRequest,
+    ClassifyRequest,
+    HeightRequest,
+    KeyPointRequest,
+    TerrainRequest,
+)
 from .steps import PointStep, Step, located
 
 
@@ -147,7 +153,8 @@ def classify_file(
     # Shares of the progress bar.
     raster_count = len(request.rasters.wanted)
     made_too = 3.0 * bool(raster_count) + raster_count, 3.0 * ("heights" in products)
-    first, finding, drawing, measuring, last = progress.shares(1.5, 5.0, *made_too, 0.8)
+    made_too = *made_too, 3.0 * ("above" in products)
+    first, finding, drawing, measuring, looking, last = progress.shares(1.5, 5.0, *made_too, 0.8)
     changes_more = request.output.changes_points or request.selection.remember_classes
     is_copied = not (changes_more or remembers(las)) and layers_kept(las, target) is not None
     import_early("scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph")
@@ -174,6 +181,10 @@ def classify_file(
             write_rasters(made, frame, drawn, outputs, writing)
         if "heights" in products:
             heights = _worked(points, products["heights"], waiting["heights"], measuring).heights
+        if "above" in products:
+            products["above"].work(waiting["above"], points.resources, looking)
+            for each in points.values(waiting["above"]):
+                result.refine(*each)
         edits = result.edits(points.cloud, progress, heights)
         write_changed(las, target, edits, last, points.cloud, points.memory_left)
     return _summary(result, tally, request)
@@ -186,6 +197,8 @@ def _products(request: ClassifyRequest, las: LasFile, progress: Progress) -> dic
         products["rasters"] = _placed(request.raster_step, las, progress)
     if request.output.height_above_ground:
         products["heights"] = request.height_step
+    if request.above_ground.wanted:
+        products["above"] = request.above_ground_step
     return products
 
 
@@ -221,7 +234,7 @@ def _summary(result: ClassifiedPoints, tally: Any, request: ClassifyRequest) -> 
 def write_points(
     source: Path,
     target: Path,
-    request: HeightRequest | KeyPointRequest,
+    request: HeightRequest | KeyPointRequest | AboveGroundRequest,
     progress: Progress = SILENT,
 ) -> Any:
     """Write a file with the values that a step finds for its points, such as heights.
@@ -230,7 +243,7 @@ def write_points(
     ----------
     source, target : Path
         The input, and the output (.las, .laz or .copc.laz).
-    request : HeightRequest or KeyPointRequest
+    request : HeightRequest, KeyPointRequest or AboveGroundRequest
         What to find.
     progress : Progress
         Receives progress and messages.

@@ -342,7 +342,7 @@ def write_rasters(
             grids = dict(zip(names, map(write, names, windows.values(), shares)))
             virtual, grid = virtual_of(path), _grid_of(window, step, frame)
             temporary = outputs.enter_context(replacing(virtual))
-            band = Band.of(grid, raster.empty(step.model), raster.shows)
+            band = Band.of(grid, raster.empty(step.model), raster.shows, raster.bands)
             write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
@@ -365,7 +365,7 @@ def _write(
         make = partial(make, pit_free=step.surface.pit_free)
     strips = gathered_strips(layers, window, make, raster.margin(grid, step.model), progress)
     temporary = outputs.enter_context(replacing_raster(path))
-    rows = Rows(window.shape, raster.kind, strips)
+    rows = Rows(window.shape, raster.kind, strips, raster.bands)
     write_geotiff(temporary, rows, grid, raster.empty(step.model), progress, raster.shows)
     return grid
 

@@ -11,6 +11,7 @@ from ..core.parameters import ParameterSet
 from ..crs.stated import stated_wkt
 from ..filters import DEFAULT_METHOD, METHODS
 from ..grids.model_key_points import ModelKeyPoints
+from ..products.above_ground import AboveGround, ThenAboveGround
 from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.raster_block import LAYERS
 from ..products.raster_files import RasterFiles
@@ -22,6 +23,7 @@ from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
+from .above_ground import ClassifyAboveGround
 from .explanation import Explanation
 from .heights import HeightOutput, MeasureHeights
 from .key_points import FindKeyPoints, KeyPointMark
@@ -104,6 +106,8 @@ class ClassifyRequest(Request):
         Polygons in which the class is known.
     output : Output
         Which points are written, and whether their heights above ground are.
+    above_ground : ThenAboveGround
+        Whether the points above the ground are classified too.
     rasters : RasterFiles
         Rasters to write as well.
     terrain, surface : TerrainModel, SurfaceModel
@@ -123,6 +127,7 @@ class ClassifyRequest(Request):
     area: Area | None = None
     corrections: Corrections = NO_CORRECTIONS
     output: Output = field(default_factory=Output)
+    above_ground: ThenAboveGround = field(default_factory=ThenAboveGround)
     rasters: RasterFiles = field(default_factory=RasterFiles)
     terrain: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
@@ -133,6 +138,10 @@ class ClassifyRequest(Request):
 
     def __post_init__(self) -> None:
         self.output.check_area(self.area is not None)
+        if self.above_ground.wanted and self.output.ground_only:
+            raise BareEarthError(
+                "Classes above the ground need all points. Write all points, not only the ground."
+            )
         if self.constraints.any and not self.rasters.wanted:
             raise BareEarthError(
                 "Breaklines, water, rivers and places without ground only change rasters. Choose a"
@@ -167,6 +176,11 @@ class ClassifyRequest(Request):
             covers_ground, self.constraints, self.raster_output.raster_per_file,
             target=self.raster_target, area=self.area,
         )  # fmt: skip
+
+    @property
+    def above_ground_step(self) -> ClassifyAboveGround:
+        """The step that classifies the points above the ground."""
+        return ClassifyAboveGround(self.above_ground, self._ground, self.area, self.corrections)
 
     @property
     def height_step(self) -> MeasureHeights:
@@ -221,6 +235,30 @@ class KeyPointRequest(Request):
     def step(self) -> FindKeyPoints:
         """The step that finds the key points."""
         return FindKeyPoints(self.parameters, self.ground, self.mark)
+
+
+@dataclass(frozen=True)
+class AboveGroundRequest(Request):
+    """A request to classify the points above the ground.
+
+    Attributes
+    ----------
+    parameters : AboveGround
+        Which classes they get.
+    ground : GroundClasses
+        Which points are ground.
+    area : Area or None
+        Where points can change; None for everywhere.
+    """
+
+    parameters: AboveGround = field(default_factory=AboveGround)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    area: Area | None = None
+
+    @property
+    def step(self) -> ClassifyAboveGround:
+        """The step that classifies them."""
+        return ClassifyAboveGround(self.parameters, self.ground, self.area)
 
 
 @dataclass(frozen=True)

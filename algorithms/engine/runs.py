@@ -14,7 +14,13 @@ from ..survey.files import is_one_file
 from .many_files import classify_files, rasters_of_files, write_files
 from .one_file import classify_file, rasters_of_file, write_points
 from .rasters import RasterSize
-from .requests import ClassifyRequest, HeightRequest, KeyPointRequest, TerrainRequest
+from .requests import (
+    AboveGroundRequest,
+    ClassifyRequest,
+    HeightRequest,
+    KeyPointRequest,
+    TerrainRequest,
+)
 from .workers import Workers
 
 Sources = Union[str, Path, Iterable[Union[str, Path]]]
@@ -27,7 +33,7 @@ def classify(
     progress: Progress = SILENT,
     workers: Workers | None = None,
     vpc: Path | None = None,
-    as_survey: bool = False,
+    as_survey: bool | None = None,
 ) -> Any:
     """Classify the ground points of a file, or of many files as one survey.
 
@@ -46,8 +52,9 @@ def classify(
         The workers for many files; by default threads of this process.
     vpc : path, optional
         For many files, the virtual point cloud of the results; by default in the folder.
-    as_survey : bool
-        Whether one file is treated as a survey of many, and its output is in a folder.
+    as_survey : bool, optional
+        Whether the inputs are a survey, whose outputs are in a folder, or one file. By default, one
+        file is not a survey, and all else is.
 
     Returns
     -------
@@ -80,7 +87,7 @@ def heights(
     request: HeightRequest = HeightRequest(),
     progress: Progress = SILENT,
     workers: Workers | None = None,
-    as_survey: bool = False,
+    as_survey: bool | None = None,
 ) -> Any:
     """Write classified files with the height of every point above the ground.
 
@@ -110,7 +117,7 @@ def key_points(
     request: KeyPointRequest = KeyPointRequest(),
     progress: Progress = SILENT,
     workers: Workers | None = None,
-    as_survey: bool = False,
+    as_survey: bool | None = None,
 ) -> Any:
     """Write classified files with their model key points marked.
 
@@ -124,6 +131,36 @@ def key_points(
     Returns
     -------
     KeyPointSummary or SurveySummary
+        What was done, of one file or of many.
+
+    Raises
+    ------
+    BareEarthError, Cancelled
+        As for `classify`, and if the input has no ground.
+    """
+    return write(sources, output, request, progress, workers, as_survey)
+
+
+def above_ground(
+    sources: Sources,
+    output: str | Path,
+    request: AboveGroundRequest = AboveGroundRequest(),
+    progress: Progress = SILENT,
+    workers: Workers | None = None,
+    as_survey: bool | None = None,
+) -> Any:
+    """Write classified files with the points above the ground classified too.
+
+    Parameters
+    ----------
+    request : AboveGroundRequest
+        Which points are ground, and which classes the others get.
+    sources, output, progress, workers, as_survey
+        As for `classify`.
+
+    Returns
+    -------
+    AboveGroundSummary or SurveySummary
         What was done, of one file or of many.
 
     Raises
@@ -176,21 +213,21 @@ def terrain(
 def write(
     sources: Sources,
     output: str | Path,
-    request: HeightRequest | KeyPointRequest,
+    request: HeightRequest | KeyPointRequest | AboveGroundRequest,
     progress: Progress = SILENT,
     workers: Workers | None = None,
-    as_survey: bool = False,
+    as_survey: bool | None = None,
 ) -> Any:
-    """Do what `heights` or `key_points` does, as the type of the request says."""
+    """Do what `heights`, `key_points` or `above_ground` does, as the type of the request says."""
     paths, target = _paths(sources), Path(output)
     if _is_one(paths, as_survey):
         return write_points(paths[0], target, request, progress)
     return write_files(paths, target, [request.step], request, progress, workers)
 
 
-def _is_one(paths: list[Path], as_survey: bool = False) -> bool:
+def _is_one(paths: list[Path], as_survey: bool | None = None) -> bool:
     """Return whether a run works on one file."""
-    return not as_survey and is_one_file(paths)
+    return is_one_file(paths) if as_survey is None else not as_survey
 
 
 def _paths(sources: Sources) -> list[Path]:

@@ -228,6 +228,12 @@ class RememberedClasses:
                 self._values = self._allocate(np.uint8)
             self._values[where] = to_remember(part, classes)
 
+    def part(self, where: slice, part: PointCloud) -> PointCloud:
+        """Return points as they will be read back."""
+        if self._values is None:
+            return part
+        return dataclasses.replace(part, remembered=self._values[where])
+
     def added_to(self, edits: Edits) -> Edits:
         """Return edits with the remembered classes."""
         if self._values is None:

@@ -12,6 +12,8 @@ from ..core.points import Box, Points
 from ..grids.cells import Cells, keep_spacing
 from .store import BlockPoints
 
+# The box that all points are in.
+EVERYWHERE = (-np.inf, -np.inf, np.inf, np.inf)
 # All points up to so many metres from a block are used. That is farther than any rule looks that
 # counts points.
 _NEAR = 40.0

@@ -1,6 +1,8 @@
-"""Shaded relief."""
+"""Shaded relief, and slope."""
 
 from __future__ import annotations
+
+from typing import Union
 
 import numpy as np
 
@@ -8,8 +10,12 @@ import numpy as np
 _LIGHTS = (225.0, 270.0, 315.0, 360.0)
 
 
+# Side of a cell in metres, or both sides: along a row, and along a column.
+CellSize = Union[float, tuple[float, float]]
+
+
 def hillshade(
-    heights: np.ndarray, cell_size: float, azimuth: float = 315.0, altitude: float = 45.0
+    heights: np.ndarray, cell_size: CellSize, azimuth: float = 315.0, altitude: float = 45.0
 ) -> np.ndarray:
     """Return how brightly a surface is lit.
 
@@ -17,8 +23,8 @@ def hillshade(
     ----------
     heights : numpy.ndarray of float, shape (rows, columns)
         Heights from north to south, in metres; NaN where there is none.
-    cell_size : float
-        Side of a cell in metres.
+    cell_size : float or tuple of float
+        Side of a cell in metres, or distances between neighbours in a row and in a column.
     azimuth, altitude : float
         Where the light comes from, in degrees clockwise from north and above the horizon.
 
@@ -36,7 +42,7 @@ def hillshade(
 
 
 def multidirectional_hillshade(
-    heights: np.ndarray, cell_size: float, altitude: float = 45.0
+    heights: np.ndarray, cell_size: CellSize, altitude: float = 45.0
 ) -> np.ndarray:
     """Return how brightly a surface is lit from the southwest, west, northwest and north at once.
 
@@ -72,6 +78,29 @@ def multidirectional_hillshade(
     return _as_bytes(heights, lit)
 
 
+def slope(heights: np.ndarray, cell_size: CellSize) -> np.ndarray:
+    """Return how steep a surface is, in degrees, as ``gdaldem slope`` does.
+
+    Parameters
+    ----------
+    heights, cell_size
+        As for `hillshade`.
+
+    Returns
+    -------
+    numpy.ndarray of float32, shape (rows, columns)
+        0 (level) to 90; NaN where there is no height.
+    """
+    return np.degrees(np.arctan(np.hypot(*_gradient(heights, cell_size)))).astype(np.float32)
+
+
+def brightness(
+    heights: np.ndarray, cell_size: CellSize, azimuth: float, altitude: float
+) -> np.ndarray:
+    """Return a `hillshade` as numbers from 0 (dark) to 1 (bright); NaN where there is no height."""
+    return _lit(*_gradient(heights, cell_size), azimuth, altitude)
+
+
 def _lit(dx: np.ndarray, dy: np.ndarray, azimuth: float, altitude: float) -> np.ndarray:
     """Return how brightly slopes are lit by one light, 0 to 1."""
     azimuth, altitude = np.radians(azimuth), np.radians(altitude)
@@ -85,21 +114,30 @@ def _as_bytes(heights: np.ndarray, lit: np.ndarray) -> np.ndarray:
     return np.rint(lit).astype(np.uint8)
 
 
-def _gradient(heights: np.ndarray, cell_size: float) -> tuple[np.ndarray, np.ndarray]:
+def _gradient(heights: np.ndarray, cell_size: CellSize) -> tuple[np.ndarray, np.ndarray]:
     """Return the rise to the east and to the north by Horn's 3 x 3 weights.
 
-    A neighbour that is missing takes the height of the cell itself, so that the edge of the data
-    is shaded like its inside.
+    A neighbour that is missing lies on the line through the cell and the neighbour opposite, so
+    that the edge of the data is as steep as its inside. If both are missing, they are as high as
+    the cell.
     """
+    width, height = cell_size if isinstance(cell_size, tuple) else (cell_size, cell_size)
     padded = np.pad(heights, 1, constant_values=np.nan)
     rows, columns = heights.shape
 
     def at(row: int, column: int) -> np.ndarray:
-        values = padded[row : row + rows, column : column + columns]
-        return np.where(np.isnan(values), heights, values)
+        values, opposite = (
+            padded[i : i + rows, k : k + columns] for i, k in ((row, column), (2 - row, 2 - column))
+        )
+        missing = np.isnan(values)
+        if not missing.any():
+            return values
+        opposite = np.where(np.isnan(opposite), heights, opposite)
+        return np.where(missing, 2 * heights - opposite, values)
 
-    east = at(0, 2) + 2 * at(1, 2) + at(2, 2)
-    west = at(0, 0) + 2 * at(1, 0) + at(2, 0)
-    north = at(0, 0) + 2 * at(0, 1) + at(0, 2)
-    south = at(2, 0) + 2 * at(2, 1) + at(2, 2)
-    return (east - west) / (8 * cell_size), (north - south) / (8 * cell_size)
+    northwest, north, northeast = (at(0, column) for column in range(3))
+    west, east = at(1, 0), at(1, 2)
+    southwest, south, southeast = (at(2, column) for column in range(3))
+    eastward = (northeast + 2 * east + southeast) - (northwest + 2 * west + southwest)
+    northward = (northwest + 2 * north + northeast) - (southwest + 2 * south + southeast)
+    return eastward / (8 * width), northward / (8 * height)

@@ -12,39 +12,34 @@ Archaeological Prospection 17, 67-72. This is its first step: the terrain minus 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Iterator
 
 import numpy as np
 
 from ..core.parameters import ParameterSet, parameter
-from ..core.progress import SILENT, Progress
 from ..grids.local_trend import local_trend, reach_of
-from ..grids.relief_smoothing import smoothing_reach, without_noise
-from ..rasters.geotiff import NODATA, Raster, read_raster
-from ..rasters.writing import Rows, check_raster_output, write_geotiff
 
-# Cells that are worked on at a time.
-_CELLS = 4_000_000
+# The scales of the multi-scale relief, in radii.
+_SCALES = (0.5, 1.0, 2.0, 4.0)
 
 
 @dataclass(frozen=True)
 class LocalRelief(ParameterSet):
-    """The size of the features that local relief shows, and the smoothing of such pictures."""
+    """The size of the features that pictures of the relief show, and their smoothing."""
 
     relief_radius: float = parameter(
         10.0,
-        label="Radius of the local relief",
+        label="Radius of the relief",
         unit="m",
         minimum=0.1,
         maximum=1000.0,
         advanced=True,
-        help="Each place is compared with its surroundings up to this distance. Choose about the"
-        " width of the features that you want to see; larger landforms disappear.",
+        help="Local relief, openness, sky view and the like compare a place with its surroundings"
+        " up to this distance. Choose about the width of the features that you want to see; larger"
+        " landforms disappear.",
     )
     relief_smoothing: str = parameter(
         "automatic",
-        label="Smoothing of hillshade and local relief",
+        label="Smoothing of pictures of the relief",
         choices={"automatic": "Automatic", "none": "None"},
         advanced=True,
         help="Automatic: for the pictures, heights are smoothed as much as they are noisy, so that"
@@ -77,65 +72,37 @@ def local_relief(
     -------
     numpy.ndarray of float32, shape (rows, columns)
         In the unit of the heights; NaN where these are NaN. A cell depends on others up to
-        `relief_reach` cells away.
+        `relief_reach`.
     """
     sigma = radius / 2 / cell_metres[1], radius / 2 / cell_metres[0]
     # At an edge the trend is that of a plane, because otherwise a slope would be visible there.
     return (heights - local_trend(heights, sigma)).astype(np.float32)
 
 
-def relief_reach(cell_size: float, radius: float, smooths: bool) -> int:
+def relief_reach(cell_metres: tuple[float, float], radius: float) -> int:
     """Return how many cells away a cell still matters to the local relief."""
-    return reach_of(radius / 2 / cell_size) + (smoothing_reach(cell_size) if smooths else 0)
+    return reach_of(radius / 2 / min(cell_metres))
 
 
-def write_local_relief(
-    source: Path,
-    target: Path,
-    parameters: LocalRelief = LocalRelief(),
-    progress: Progress = SILENT,
-    nodata: float = NODATA,
-) -> None:
-    """Write the local relief of a terrain model.
+def multi_scale_relief(
+    heights: np.ndarray, cell_metres: tuple[float, float], radius: float
+) -> np.ndarray:
+    """Return the mean of local reliefs with half of a radius, the radius, twice and four times it.
 
-    Parameters
+    So what is narrow and what is wide are visible in one picture. Arguments and result are as for
+    `local_relief`; a cell depends on others up to `multi_scale_reach`.
+
+    References
     ----------
-    source, target : Path
-        The terrain model, and the GeoTIFF to make.
-    parameters : LocalRelief
-        The size of the features.
-    progress : Progress
-        Receives progress and messages.
-    nodata : float
-        The value of cells without data.
-
-    Raises
-    ------
-    BareEarthError
-        If the raster cannot be read, or the output cannot be written.
+    Orengo, H. A. and Petrie, C. A. (2018): Multi-scale relief model (MSRM): a new algorithm for the
+    visualization of subtle topographic change of variable size in digital elevation models. Earth
+    Surface Processes and Landforms 43, 1361-1369. The idea of it. There, the differences between
+    successive means are summed, which is the difference between the first and the last.
     """
-    check_raster_output(target, (Path(source),))
-    # Without progress: messages on units were given for the points.
-    raster = read_raster(source)
-    progress(0.2)
-    rows = Rows(raster.heights.shape, "float32", _strips(raster, parameters, nodata, progress))
-    write_geotiff(target, rows, raster, nodata, progress, "Local relief, {unit}")
-    progress(1.0)
+    reliefs = [local_relief(heights, cell_metres, scale * radius) for scale in _SCALES]
+    return sum(reliefs[1:], reliefs[0]) / np.float32(len(_SCALES))
 
 
-def _strips(
-    raster: Raster, how: LocalRelief, nodata: float, progress: Progress
-) -> Iterator[np.ndarray]:
-    """Yield the local relief of a raster, some rows at a time."""
-    count, columns = raster.heights.shape
-    cell, unit = min(raster.cell_metres), raster.frame.vertical_unit
-    reach, rows = relief_reach(cell, how.relief_radius, how.smooths), max(_CELLS // columns, 1)
-    for start in range(0, count, rows):
-        first = max(start - reach, 0)
-        heights = raster.heights[first : start + rows + reach].astype(np.float64)
-        if how.smooths:
-            heights = without_noise(heights * unit, cell) / unit
-        relief = local_relief(heights, raster.cell_metres, how.relief_radius)
-        relief = relief[start - first :][:rows]
-        yield np.where(np.isnan(relief), np.float32(nodata), relief)
-        progress(0.2 + 0.7 * min(start + rows, count) / count)
+def multi_scale_reach(cell_metres: tuple[float, float], radius: float) -> int:
+    """Return how many cells away a cell still matters to the multi-scale relief."""
+    return relief_reach(cell_metres, max(_SCALES) * radius)

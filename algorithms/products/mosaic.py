@@ -164,7 +164,8 @@ def gathered_strips(
     window : CellWindow
         The cells to make. Those beyond the mosaics have no value.
     make : callable
-        Returns rows of the raster, given as many rows of each mosaic.
+        Returns rows of the raster, given as many rows of each mosaic; the first axis of the result
+        may be bands.
     margin : int
         Number of rows and columns beyond a strip that affect it.
     progress : Progress
@@ -178,5 +179,5 @@ def gathered_strips(
     for start, end in _strips(window):
         first, last = north + start - margin, north + end + margin
         made = make(*(each.rows(first, last) for each in parts))
-        yield made[margin : margin + end - start, inside]
+        yield made[..., margin : margin + end - start, inside]
         progress(end / window.rows)

@@ -10,11 +10,9 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.files import check_distinct, check_output
-from ..grids.hillshade import hillshade, multidirectional_hillshade
-from ..grids.relief_smoothing import smoothing_reach, without_noise
 from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import check_raster_output
-from .local_relief import local_relief, relief_reach
+from .relief_rasters import RELIEF, ReliefRaster
 from .surface_model import PIT_PASSES, canopy_height, without_pits
 from .terrain_model import TerrainModel
 
@@ -49,6 +47,8 @@ class Raster(NamedTuple):
     is_canopy : bool
         Whether it is of the canopy: it has values only where surface and terrain were measured
         nearby, and `make` takes ``pit_free``.
+    bands : int
+        The number of its bands; with several, `make` returns shape (bands, rows, columns).
     """
 
     label: str
@@ -60,6 +60,7 @@ class Raster(NamedTuple):
     kind: str = "float32"
     nodata: float | None = None
     is_canopy: bool = False
+    bands: int = 1
 
     def empty(self, model: TerrainModel) -> float:
         """Return the value of cells without data."""
@@ -98,29 +99,21 @@ def _sure(
     return plain(np.where(np.isnan(terrain), np.nan, sure), grid, model)
 
 
-def _picture(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    """Return the heights that pictures of the relief show."""
-    return without_noise(heights, grid.cell_metres) if model.relief.smooths else heights
+def _of_terrain(relief: ReliefRaster) -> Raster:
+    """Return the declaration of a raster that shows the relief of the terrain."""
 
+    def make(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
+        made = relief.make(heights, (grid.cell_metres, grid.cell_metres), model)
+        if relief.kind == "uint8":
+            return made
+        return (_heights if relief.is_height else plain)(made, grid, model)
 
-def _shade(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    heights, altitude = _picture(heights, grid, model), model.hillshade_altitude
-    if model.hillshade_light == "multidirectional":
-        return multidirectional_hillshade(heights, grid.cell_metres, altitude)
-    return hillshade(heights, grid.cell_metres, model.hillshade_azimuth, altitude)
+    def margin(grid: RasterGrid, model: TerrainModel) -> int:
+        return relief.reach((grid.cell_metres, grid.cell_metres), model)
 
-
-def _shade_margin(grid: RasterGrid, model: TerrainModel) -> int:
-    return 1 + (smoothing_reach(grid.cell_metres) if model.relief.smooths else 0)
-
-
-def _relief(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    heights, cells = _picture(heights, grid, model), (grid.cell_metres, grid.cell_metres)
-    return _heights(local_relief(heights, cells, model.relief_radius), grid, model)
-
-
-def _relief_margin(grid: RasterGrid, model: TerrainModel) -> int:
-    return relief_reach(grid.cell_metres, model.relief_radius, model.relief.smooths)
+    nodata = 0 if relief.kind == "uint8" else None
+    about = relief.label, relief.help, relief.shows
+    return Raster(*about, ("terrain",), make, margin, relief.kind, nodata, bands=relief.bands)
 
 
 RASTERS = {
@@ -148,16 +141,7 @@ RASTERS = {
         margin=_pit_margin,
         is_canopy=True,
     ),
-    "hillshade": Raster(
-        "Hillshade",
-        "The terrain model, lit by one light or by four.",
-        "Brightness, 1 to 255",
-        ("terrain",),
-        _shade,
-        margin=_shade_margin,
-        kind="uint8",
-        nodata=0,
-    ),
+    "hillshade": _of_terrain(RELIEF["hillshade"]),
     "confidence": Raster(
         "Confidence of the terrain model",
         "The probability, 0 to 1, that the terrain model is right: low under dense trees, across"
@@ -166,14 +150,7 @@ RASTERS = {
         ("confidence", "terrain"),
         _sure,
     ),
-    "relief": Raster(
-        "Local relief",
-        "The terrain model minus a smoothed one. Mounds, ditches and old paths stand out.",
-        "Local relief, {unit}",
-        ("terrain",),
-        _relief,
-        margin=_relief_margin,
-    ),
+    **{name: _of_terrain(each) for name, each in RELIEF.items() if name != "hillshade"},
 }
 
 
@@ -187,6 +164,9 @@ class RasterFiles:
         Terrain, surface (with everything that stands on the terrain), canopy height (the
         difference of the two), hillshade of the terrain, confidence of the terrain, and its local
         relief.
+    multi_scale_relief, slope, sky_view, openness : Path or None
+    negative_openness, local_dominance, vat, red_relief : Path or None
+        More pictures of the terrain; see `RELIEF` of `products/relief_rasters.py`.
     """
 
     dtm: Path | None = None
@@ -195,6 +175,14 @@ class RasterFiles:
     hillshade: Path | None = None
     confidence: Path | None = None
     relief: Path | None = None
+    multi_scale_relief: Path | None = None
+    slope: Path | None = None
+    sky_view: Path | None = None
+    openness: Path | None = None
+    negative_openness: Path | None = None
+    local_dominance: Path | None = None
+    vat: Path | None = None
+    red_relief: Path | None = None
 
     @property
     def wanted(self) -> dict[str, Path]:

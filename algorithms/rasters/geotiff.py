@@ -319,7 +319,7 @@ def _read_with_gdal(source: str, band: int, window: Window | None) -> Content:
         shape = dataset.RasterYSize, dataset.RasterXSize
         _check_size(source, band, dataset.RasterCount, shape, window)
         layer, part = dataset.GetRasterBand(band), window or (0, 0, *shape[::-1])
-        values = valid = np.zeros((0, 0))
+        values, valid = np.zeros((0, 0)), np.zeros((0, 0), dtype=bool)
         if part != NO_CELLS:
             values = layer.ReadAsArray(*part)
             errors.check(source)
@@ -348,7 +348,7 @@ def _read_with_rasterio(source: str, band: int, window: Window | None) -> Conten
         with rasterio.open(source) as dataset:
             _check_size(source, band, dataset.count, dataset.shape, window)
             part = None if window is None else rasterio.windows.Window(*window)
-            values = valid = np.zeros((0, 0))
+            values, valid = np.zeros((0, 0)), np.zeros((0, 0), dtype=bool)
             if window != NO_CELLS:
                 values = dataset.read(band, window=part)
                 valid = dataset.read_masks(band, window=part) != 0

@@ -36,31 +36,42 @@ def write_virtual(
     kind : str
         Type of the cells, "float32" or "uint8".
     band : Band
-        The band of the parts.
+        The band of the parts, or their bands.
     """
     transform = ", ".join(repr(float(each)) for each in grid.geotransform)
     lines = [
         f'<VRTDataset rasterXSize="{grid.columns}" rasterYSize="{grid.rows}">',
         f"<SRS>{escape(grid.frame.wkt)}</SRS>" if grid.frame.wkt else "",
         f"<GeoTransform>{transform}</GeoTransform>",
-        f'<VRTRasterBand dataType="{_TYPES[kind]}" band="1">',
-        f"<Description>{escape(band.description)}</Description>",
-        f"<NoDataValue>{band.nodata}</NoDataValue>",
     ]
-    for path, part in parts.items():
-        column = round((part.west - grid.west) / grid.cell_size)
-        row = round((grid.north - part.north) / grid.cell_size)
-        name = escape(Path(os.path.relpath(path, folder)).as_posix())
-        size = f'xSize="{part.columns}" ySize="{part.rows}"'
+    for number, colour in enumerate(band.colours, 1):
         lines += [
-            f'<SimpleSource><SourceFilename relativeToVRT="1">{name}</SourceFilename>',
-            # With these properties, GDAL opens a part only when its cells are needed.
-            f'<SourceProperties RasterXSize="{part.columns}" RasterYSize="{part.rows}"'
-            f' DataType="{_TYPES[kind]}" BlockXSize="{BLOCK_SIDE}" BlockYSize="{BLOCK_SIDE}"/>',
-            f'<SrcRect xOff="0" yOff="0" {size}/><DstRect xOff="{column}" yOff="{row}" {size}/>',
-            "</SimpleSource>",
+            f'<VRTRasterBand dataType="{_TYPES[kind]}" band="{number}">',
+            f"<Description>{escape(band.description)}</Description>",
+            f"<NoDataValue>{band.nodata}</NoDataValue>",
+            f"<ColorInterp>{colour}</ColorInterp>" if len(band.colours) > 1 else "",
         ]
-    lines += ["</VRTRasterBand>", "</VRTDataset>"]
+        for path, part in parts.items():
+            name = escape(Path(os.path.relpath(path, folder)).as_posix())
+            lines += _source(name, number, grid, part, kind)
+        lines.append("</VRTRasterBand>")
+    lines.append("</VRTDataset>")
     target.write_text(
         "\n".join(filter(None, lines)) + "\n", encoding="utf-8", errors="surrogateescape"
     )
+
+
+def _source(name: str, number: int, grid: RasterGrid, part: RasterGrid, kind: str) -> list[str]:
+    """Return the lines for a band of a part, given its escaped name."""
+    column = round((part.west - grid.west) / grid.cell_size)
+    row = round((grid.north - part.north) / grid.cell_size)
+    size = f'xSize="{part.columns}" ySize="{part.rows}"'
+    return [
+        f'<SimpleSource><SourceFilename relativeToVRT="1">{name}</SourceFilename>',
+        f"<SourceBand>{number}</SourceBand>" if number > 1 else "",
+        # With these properties, GDAL opens a part only when its cells are needed.
+        f'<SourceProperties RasterXSize="{part.columns}" RasterYSize="{part.rows}"'
+        f' DataType="{_TYPES[kind]}" BlockXSize="{BLOCK_SIDE}" BlockYSize="{BLOCK_SIDE}"/>',
+        f'<SrcRect xOff="0" yOff="0" {size}/><DstRect xOff="{column}" yOff="{row}" {size}/>',
+        "</SimpleSource>",
+    ]

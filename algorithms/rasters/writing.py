@@ -54,25 +54,34 @@ class Rows(NamedTuple):
         Rows and columns of the raster.
     kind : str
         "float32" or "uint8".
-    strips : iterable of numpy.ndarray, shape (some rows, columns)
+    strips : iterable of numpy.ndarray, shape (some rows, columns) or (bands, some rows, columns)
         From north to south.
+    bands : int
+        Number of bands: 1, or 3 for red, green and blue.
     """
 
     shape: tuple[int, int]
     kind: str
     strips: Iterable[np.ndarray]
+    bands: int = 1
 
 
 class Band(NamedTuple):
-    """Properties of a band: the value for no data, and a description of the cells."""
+    """Properties of the bands: value for no data, description of the cells, number of bands."""
 
     nodata: float
     description: str
+    bands: int = 1
 
     @classmethod
-    def of(cls, grid: RasterGrid | Raster, nodata: float, shows: str) -> Band:
-        """Return the band that `write_geotiff` writes; see there for `shows`."""
-        return cls(nodata, shows.format(unit=unit_symbol(grid.frame.vertical_unit)))
+    def of(cls, grid: RasterGrid | Raster, nodata: float, shows: str, bands: int = 1) -> Band:
+        """Return the bands that `write_geotiff` writes; see there for `shows`."""
+        return cls(nodata, shows.format(unit=unit_symbol(grid.frame.vertical_unit)), bands)
+
+    @property
+    def colours(self) -> tuple[str, ...]:
+        """What each band shows, as GDAL names it."""
+        return ("Gray",) if self.bands == 1 else ("Red", "Green", "Blue")
 
 
 def write_geotiff(
@@ -83,7 +92,7 @@ def write_geotiff(
     progress: Progress,
     shows: str,
 ) -> None:
-    """Write a single-band, cloud-optimised GeoTIFF.
+    """Write a cloud-optimised GeoTIFF, of one band, or of three for red, green and blue.
 
     Parameters
     ----------
@@ -109,7 +118,7 @@ def write_geotiff(
     check_output(target)
     if isinstance(values, np.ndarray):
         values = Rows(values.shape, values.dtype.name, [values])
-    band = Band.of(grid, nodata, shows)
+    band = Band.of(grid, nodata, shows, values.bands)
     with replacing_raster(target) as temporary:
         _writer()(temporary, values, grid, band, progress)
 
@@ -138,10 +147,10 @@ def _waiting_file(path: Path, rows: Rows) -> Path | None:
         If the disk has too little space for the file. If it becomes full later, rasterio raises no
         error, or an unexpected one.
     """
-    if rows.shape[0] * rows.shape[1] <= _MOST_IN_MEMORY:
+    if rows.shape[0] * rows.shape[1] * rows.bands <= _MOST_IN_MEMORY:
         return None
     tiles = math.prod(-(-each // _TILE) for each in rows.shape)
-    needed = tiles * (_TILE**2 * np.dtype(rows.kind).itemsize + _BYTES_ABOUT_A_TILE)
+    needed = tiles * rows.bands * (_TILE**2 * np.dtype(rows.kind).itemsize + _BYTES_ABOUT_A_TILE)
     if shutil.disk_usage(path.parent).free < needed:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
     return path.with_name(f"{path.name}.cells.tif")
@@ -158,7 +167,7 @@ def _write_with_gdal(
     try:
         with GdalErrors(gdal, "write") as errors:
             dataset = gdal.GetDriverByName(driver).Create(
-                str(waiting or ""), rows.shape[1], rows.shape[0], 1, kind, options
+                str(waiting or ""), rows.shape[1], rows.shape[0], rows.bands, kind, options
             )
             errors.check(path)
             dataset.SetGeoTransform(grid.geotransform)
@@ -170,15 +179,20 @@ def _write_with_gdal(
                     _warn_without_crs(progress)
                 errors.clear()
             dataset.SetMetadata(_tags(about))
-            band, start = dataset.GetRasterBand(1), 0
-            band.SetNoDataValue(about.nodata)
-            band.SetDescription(about.description)
-            if grid.unit:
-                band.SetUnitType(grid.unit)
+            start = 0
+            for number, colour in enumerate(about.colours, 1):
+                band = dataset.GetRasterBand(number)
+                band.SetNoDataValue(about.nodata)
+                band.SetDescription(about.description)
+                if len(about.colours) > 1:
+                    band.SetColorInterpretation(getattr(gdal, f"GCI_{colour}Band"))
+                if grid.unit:
+                    band.SetUnitType(grid.unit)
             for strip in rows.strips:
-                band.WriteArray(strip, 0, start)
-                errors.check(path)
-                start += len(strip)
+                for number, part in enumerate(strip.reshape(rows.bands, *strip.shape[-2:]), 1):
+                    dataset.GetRasterBand(number).WriteArray(part, 0, start)
+                    errors.check(path)
+                start += strip.shape[-2]
             dataset.FlushCache()
             copy = gdal.GetDriverByName("COG").CreateCopy(str(path), dataset, 0, _words(_OPTIONS))
             errors.check(path)
@@ -215,9 +229,12 @@ def _write_with_rasterio(
     crs = _crs_of(grid, progress)
     waiting = _waiting_file(path, rows)
     profile: dict[str, Any] = dict(
-        driver="GTiff", width=rows.shape[1], height=rows.shape[0], count=1, dtype=rows.kind,
-        nodata=about.nodata, crs=crs, transform=Affine.from_gdal(*grid.geotransform), **_WAITING,
+        driver="GTiff", width=rows.shape[1], height=rows.shape[0], count=rows.bands,
+        dtype=rows.kind, nodata=about.nodata, crs=crs,
+        transform=Affine.from_gdal(*grid.geotransform), **_WAITING,
     )  # fmt: skip
+    if rows.bands > 1:
+        profile["photometric"] = "RGB"
     try:
         # Without .aux.xml file, which would be left with the temporary name.
         with rasterio.Env(GDAL_PAM_ENABLED="NO"), MemoryFile() as cells, MemoryFile() as made:
@@ -225,13 +242,13 @@ def _write_with_rasterio(
             with rasterio.open(name, "w", **profile) as dataset:
                 start = 0
                 for strip in rows.strips:
-                    window = Window(0, start, rows.shape[1], len(strip))
-                    dataset.write(strip, 1, window=window)
-                    start += len(strip)
-                dataset.descriptions = (about.description,)
+                    window = Window(0, start, rows.shape[1], strip.shape[-2])
+                    dataset.write(strip.reshape(rows.bands, *strip.shape[-2:]), window=window)
+                    start += strip.shape[-2]
+                dataset.descriptions = (about.description,) * rows.bands
                 dataset.update_tags(**_tags(about))
                 if grid.unit:
-                    dataset.units = (grid.unit,)
+                    dataset.units = (grid.unit,) * rows.bands
             # In memory first, since rasterio raises no error if the disk is full at the close.
             rasterio.shutil.copy(name, made.name, driver="COG", **_OPTIONS)
             with made.open() as dataset:

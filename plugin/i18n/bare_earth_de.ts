@@ -12,6 +12,10 @@
         <translation>0 bis 1</translation>
     </message>
     <message>
+        <source>1 is level</source>
+        <translation>1 ist eben</translation>
+    </message>
+    <message>
         <source>1 to 255</source>
         <translation>1 bis 255</translation>
     </message>
@@ -22,6 +26,10 @@
     <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt; for fields that are left empty</source>
         <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt; für Felder, die leer bleiben</translation>
+    </message>
+    <message>
+        <source>A building has a plane of at least this area. Smaller planes are found only within 5 m of a larger one. If this is half as large, tops of conifers become buildings.</source>
+        <translation>Ein Gebäude hat eine Ebene von mindestens dieser Fläche. Kleinere Ebenen werden nur bis 5 m neben einer größeren gefunden. Ist dieser Wert halb so groß, werden Wipfel von Nadelbäumen zu Gebäuden.</translation>
     </message>
     <message>
         <source>A checkpoint has no height. Choose the attribute with the heights.</source>
@@ -74,6 +82,10 @@
     <message>
         <source>A point with fewer neighbours within the search radius is compared with this many nearest points. Only for the preset Whitebox.</source>
         <translation>Ein Punkt, der im Suchradius weniger Nachbarn hat, wird mit so vielen nächsten verglichen. Nur für die Voreinstellung Whitebox.</translation>
+    </message>
+    <message>
+        <source>A raster file with a band of heights.</source>
+        <translation>Eine Rasterdatei mit einem Kanal mit Höhen.</translation>
     </message>
     <message>
         <source>A raster that tells why a place is ground or not: the rule of the filter that decided the cell. Its legend names the rules. Presets that decide points, not cells, cannot make it.</source>
@@ -164,6 +176,14 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Angle of the light above the horizon.</source>
         <translation>Winkel des Lichts über dem Horizont.</translation>
+    </message>
+    <message>
+        <source>Archaeological topography</source>
+        <translation>Archäologische Topographie</translation>
+    </message>
+    <message>
+        <source>Archaeological topography (VAT)</source>
+        <translation>Archäologische Topographie (VAT)</translation>
     </message>
     <message>
         <source>Area [m²]</source>
@@ -370,8 +390,18 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Klassifiziert die Bodenpunkte vieler Dateien, als wären alle eine einzige, und schreibt jede Datei unter ihrem Namen in den Ausgabeordner. Eine virtuelle Punktwolke (.vpc) verzeichnet die Ergebnisse.</translation>
     </message>
     <message>
+        <source>Classifies the points above the ground of a classified point cloud: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18). Buildings are found by planes that laser pulses meet once; without return numbers the planes alone decide, and smooth crowns can become buildings.
+Only points of class 0 and 1 change, unless you ask for more. Nothing else in the file changes. Lengths are metres, whatever the unit of the CRS.</source>
+        <translation>Klassifiziert die Punkte über dem Boden einer klassifizierten Punktwolke: niedrige, mittlere und hohe Vegetation (3, 4, 5) nach der Höhe über Grund, Gebäude (6), Brücken (17) und hohes Rauschen (18). Gebäude werden an Ebenen erkannt, die ein Laserpuls nur einmal trifft; ohne Nummern der Echos entscheiden allein die Ebenen, und glatte Kronen können zu Gebäuden werden.
+Nur Punkte der Klassen 0 und 1 ändern sich, wenn Sie nicht mehr verlangen. Sonst ändert sich nichts in der Datei. Längen sind Meter, unabhängig von der Einheit des KBS.</translation>
+    </message>
+    <message>
         <source>Classifies the points in a window with each of the settings, and makes a web page, which opens from the Results Viewer. It shows the terrain of each setting, a profile, the share of ground, where the settings differ, and how to run each of them on all points. No point cloud is written. Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is read as a whole.</source>
         <translation>Klassifiziert die Punkte eines Fensters mit jeder der Einstellungen und macht eine Webseite, die sich aus der Ergebnisanzeige öffnen lässt. Sie zeigt das Gelände zu jeder Einstellung, ein Profil, den Anteil des Bodens, wo sich die Einstellungen unterscheiden, und wie man jede von ihnen auf alle Punkte anwendet. Es wird keine Punktwolke geschrieben. Von einer COPC-Datei wird nur das Fenster gelesen, in Sekunden; eine LAS- oder LAZ-Datei wird ganz gelesen.</translation>
+    </message>
+    <message>
+        <source>Classify above ground</source>
+        <translation>Über dem Boden klassifizieren</translation>
     </message>
     <message>
         <source>Classify ground (TIN densification)</source>
@@ -392,6 +422,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Classify model key points</source>
         <translation>Modell-Schlüsselpunkte klassifizieren</translation>
+    </message>
+    <message>
+        <source>Classify vegetation and buildings anew</source>
+        <translation>Vegetation und Gebäude neu klassifizieren</translation>
     </message>
     <message>
         <source>Closed lines that are shorter are left out: they show single plants and noise.</source>
@@ -476,6 +510,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Entscheidende Regeln</translation>
     </message>
     <message>
+        <source>Decks of bridges, found by their cross-sections. Otherwise they become buildings or vegetation. Points that have class 17 already keep it.</source>
+        <translation>Brückendecks, an ihren Querschnitten erkannt. Sonst werden sie zu Gebäuden oder Vegetation. Punkte, die schon Klasse 17 haben, behalten sie.</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Tiefe tiefer Ausreißer</translation>
     </message>
@@ -494,10 +532,6 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
     <message>
         <source>Doubtful</source>
         <translation>Zweifelhaft</translation>
-    </message>
-    <message>
-        <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
-        <translation>Jede Stelle wird mit ihrer Umgebung bis zu dieser Entfernung verglichen. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere verschwinden.</translation>
     </message>
     <message>
         <source>Elevation raster</source>
@@ -546,6 +580,18 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
     <message>
         <source>Final height</source>
         <translation>Höhe im letzten Durchgang</translation>
+    </message>
+    <message>
+        <source>Find bridges (17)</source>
+        <translation>Brücken finden (17)</translation>
+    </message>
+    <message>
+        <source>Find buildings (6)</source>
+        <translation>Gebäude finden (6)</translation>
+    </message>
+    <message>
+        <source>Find high noise (18)</source>
+        <translation>Hohes Rauschen finden (18)</translation>
     </message>
     <message>
         <source>Find water</source>
@@ -620,6 +666,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Findet die Bodenpunkte der vielen Dateien einer Befliegung, ohne Nähte zwischen ihnen.</translation>
     </message>
     <message>
+        <source>Finds vegetation, buildings and bridges in a point cloud whose ground is known.</source>
+        <translation>Findet Vegetation, Gebäude und Brücken in einer Punktwolke, deren Boden bekannt ist.</translation>
+    </message>
+    <message>
         <source>Finds water in a classified point cloud: where hardly any last return is, and the ground along the shore is level or falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told from it. Each polygon has the level, the spread of the shore, and a grade of certainty. The terrain model takes the polygons as water.</source>
         <translation>Findet Gewässer in einer klassifizierten Punktwolke: wo kaum letzte Echos sind und der Boden am Ufer eben ist oder stetig fällt, oder wo Punkte die Klasse 9 haben. Lücken zwischen Flugstreifen, Dächer und Wälder werden davon unterschieden. Jedes Polygon hat den Wasserspiegel, die Streuung des Ufers und einen Grad der Sicherheit. Das Geländemodell nimmt die Polygone als Gewässer.</translation>
     </message>
@@ -642,6 +692,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Folder of the classified point clouds</source>
         <translation>Ordner der klassifizierten Punktwolken</translation>
+    </message>
+    <message>
+        <source>Folder of the rasters</source>
+        <translation>Ordner der Raster</translation>
     </message>
     <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
@@ -764,6 +818,18 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Höhe über Grund</translation>
     </message>
     <message>
+        <source>Height at which high vegetation begins</source>
+        <translation>Höhe, ab der hohe Vegetation beginnt</translation>
+    </message>
+    <message>
+        <source>Height at which low vegetation begins</source>
+        <translation>Höhe, ab der niedrige Vegetation beginnt</translation>
+    </message>
+    <message>
+        <source>Height at which medium vegetation begins</source>
+        <translation>Höhe, ab der mittlere Vegetation beginnt</translation>
+    </message>
+    <message>
         <source>Height of high outliers</source>
         <translation>Höhe hoher Ausreißer</translation>
     </message>
@@ -790,6 +856,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Heights of the bare ground.</source>
         <translation>Höhen des nackten Bodens.</translation>
+    </message>
+    <message>
+        <source>Heights of vegetation</source>
+        <translation>Höhen der Vegetation</translation>
     </message>
     <message>
         <source>Highest height</source>
@@ -830,6 +900,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>How many threads compute at the same time. The result does not depend on it. Empty: as many as there are processors.</source>
         <translation>Wie viele Threads gleichzeitig rechnen. Das Ergebnis hängt nicht davon ab. Leer: so viele, wie es Prozessoren gibt.</translation>
+    </message>
+    <message>
+        <source>If this is off, only points of class 0 and 1 change. If it is on, points of class 3 to 6 are decided anew as well. All others keep their class, such as water (9) and wires.</source>
+        <translation>Wenn dies aus ist, ändern sich nur Punkte der Klassen 0 und 1. Wenn es an ist, werden auch Punkte der Klassen 3 bis 6 neu entschieden. Alle anderen behalten ihre Klasse, etwa Wasser (9) und Leitungen.</translation>
     </message>
     <message>
         <source>Ignored classes of the reference</source>
@@ -908,6 +982,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Schlüsselpunkte: Toleranz nach unten</translation>
     </message>
     <message>
+        <source>Kinds of relief</source>
+        <translation>Arten des Reliefs</translation>
+    </message>
+    <message>
         <source>LAS</source>
         <translation>LAS</translation>
     </message>
@@ -948,8 +1026,16 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Letzte Echos erreichen den Boden. Nehmen Sie alle Echos, wenn die Nummern der Echos in der Datei falsch sind.</translation>
     </message>
     <message>
+        <source>Least area of a roof</source>
+        <translation>Kleinste Fläche eines Dachs</translation>
+    </message>
+    <message>
         <source>Least confidence</source>
         <translation>Geringste Verlässlichkeit</translation>
+    </message>
+    <message>
+        <source>Least height of a roof</source>
+        <translation>Kleinste Höhe eines Dachs</translation>
     </message>
     <message>
         <source>Leave out</source>
@@ -996,8 +1082,16 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Linien, über die kein Dreieck des Geländes hinweggeht: Kanten von Mauern, Deichen und Terrassen. Eine Linie mit z hat diese Höhe. Ohne z hat jede Seite der Linie die Höhe des nächsten Bodenpunkts auf dieser Seite.</translation>
     </message>
     <message>
+        <source>Local dominance</source>
+        <translation>Lokale Dominanz</translation>
+    </message>
+    <message>
         <source>Local relief</source>
         <translation>Lokales Relief</translation>
+    </message>
+    <message>
+        <source>Local relief, openness, sky view and the like compare a place with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
+        <translation>Lokales Relief, Offenheit, sichtbarer Himmel und ähnliche vergleichen jeden Ort bis zu dieser Entfernung mit seiner Umgebung. Wählen Sie etwa die Breite der Formen, die Sie sehen wollen; größere Landformen verschwinden.</translation>
     </message>
     <message>
         <source>Longest edge of a triangle</source>
@@ -1020,6 +1114,12 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
 The output has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS.</source>
         <translation>Macht aus einem Oberflächenmodell ein Geländemodell, wenn es keine Punktwolke gibt. Entfernt, was über dem Gelände ringsum steht, auf allen Seiten steile Kanten hat und nicht breiter ist als die größte Objektbreite. Füllt die Lücken glatt. Hügel und Hänge bleiben.
 Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
+    </message>
+    <message>
+        <source>Makes pictures of the relief of any elevation raster, on the same grid: sky-view factor, openness, local dominance, local relief, slope, hillshade, archaeological topography (VAT) and red relief. They show small features that a hillshade of one light hides.
+For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
+        <translation>Macht Bilder des Reliefs eines beliebigen Höhenrasters, im selben Gitter: Himmelssichtfaktor, Offenheit, lokale Dominanz, lokales Relief, Neigung, Schummerung, archäologische Topographie (VAT) und rotes Relief. Sie zeigen kleine Formen, die eine Schummerung mit nur einem Licht verbirgt.
+Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5 m.</translation>
     </message>
     <message>
         <source>Makes rasters (GeoTIFF) of a classified point cloud: the terrain, interpolated on the triangulation (TIN) of the ground points; the surface, the highest point of each cell without noise; canopy height, the difference of the two; and a hillshade of the terrain. All lie on the same grid. Heights are in the vertical unit of the CRS.</source>
@@ -1078,8 +1178,16 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Modelle</translation>
     </message>
     <message>
+        <source>Multi-scale relief</source>
+        <translation>Relief in mehreren Maßstäben</translation>
+    </message>
+    <message>
         <source>Name of the checkpoints</source>
         <translation>Name der Kontrollpunkte</translation>
+    </message>
+    <message>
+        <source>Negative openness</source>
+        <translation>Negative Offenheit</translation>
     </message>
     <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
@@ -1198,6 +1306,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Von der Punktwolke zum Gelände</translation>
     </message>
     <message>
+        <source>Point cloud with all classes</source>
+        <translation>Punktwolke mit allen Klassen</translation>
+    </message>
+    <message>
         <source>Point cloud with heights</source>
         <translation>Punktwolke mit Höhen</translation>
     </message>
@@ -1216,6 +1328,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Points are compared with their neighbours up to this distance. Choose at least half the shorter side of the largest building. Empty: from the preset, 18 m in the automatic one (more if points are sparse), 2 m in Whitebox.</source>
         <translation>Punkte werden mit ihren Nachbarn bis zu dieser Entfernung verglichen. Wählen Sie mindestens die halbe kürzere Seite des größten Gebäudes. Leer: aus der Voreinstellung, in der automatischen 18 m (mehr bei geringer Punktdichte), in Whitebox 2 m.</translation>
+    </message>
+    <message>
+        <source>Points below this height above ground, and points below the ground, become class 1.</source>
+        <translation>Punkte unter dieser Höhe über Grund und Punkte unter dem Boden bekommen Klasse 1.</translation>
     </message>
     <message>
         <source>Points in the area</source>
@@ -1266,6 +1382,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Punkte bis zu dieser Entfernung außerhalb des Fensters werden auch gelesen, aber nicht gezeigt. Ein größerer Wert ist langsamer und gibt nahe dem Rand des Fensters und neben großen Gebäuden Klassen, die näher an denen der ganzen Datei sind. Leer: so weit die Verfahren schauen, höchstens 50 m.</translation>
     </message>
     <message>
+        <source>Points with a new class</source>
+        <translation>Punkte mit neuer Klasse</translation>
+    </message>
+    <message>
         <source>Polygons in which the terrain uses no ground points, such as bridges and roofs. The classes of the points do not change.</source>
         <translation>Polygone, in denen das Gelände keine Bodenpunkte benutzt, etwa Brücken und Dächer. Die Klassen der Punkte ändern sich nicht.</translation>
     </message>
@@ -1280,6 +1400,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD) and a grade of certainty (GRADE).</source>
         <translation>Polygone mit dem Wasserspiegel (LEVEL), der Streuung des Ufers in Metern (SPREAD) und einem Grad der Sicherheit (GRADE).</translation>
+    </message>
+    <message>
+        <source>Positive openness</source>
+        <translation>Positive Offenheit</translation>
     </message>
     <message>
         <source>Preset</source>
@@ -1318,8 +1442,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>RMSE ohne Bewuchs [m]</translation>
     </message>
     <message>
-        <source>Radius of the local relief</source>
-        <translation>Radius des lokalen Reliefs</translation>
+        <source>Radius of the relief</source>
+        <translation>Radius des Reliefs</translation>
     </message>
     <message>
         <source>Raster with the grid to use</source>
@@ -1338,6 +1462,14 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Bereit. Dieses QGIS hat das Paket lazrs.</translation>
     </message>
     <message>
+        <source>Red relief</source>
+        <translation>Rotes Relief</translation>
+    </message>
+    <message>
+        <source>Red relief image map</source>
+        <translation>Rotes Reliefbild</translation>
+    </message>
+    <message>
         <source>Reduce iteration angle when edges are shorter than</source>
         <translation>Iterationswinkel verkleinern, wenn Kanten kürzer sind als</translation>
     </message>
@@ -1348,6 +1480,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Reference points only</source>
         <translation>Nur Punkte der Referenz</translation>
+    </message>
+    <message>
+        <source>Relief of a terrain model</source>
+        <translation>Relief eines Geländemodells</translation>
     </message>
     <message>
         <source>Remember the classes</source>
@@ -1392,6 +1528,14 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Rivers that are narrower on average are left out. The Lidar Base Specification asks for 30 m (100 ft) and more.</source>
         <translation>Flüsse, die im Mittel schmaler sind, werden weggelassen. Die Lidar Base Specification verlangt 30 m (100 ft) und mehr.</translation>
+    </message>
+    <message>
+        <source>Roofs are at least this high above the ground. Lower ones are cars and hedges too.</source>
+        <translation>Dächer sind mindestens so hoch über dem Boden. Niedrigeres sind auch Autos und Hecken.</translation>
+    </message>
+    <message>
+        <source>Roofs are planes of some size that a laser pulse meets once. Walls below their edges, and chimneys and dormers, belong to them.</source>
+        <translation>Dächer sind Ebenen von einiger Größe, die ein Laserpuls nur einmal trifft. Wände unter ihren Rändern, Schornsteine und Gauben gehören dazu.</translation>
     </message>
     <message>
         <source>Rule that decided each cell</source>
@@ -1458,6 +1602,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Kürzeste geschlossene Höhenlinie</translation>
     </message>
     <message>
+        <source>Shows mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.</source>
+        <translation>Zeigt Hügel, Mauern, Gräben und alte Wege: sichtbarer Himmel, Offenheit, lokales Relief, VAT.</translation>
+    </message>
+    <message>
         <source>Side of a cell of the error map. The map in the report has its own cell size.</source>
         <translation>Seite einer Zelle der Fehlerkarte. Die Karte im Bericht hat ihre eigene Zellgröße.</translation>
     </message>
@@ -1480,6 +1628,14 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller cells follow finer terrain if they hold at least one point, but have more rims at low plants. Empty: from the preset, or larger if points are too sparse for it.</source>
         <translation>Seite der quadratischen Zellen, deren tiefste Punkte verglichen werden. Kleinere Zellen folgen feinerem Gelände, wenn sie mindestens einen Punkt enthalten, haben aber mehr Ränder an niedrigen Pflanzen. Leer: aus der Voreinstellung, oder größer, wenn die Punkte dafür zu dünn liegen.</translation>
+    </message>
+    <message>
+        <source>Sky-view factor</source>
+        <translation>Himmelssichtfaktor</translation>
+    </message>
+    <message>
+        <source>Slope</source>
+        <translation>Neigung</translation>
     </message>
     <message>
         <source>Slope filter</source>
@@ -1522,6 +1678,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Neigungsschwelle</translation>
     </message>
     <message>
+        <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
+        <translation>Kleine Gruppen von Punkten, die mindestens 10 m über allen anderen ihres Orts hängen: Vögel, Wolken.</translation>
+    </message>
+    <message>
         <source>Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2 acres) and more.</source>
         <translation>Kleinere Gewässer werden weggelassen. Die Lidar Base Specification verlangt Seen von 8.000 m² (2 acres) und mehr.</translation>
     </message>
@@ -1534,8 +1694,8 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Kleinste Breite eines Flusses</translation>
     </message>
     <message>
-        <source>Smoothing of hillshade and local relief</source>
-        <translation>Glättung von Schummerung und lokalem Relief</translation>
+        <source>Smoothing of pictures of the relief</source>
+        <translation>Glättung der Bilder des Reliefs</translation>
     </message>
     <message>
         <source>Smoothing of the contour lines</source>
@@ -1682,6 +1842,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Der Ordner für die klassifizierten Dateien. Jede behält ihren Namen.</translation>
     </message>
     <message>
+        <source>The folder for the rasters (GeoTIFF). They are named after what they show, such as vat.tif and sky-view.tif.</source>
+        <translation>Der Ordner für die Raster (GeoTIFF). Sie heißen nach dem, was sie zeigen, zum Beispiel vat.tif und sky-view.tif.</translation>
+    </message>
+    <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
         <translation>Der Bodenfilter. TIN-Verdichtung ist am genauesten.</translation>
     </message>
@@ -1768,6 +1932,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>The same points, or some of them, with their true classes.</source>
         <translation>Dieselben Punkte, oder einige davon, mit ihren wahren Klassen.</translation>
+    </message>
+    <message>
+        <source>The same points, with the classes above the ground.</source>
+        <translation>Dieselben Punkte mit den Klassen über dem Boden.</translation>
     </message>
     <message>
         <source>The same points, with the key points marked.</source>
@@ -1894,8 +2062,24 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>Wie die übrigen benutzen</translation>
     </message>
     <message>
+        <source>Used only with limits of your own.</source>
+        <translation>Nur mit eigenen Grenzen benutzt.</translation>
+    </message>
+    <message>
         <source>Vegetated land covers</source>
         <translation>Bewachsene Bodenbedeckungen</translation>
+    </message>
+    <message>
+        <source>Vegetation by limits of your own</source>
+        <translation>Vegetation nach eigenen Grenzen</translation>
+    </message>
+    <message>
+        <source>Vegetation low below 0.5 m, medium to 1.5 m, high above (IGN)</source>
+        <translation>Vegetation niedrig unter 0,5 m, mittel bis 1,5 m, darüber hoch (IGN)</translation>
+    </message>
+    <message>
+        <source>Vegetation low below 0.5 m, medium to 2 m, high above</source>
+        <translation>Vegetation niedrig unter 0,5 m, mittel bis 2 m, darüber hoch</translation>
     </message>
     <message>
         <source>Virtual point cloud</source>
@@ -1904,6 +2088,14 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>Water</source>
         <translation>Gewässer</translation>
+    </message>
+    <message>
+        <source>What is no building, no bridge and no noise becomes low (3), medium (4) or high (5) vegetation by its height above ground. The LAS specification has these classes, but no limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.</source>
+        <translation>Was weder Gebäude noch Brücke noch Rauschen ist, wird nach seiner Höhe über Grund niedrige (3), mittlere (4) oder hohe (5) Vegetation. Die LAS-Spezifikation hat diese Klassen, aber keine Grenzen: 0,5 und 2 m sind üblich. LiDAR HD des IGN hat 0,5 und 1,5 m.</translation>
+    </message>
+    <message>
+        <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
+        <translation>Was gemacht wird, je ein Raster. Die archäologische Topographie (VAT) zeigt am meisten in einem Bild.</translation>
     </message>
     <message>
         <source>Wheel file of lazrs</source>
@@ -1978,6 +2170,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>zwischen Gräben</translation>
     </message>
     <message>
+        <source>buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign</source>
+        <translation>Gebäude,Dächer,Bäume,Klassen,Klassifikation,Brücken,Rauschen,lasclassify,asprs,ign</translation>
+    </message>
+    <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
         <translation>kontrollpunkte,passpunkte,prüfpunkte,gcp,genauigkeit,qualität,rmse,rmsez,höhengenauigkeit,nva,vva,asprs,validierung,lascontrol</translation>
     </message>
@@ -1996,6 +2192,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>cut off by openings</source>
         <translation>durch Öffnungen abgeschnitten</translation>
+    </message>
+    <message>
+        <source>degrees</source>
+        <translation>Grad</translation>
     </message>
     <message>
         <source>densification</source>
@@ -2087,7 +2287,7 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     </message>
     <message>
         <source>m2</source>
-        <translation>m²</translation>
+        <translation>m2</translation>
     </message>
     <message>
         <source>narrow pits</source>
@@ -2142,6 +2342,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
         <translation>erhöhte Objekte</translation>
     </message>
     <message>
+        <source>relief</source>
+        <translation>Relief</translation>
+    </message>
+    <message>
         <source>rims of low objects</source>
         <translation>Ränder niedriger Objekte</translation>
     </message>
@@ -2156,6 +2360,10 @@ Die Ausgabe hat dasselbe Raster, KBS und dieselbe Einheit. Längen sind Meter, g
     <message>
         <source>single low points</source>
         <translation>einzelne tiefe Punkte</translation>
+    </message>
+    <message>
+        <source>sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,rrim,slope,archaeology,rvt,relief visualization toolbox,visualization</source>
+        <translation>Himmelssichtfaktor,Sky-View-Faktor,svf,Offenheit,lokale Dominanz,lokales Reliefmodell,lrm,vat,rotes Relief,rrim,Neigung,Archäologie,rvt,Relief Visualization Toolbox,Visualisierung</translation>
     </message>
     <message>
         <source>slope,vosselman,whitebox,top-hat</source>

@@ -12,6 +12,10 @@
         <translation>0 à 1</translation>
     </message>
     <message>
+        <source>1 is level</source>
+        <translation>1 est plat</translation>
+    </message>
+    <message>
         <source>1 to 255</source>
         <translation>1 à 255</translation>
     </message>
@@ -22,6 +26,10 @@
     <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt; for fields that are left empty</source>
         <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt; pour les champs laissés vides</translation>
+    </message>
+    <message>
+        <source>A building has a plane of at least this area. Smaller planes are found only within 5 m of a larger one. If this is half as large, tops of conifers become buildings.</source>
+        <translation>Un bâtiment a un plan d'au moins cette surface. Les plans plus petits ne sont trouvés qu'à moins de 5 m d'un plus grand. Si cette valeur est deux fois plus petite, des cimes de conifères deviennent des bâtiments.</translation>
     </message>
     <message>
         <source>A checkpoint has no height. Choose the attribute with the heights.</source>
@@ -74,6 +82,10 @@
     <message>
         <source>A point with fewer neighbours within the search radius is compared with this many nearest points. Only for the preset Whitebox.</source>
         <translation>Un point qui a moins de voisins dans le rayon de recherche est comparé à ce nombre de points les plus proches. Pour le préréglage Whitebox seulement.</translation>
+    </message>
+    <message>
+        <source>A raster file with a band of heights.</source>
+        <translation>Un fichier raster avec une bande d'altitudes.</translation>
     </message>
     <message>
         <source>A raster that tells why a place is ground or not: the rule of the filter that decided the cell. Its legend names the rules. Presets that decide points, not cells, cannot make it.</source>
@@ -164,6 +176,14 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Angle of the light above the horizon.</source>
         <translation>Angle de la lumière au-dessus de l'horizon.</translation>
+    </message>
+    <message>
+        <source>Archaeological topography</source>
+        <translation>Topographie archéologique</translation>
+    </message>
+    <message>
+        <source>Archaeological topography (VAT)</source>
+        <translation>Topographie archéologique (VAT)</translation>
     </message>
     <message>
         <source>Area [m²]</source>
@@ -370,8 +390,18 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Classe les points sol de nombreux fichiers comme s'ils n'en formaient qu'un, et écrit chaque fichier sous son nom dans le dossier de sortie. Un nuage de points virtuel (.vpc) énumère les résultats.</translation>
     </message>
     <message>
+        <source>Classifies the points above the ground of a classified point cloud: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18). Buildings are found by planes that laser pulses meet once; without return numbers the planes alone decide, and smooth crowns can become buildings.
+Only points of class 0 and 1 change, unless you ask for more. Nothing else in the file changes. Lengths are metres, whatever the unit of the CRS.</source>
+        <translation>Classe les points au-dessus du sol d'un nuage de points classé : végétation basse, moyenne et haute (3, 4, 5) selon la hauteur au-dessus du sol, bâtiments (6), ponts (17) et bruit haut (18). Les bâtiments sont reconnus à des plans qu'une impulsion laser ne rencontre qu'une fois ; sans numéros de retour, seuls les plans décident, et des houppiers lisses peuvent devenir des bâtiments.
+Seuls les points des classes 0 et 1 changent, sauf demande contraire. Rien d'autre ne change dans le fichier. Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
+    </message>
+    <message>
         <source>Classifies the points in a window with each of the settings, and makes a web page, which opens from the Results Viewer. It shows the terrain of each setting, a profile, the share of ground, where the settings differ, and how to run each of them on all points. No point cloud is written. Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is read as a whole.</source>
         <translation>Classe les points d'une fenêtre avec chacun des réglages, et produit une page web, qui s'ouvre depuis le visualiseur de résultats. Elle montre le terrain de chaque réglage, un profil, la part du sol, les endroits où les réglages diffèrent, et comment appliquer chacun d'eux à tous les points. Aucun nuage de points n'est écrit. D'un fichier COPC, seule la fenêtre est lue, en quelques secondes ; un fichier LAS ou LAZ est lu en entier.</translation>
+    </message>
+    <message>
+        <source>Classify above ground</source>
+        <translation>Classer au-dessus du sol</translation>
     </message>
     <message>
         <source>Classify ground (TIN densification)</source>
@@ -392,6 +422,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Classify model key points</source>
         <translation>Classer les points clés du modèle</translation>
+    </message>
+    <message>
+        <source>Classify vegetation and buildings anew</source>
+        <translation>Reclasser la végétation et les bâtiments</translation>
     </message>
     <message>
         <source>Closed lines that are shorter are left out: they show single plants and noise.</source>
@@ -476,6 +510,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Règles décisives</translation>
     </message>
     <message>
+        <source>Decks of bridges, found by their cross-sections. Otherwise they become buildings or vegetation. Points that have class 17 already keep it.</source>
+        <translation>Tabliers de ponts, reconnus à leurs coupes en travers. Sinon, ils deviennent des bâtiments ou de la végétation. Les points qui ont déjà la classe 17 la gardent.</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Profondeur des points aberrants bas</translation>
     </message>
@@ -494,10 +532,6 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
     <message>
         <source>Doubtful</source>
         <translation>Douteux</translation>
-    </message>
-    <message>
-        <source>Each place is compared with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
-        <translation>Chaque lieu est comparé à son voisinage jusqu'à cette distance. Choisissez environ la largeur des formes que vous voulez voir ; les formes plus grandes disparaissent.</translation>
     </message>
     <message>
         <source>Elevation raster</source>
@@ -546,6 +580,18 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
     <message>
         <source>Final height</source>
         <translation>Hauteur finale</translation>
+    </message>
+    <message>
+        <source>Find bridges (17)</source>
+        <translation>Trouver les ponts (17)</translation>
+    </message>
+    <message>
+        <source>Find buildings (6)</source>
+        <translation>Trouver les bâtiments (6)</translation>
+    </message>
+    <message>
+        <source>Find high noise (18)</source>
+        <translation>Trouver le bruit haut (18)</translation>
     </message>
     <message>
         <source>Find water</source>
@@ -620,6 +666,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Trouve les points sol des nombreux fichiers d'un levé, sans raccords visibles entre eux.</translation>
     </message>
     <message>
+        <source>Finds vegetation, buildings and bridges in a point cloud whose ground is known.</source>
+        <translation>Trouve la végétation, les bâtiments et les ponts dans un nuage de points dont le sol est connu.</translation>
+    </message>
+    <message>
         <source>Finds water in a classified point cloud: where hardly any last return is, and the ground along the shore is level or falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told from it. Each polygon has the level, the spread of the shore, and a grade of certainty. The terrain model takes the polygons as water.</source>
         <translation>Trouve l'eau dans un nuage de points classé : là où il n'y a presque pas de derniers retours et où le sol le long de la rive est horizontal ou descend régulièrement, ou là où les points ont la classe 9. Les lacunes entre les bandes, les toits et les forêts en sont distingués. Chaque polygone a le niveau, la dispersion de la rive et un degré de certitude. Le modèle de terrain prend les polygones comme eau.</translation>
     </message>
@@ -642,6 +692,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Folder of the classified point clouds</source>
         <translation>Dossier des nuages de points classés</translation>
+    </message>
+    <message>
+        <source>Folder of the rasters</source>
+        <translation>Dossier des rasters</translation>
     </message>
     <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
@@ -764,6 +818,18 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Hauteur au-dessus du sol</translation>
     </message>
     <message>
+        <source>Height at which high vegetation begins</source>
+        <translation>Hauteur à laquelle commence la végétation haute</translation>
+    </message>
+    <message>
+        <source>Height at which low vegetation begins</source>
+        <translation>Hauteur à laquelle commence la végétation basse</translation>
+    </message>
+    <message>
+        <source>Height at which medium vegetation begins</source>
+        <translation>Hauteur à laquelle commence la végétation moyenne</translation>
+    </message>
+    <message>
         <source>Height of high outliers</source>
         <translation>Hauteur des points aberrants hauts</translation>
     </message>
@@ -790,6 +856,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Heights of the bare ground.</source>
         <translation>Altitudes du sol nu.</translation>
+    </message>
+    <message>
+        <source>Heights of vegetation</source>
+        <translation>Hauteurs de la végétation</translation>
     </message>
     <message>
         <source>Highest height</source>
@@ -830,6 +900,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>How many threads compute at the same time. The result does not depend on it. Empty: as many as there are processors.</source>
         <translation>Le nombre de fils d'exécution qui calculent en même temps. Le résultat n'en dépend pas. Vide : autant qu'il y a de processeurs.</translation>
+    </message>
+    <message>
+        <source>If this is off, only points of class 0 and 1 change. If it is on, points of class 3 to 6 are decided anew as well. All others keep their class, such as water (9) and wires.</source>
+        <translation>Si ceci est désactivé, seuls les points des classes 0 et 1 changent. Sinon, les points des classes 3 à 6 sont aussi décidés à nouveau. Tous les autres gardent leur classe, comme l'eau (9) et les câbles.</translation>
     </message>
     <message>
         <source>Ignored classes of the reference</source>
@@ -908,6 +982,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Points clés : tolérance vers le bas</translation>
     </message>
     <message>
+        <source>Kinds of relief</source>
+        <translation>Types de relief</translation>
+    </message>
+    <message>
         <source>LAS</source>
         <translation>LAS</translation>
     </message>
@@ -948,8 +1026,16 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Les derniers retours atteignent le sol. Prenez tous les retours si les numéros de retour du fichier sont faux.</translation>
     </message>
     <message>
+        <source>Least area of a roof</source>
+        <translation>Surface minimale d'un toit</translation>
+    </message>
+    <message>
         <source>Least confidence</source>
         <translation>Fiabilité minimale</translation>
+    </message>
+    <message>
+        <source>Least height of a roof</source>
+        <translation>Hauteur minimale d'un toit</translation>
     </message>
     <message>
         <source>Leave out</source>
@@ -996,8 +1082,16 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Lignes qu'aucun triangle du terrain ne traverse : bords de murs, de digues et de terrasses. Une ligne avec z a cette altitude. Sans z, chaque côté de la ligne a l'altitude du point sol le plus proche de ce côté.</translation>
     </message>
     <message>
+        <source>Local dominance</source>
+        <translation>Dominance locale</translation>
+    </message>
+    <message>
         <source>Local relief</source>
         <translation>Relief local</translation>
+    </message>
+    <message>
+        <source>Local relief, openness, sky view and the like compare a place with its surroundings up to this distance. Choose about the width of the features that you want to see; larger landforms disappear.</source>
+        <translation>Le relief local, l'ouverture, la vue du ciel et autres comparent chaque lieu à ses environs jusqu'à cette distance. Choisissez à peu près la largeur des formes à voir ; les formes plus grandes disparaissent.</translation>
     </message>
     <message>
         <source>Longest edge of a triangle</source>
@@ -1020,6 +1114,12 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
 The output has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS.</source>
         <translation>Fait d'un modèle numérique de surface un modèle de terrain, s'il n'y a pas de nuage de points. Enlève ce qui dépasse le terrain alentour, a des bords raides de tous côtés et n'est pas plus large que la taille maximale des objets. Comble les vides en douceur. Les collines et les versants restent.
 La sortie a la même grille, le même SCR et la même unité. Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
+    </message>
+    <message>
+        <source>Makes pictures of the relief of any elevation raster, on the same grid: sky-view factor, openness, local dominance, local relief, slope, hillshade, archaeological topography (VAT) and red relief. They show small features that a hillshade of one light hides.
+For walls and banks make the terrain model in cells of 0.25 to 0.5 m.</source>
+        <translation>Produit des images du relief de tout raster d'altitude, sur la même grille : facteur de vue du ciel, ouverture, dominance locale, relief local, pente, ombrage, topographie archéologique (VAT) et relief rouge. Elles montrent de petites formes qu'un ombrage à une seule lumière cache.
+Pour les murs et les talus, produisez le modèle de terrain avec des cellules de 0,25 à 0,5 m.</translation>
     </message>
     <message>
         <source>Makes rasters (GeoTIFF) of a classified point cloud: the terrain, interpolated on the triangulation (TIN) of the ground points; the surface, the highest point of each cell without noise; canopy height, the difference of the two; and a hillshade of the terrain. All lie on the same grid. Heights are in the vertical unit of the CRS.</source>
@@ -1078,8 +1178,16 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Modèles</translation>
     </message>
     <message>
+        <source>Multi-scale relief</source>
+        <translation>Relief multi-échelle</translation>
+    </message>
+    <message>
         <source>Name of the checkpoints</source>
         <translation>Nom des points de contrôle</translation>
+    </message>
+    <message>
+        <source>Negative openness</source>
+        <translation>Ouverture négative</translation>
     </message>
     <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
@@ -1198,6 +1306,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Du nuage de points au terrain</translation>
     </message>
     <message>
+        <source>Point cloud with all classes</source>
+        <translation>Nuage de points avec toutes les classes</translation>
+    </message>
+    <message>
         <source>Point cloud with heights</source>
         <translation>Nuage de points avec hauteurs</translation>
     </message>
@@ -1216,6 +1328,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Points are compared with their neighbours up to this distance. Choose at least half the shorter side of the largest building. Empty: from the preset, 18 m in the automatic one (more if points are sparse), 2 m in Whitebox.</source>
         <translation>Les points sont comparés à leurs voisins jusqu'à cette distance. Choisissez au moins la moitié du petit côté du plus grand bâtiment. Vide : d'après le préréglage, 18 m dans l'automatique (plus si la densité de points est faible), 2 m dans Whitebox.</translation>
+    </message>
+    <message>
+        <source>Points below this height above ground, and points below the ground, become class 1.</source>
+        <translation>Les points sous cette hauteur au-dessus du sol, et les points sous le sol, reçoivent la classe 1.</translation>
     </message>
     <message>
         <source>Points in the area</source>
@@ -1266,6 +1382,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Les points jusqu'à cette distance hors de la fenêtre sont lus aussi, mais pas montrés. Une valeur plus grande est plus lente, et donne près des bords de la fenêtre et à côté de grands bâtiments des classes plus proches de celles du fichier entier. Vide : aussi loin que les méthodes regardent, au plus 50 m.</translation>
     </message>
     <message>
+        <source>Points with a new class</source>
+        <translation>Points dont la classe est nouvelle</translation>
+    </message>
+    <message>
         <source>Polygons in which the terrain uses no ground points, such as bridges and roofs. The classes of the points do not change.</source>
         <translation>Polygones où le terrain n'utilise aucun point sol, comme les ponts et les toits. Les classes des points ne changent pas.</translation>
     </message>
@@ -1280,6 +1400,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD) and a grade of certainty (GRADE).</source>
         <translation>Polygones avec le niveau (LEVEL), la dispersion de la rive en mètres (SPREAD) et un degré de certitude (GRADE).</translation>
+    </message>
+    <message>
+        <source>Positive openness</source>
+        <translation>Ouverture positive</translation>
     </message>
     <message>
         <source>Preset</source>
@@ -1318,8 +1442,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>RMSE sans végétation [m]</translation>
     </message>
     <message>
-        <source>Radius of the local relief</source>
-        <translation>Rayon du relief local</translation>
+        <source>Radius of the relief</source>
+        <translation>Rayon du relief</translation>
     </message>
     <message>
         <source>Raster with the grid to use</source>
@@ -1338,6 +1462,14 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Prêt. Ce QGIS a le paquet lazrs.</translation>
     </message>
     <message>
+        <source>Red relief</source>
+        <translation>Relief rouge</translation>
+    </message>
+    <message>
+        <source>Red relief image map</source>
+        <translation>Carte en relief rouge</translation>
+    </message>
+    <message>
         <source>Reduce iteration angle when edges are shorter than</source>
         <translation>Réduire l'angle d'itération quand les côtés sont plus courts que</translation>
     </message>
@@ -1348,6 +1480,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Reference points only</source>
         <translation>Points de la référence seulement</translation>
+    </message>
+    <message>
+        <source>Relief of a terrain model</source>
+        <translation>Relief d'un modèle de terrain</translation>
     </message>
     <message>
         <source>Remember the classes</source>
@@ -1392,6 +1528,14 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Rivers that are narrower on average are left out. The Lidar Base Specification asks for 30 m (100 ft) and more.</source>
         <translation>Les rivières plus étroites en moyenne sont omises. La Lidar Base Specification demande 30 m (100 ft) et plus.</translation>
+    </message>
+    <message>
+        <source>Roofs are at least this high above the ground. Lower ones are cars and hedges too.</source>
+        <translation>Les toits sont au moins à cette hauteur au-dessus du sol. Plus bas, il y a aussi des voitures et des haies.</translation>
+    </message>
+    <message>
+        <source>Roofs are planes of some size that a laser pulse meets once. Walls below their edges, and chimneys and dormers, belong to them.</source>
+        <translation>Les toits sont des plans d'une certaine taille qu'une impulsion laser ne rencontre qu'une fois. Les murs sous leurs bords, les cheminées et les lucarnes en font partie.</translation>
     </message>
     <message>
         <source>Rule that decided each cell</source>
@@ -1458,6 +1602,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Courbe de niveau fermée la plus courte</translation>
     </message>
     <message>
+        <source>Shows mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.</source>
+        <translation>Montre tertres, murs, fossés et anciens chemins : vue du ciel, ouverture, relief local, VAT.</translation>
+    </message>
+    <message>
         <source>Side of a cell of the error map. The map in the report has its own cell size.</source>
         <translation>Côté d'une cellule de la carte des erreurs. La carte du rapport a sa propre taille de cellule.</translation>
     </message>
@@ -1480,6 +1628,14 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller cells follow finer terrain if they hold at least one point, but have more rims at low plants. Empty: from the preset, or larger if points are too sparse for it.</source>
         <translation>Côté des cellules carrées dont les points les plus bas sont comparés. Des cellules plus petites suivent un terrain plus fin si elles contiennent au moins un point, mais ont plus de bords aux plantes basses. Vide : d'après le préréglage, ou plus grandes si les points sont trop épars pour cela.</translation>
+    </message>
+    <message>
+        <source>Sky-view factor</source>
+        <translation>Facteur de vue du ciel</translation>
+    </message>
+    <message>
+        <source>Slope</source>
+        <translation>Pente</translation>
     </message>
     <message>
         <source>Slope filter</source>
@@ -1522,6 +1678,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Seuil de pente</translation>
     </message>
     <message>
+        <source>Small groups of points that hang at least 10 m above all others of their place: birds, clouds.</source>
+        <translation>Petits groupes de points suspendus à au moins 10 m au-dessus de tous les autres du lieu : oiseaux, nuages.</translation>
+    </message>
+    <message>
         <source>Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2 acres) and more.</source>
         <translation>Les eaux plus petites sont omises. La Lidar Base Specification demande les lacs de 8 000 m² (2 acres) et plus.</translation>
     </message>
@@ -1534,8 +1694,8 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Largeur minimale d'une rivière</translation>
     </message>
     <message>
-        <source>Smoothing of hillshade and local relief</source>
-        <translation>Lissage de l'ombrage et du relief local</translation>
+        <source>Smoothing of pictures of the relief</source>
+        <translation>Lissage des images du relief</translation>
     </message>
     <message>
         <source>Smoothing of the contour lines</source>
@@ -1682,6 +1842,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Le dossier des fichiers classés. Chacun garde son nom.</translation>
     </message>
     <message>
+        <source>The folder for the rasters (GeoTIFF). They are named after what they show, such as vat.tif and sky-view.tif.</source>
+        <translation>Le dossier des rasters (GeoTIFF). Ils portent le nom de ce qu'ils montrent, par exemple vat.tif et sky-view.tif.</translation>
+    </message>
+    <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
         <translation>Le filtre du sol. La densification de TIN est la plus précise.</translation>
     </message>
@@ -1768,6 +1932,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>The same points, or some of them, with their true classes.</source>
         <translation>Les mêmes points, ou certains d'entre eux, avec leurs vraies classes.</translation>
+    </message>
+    <message>
+        <source>The same points, with the classes above the ground.</source>
+        <translation>Les mêmes points, avec les classes au-dessus du sol.</translation>
     </message>
     <message>
         <source>The same points, with the key points marked.</source>
@@ -1894,8 +2062,24 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>Utiliser comme les autres</translation>
     </message>
     <message>
+        <source>Used only with limits of your own.</source>
+        <translation>Utilisé seulement avec vos propres limites.</translation>
+    </message>
+    <message>
         <source>Vegetated land covers</source>
         <translation>Occupations du sol avec végétation</translation>
+    </message>
+    <message>
+        <source>Vegetation by limits of your own</source>
+        <translation>Végétation selon vos propres limites</translation>
+    </message>
+    <message>
+        <source>Vegetation low below 0.5 m, medium to 1.5 m, high above (IGN)</source>
+        <translation>Végétation basse sous 0,5 m, moyenne jusqu'à 1,5 m, haute au-dessus (IGN)</translation>
+    </message>
+    <message>
+        <source>Vegetation low below 0.5 m, medium to 2 m, high above</source>
+        <translation>Végétation basse sous 0,5 m, moyenne jusqu'à 2 m, haute au-dessus</translation>
     </message>
     <message>
         <source>Virtual point cloud</source>
@@ -1904,6 +2088,14 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>Water</source>
         <translation>Eau</translation>
+    </message>
+    <message>
+        <source>What is no building, no bridge and no noise becomes low (3), medium (4) or high (5) vegetation by its height above ground. The LAS specification has these classes, but no limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.</source>
+        <translation>Ce qui n'est ni bâtiment, ni pont, ni bruit devient végétation basse (3), moyenne (4) ou haute (5) selon sa hauteur au-dessus du sol. La spécification LAS a ces classes, mais pas de limites : 0,5 et 2 m sont usuels. Le LiDAR HD de l'IGN a 0,5 et 1,5 m.</translation>
+    </message>
+    <message>
+        <source>What to make, a raster for each. Archaeological topography (VAT) shows the most in one picture.</source>
+        <translation>Ce qu'il faut produire, un raster pour chaque type. La topographie archéologique (VAT) en montre le plus en une seule image.</translation>
     </message>
     <message>
         <source>Wheel file of lazrs</source>
@@ -1978,6 +2170,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>entre des fossés</translation>
     </message>
     <message>
+        <source>buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign</source>
+        <translation>bâtiments,toits,arbres,classes,classification,ponts,bruit,lasclassify,asprs,ign</translation>
+    </message>
+    <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
         <translation>points de contrôle,points d'appui,gcp,précision,qualité,rmse,rmsez,précision altimétrique,nva,vva,asprs,validation,lascontrol</translation>
     </message>
@@ -1996,6 +2192,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>cut off by openings</source>
         <translation>coupé par des ouvertures</translation>
+    </message>
+    <message>
+        <source>degrees</source>
+        <translation>degrés</translation>
     </message>
     <message>
         <source>densification</source>
@@ -2087,7 +2287,7 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     </message>
     <message>
         <source>m2</source>
-        <translation>m²</translation>
+        <translation>m2</translation>
     </message>
     <message>
         <source>narrow pits</source>
@@ -2142,6 +2342,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
         <translation>objets surélevés</translation>
     </message>
     <message>
+        <source>relief</source>
+        <translation>relief</translation>
+    </message>
+    <message>
         <source>rims of low objects</source>
         <translation>bords d'objets bas</translation>
     </message>
@@ -2156,6 +2360,10 @@ La sortie a la même grille, le même SCR et la même unité. Les longueurs sont
     <message>
         <source>single low points</source>
         <translation>points bas isolés</translation>
+    </message>
+    <message>
+        <source>sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,rrim,slope,archaeology,rvt,relief visualization toolbox,visualization</source>
+        <translation>facteur de vue du ciel,svf,ouverture,dominance locale,modèle de relief local,lrm,vat,relief rouge,rrim,pente,archéologie,rvt,relief visualization toolbox,visualisation</translation>
     </message>
     <message>
         <source>slope,vosselman,whitebox,top-hat</source>

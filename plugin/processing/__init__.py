@@ -2,12 +2,14 @@
 
 from .assess import AssessAlgorithm
 from .check import CheckAlgorithm
+from .classify_above_ground import ClassifyAboveGroundAlgorithm
 from .classify_tiles import ClassifyTilesAlgorithm
 from .compare_settings import CompareSettingsAlgorithm
 from .ground_filters import GROUND_FILTERS
 from .height_above_ground import HeightAboveGroundAlgorithm
 from .model_key_points import ModelKeyPointsAlgorithm
 from .point_cloud_to_terrain import PointCloudToTerrainAlgorithm
+from .relief import ReliefAlgorithm
 from .remove_off_terrain_objects import RemoveOffTerrainObjectsAlgorithm
 from .terrain_model import TerrainModelAlgorithm
 from .water import WaterAlgorithm
@@ -18,10 +20,12 @@ ALGORITHMS = (
     ClassifyTilesAlgorithm,
     TerrainModelAlgorithm,
     HeightAboveGroundAlgorithm,
+    ClassifyAboveGroundAlgorithm,
     ModelKeyPointsAlgorithm,
     WaterAlgorithm,
     CompareSettingsAlgorithm,
     AssessAlgorithm,
     CheckAlgorithm,
+    ReliefAlgorithm,
     RemoveOffTerrainObjectsAlgorithm,
 )

@@ -123,7 +123,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         )
         if explanation:
             paths["EXPLANATION"] = explanation
-        summary = classify(self._source, output, request, progress)
+        summary = classify(self._source, output, request, progress, as_survey=False)
         counts = summary.area_ground_count, summary.area_count
         progress.share(*counts, in_area=bool(self._limits["area"]))
         show_classified(self, output, summary.class_counts, request, context, progress)

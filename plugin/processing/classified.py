@@ -78,9 +78,7 @@ def show_classified(
     except BareEarthError as error:
         progress.warning(str(error))
         return
-    hint = QgsProcessingUtils.LayerHint.Raster
-    details = QgsProcessingContext.LayerDetails("classes", context.project(), "classes", hint)
-    context.addLayerToLoadOnCompletion(path, details)
+    compat.load_raster(path, context)
     algorithm.show(path, layers.class_raster(found if is_virtual else classes, hides))
 
 

@@ -30,6 +30,8 @@ from ..i18n import tr
 NOTHING_STAYS = "Cancelled; nothing was written."
 TILES_STAY = "Cancelled. The finished tiles stay, and a later run can continue with them."
 _MODELS = {name.upper(): each for name, each in MODELS.items()}
+# *Relief of a terrain model* makes the others.
+_USUAL = "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF"
 # Label and help of each raster, by the name of its field.
 RASTERS = {name: (each.label, each.help) for name, each in _MODELS.items()}
 
@@ -41,7 +43,7 @@ def after_cancel(sources: Sequence[Path]) -> str:
 
 def add_rasters(
     algorithm: QgsProcessingAlgorithm,
-    names: Iterable[str] = _MODELS,
+    names: Iterable[str] = _USUAL,
     default: Iterable[str] = ("DTM", "HILLSHADE"),
 ) -> None:
     """Add optional fields for rasters; `default` names those that are made by default."""

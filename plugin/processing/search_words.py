@@ -28,6 +28,10 @@ _WORDS = {
     "classifytiles": (_CLOUD, _GROUND, _TERRAIN, _TILES),
     "terrainmodel": (_CLOUD, _TERRAIN, _CANOPY, _TIN, _RASTER),
     "heightaboveground": (_CLOUD, _CANOPY, _TIN, mark("height,extra bytes")),
+    "classifyaboveground": (
+        _CLOUD, _CANOPY,
+        mark("buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign"),
+    ),
     "modelkeypoints": (
         _CLOUD, _TERRAIN, _TIN, mark("ground,thin,thinning,generalize,keypoints,contours"),
     ),
@@ -53,6 +57,13 @@ _WORDS = {
         mark(
             "bare earth,surface,buildings,trees,vegetation,off-terrain objects,oto,whitebox,"
             "lindsay,top-hat"
+        ),
+    ),
+    "relief": (
+        _TERRAIN, _RASTER,
+        mark(
+            "sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,"
+            "rrim,slope,archaeology,rvt,relief visualization toolbox,visualization"
         ),
     ),
     "terraincontours": (_CLOUD, _GROUND, _TERRAIN, mark("contours,workflow")),

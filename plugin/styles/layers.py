@@ -63,8 +63,8 @@ class Look(NamedTuple):
 
     @property
     def is_shade(self) -> bool:
-        """Whether the layer is a hillshade."""
-        return self.dress is rasters.hillshade
+        """Whether the layer is a hillshade, or another picture without a legend."""
+        return self.dress in (rasters.hillshade, rasters.grey_picture, rasters.colour_picture)
 
 
 HILLSHADE = Look(mark("Hillshade"), 0, rasters.hillshade)
@@ -74,6 +74,14 @@ BARE = Look(mark("Without objects"), 1, rasters.surface)
 SURFACE = Look(mark("Surface model"), 2, rasters.surface, 1)
 CANOPY = Look(mark("Canopy height"), 3, rasters.canopy, 3)
 RELIEF = Look(mark("Local relief"), 4, rasters.local_relief, 2)
+MULTI_SCALE = Look(mark("Multi-scale relief"), 4, rasters.local_relief, 1)
+SLOPE = Look(mark("Slope"), 4, rasters.slope, 1)
+SKY_VIEW = Look(mark("Sky-view factor"), 4, rasters.sky_view, 2)
+OPENNESS = Look(mark("Positive openness"), 4, rasters.openness, 1)
+NEGATIVE_OPENNESS = Look(mark("Negative openness"), 4, rasters.negative_openness, 1)
+DOMINANCE = Look(mark("Local dominance"), 4, rasters.local_dominance, 1)
+VAT = Look(mark("Archaeological topography (VAT)"), 5, rasters.grey_picture, 4)
+RED_RELIEF = Look(mark("Red relief image map"), 5, rasters.colour_picture, 3)
 CONFIDENCE = Look(mark("Confidence"), 5, rasters.confidence, 1)
 RULES = Look(mark("Deciding rules"), 6, rasters.rules, 1)
 ERRORS = Look(mark("Errors"), 6, rasters.errors, 1)
@@ -82,7 +90,9 @@ BREAKLINES = Look(mark("Breaklines"), 9, vectors.breaklines)
 RASTERS = {
     "DTM": TERRAIN, "DSM": SURFACE, "CHM": CANOPY, "HILLSHADE": HILLSHADE,
     "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,
-    "EXPLANATION": RULES,
+    "EXPLANATION": RULES, "MULTI_SCALE_RELIEF": MULTI_SCALE, "SLOPE": SLOPE, "SKY_VIEW": SKY_VIEW,
+    "OPENNESS": OPENNESS, "NEGATIVE_OPENNESS": NEGATIVE_OPENNESS, "LOCAL_DOMINANCE": DOMINANCE,
+    "VAT": VAT, "RED_RELIEF": RED_RELIEF,
 }  # fmt: skip
 
 

@@ -13,6 +13,7 @@ from qgis.core import (
     QgsColorRampLegendNodeSettings,
     QgsColorRampShader,
     QgsContrastEnhancement,
+    QgsMultiBandColorRenderer,
     QgsPalettedRasterRenderer,
     QgsRasterLayer,
     QgsSingleBandGrayRenderer,
@@ -33,6 +34,8 @@ _LOW, _HIGH, _SAMPLE = 0.02, 0.98, 600
 # it look as in the legend.
 _DARK, _BRIGHT = 20.0, 210.0
 _LEAST_RANGE = 0.5
+# The same for slopes and openness in degrees, for local dominance, and for sky-view factors.
+_LEAST_DEGREES, _LEAST_DOMINANCE, _LEAST_SKY = 5.0, 0.2, 0.1
 # Values of a byte, and rows of bytes that are read at a time.
 _CODES, _ROWS = 256, 512
 # Colours of lines in profiles, which QGIS would choose at random.
@@ -42,6 +45,9 @@ SHOWN = (
     mark("Height"), mark("Height above ground"), mark("Local relief"),
     mark("Confidence"), mark("Share of wrong points"), mark("Brightness"), mark("Class"),
     mark("0 to 1"), mark("1 to 255"),
+    mark("Multi-scale relief"), mark("Slope"), mark("degrees"), mark("Sky-view factor"),
+    mark("Positive openness"), mark("Negative openness"), mark("Local dominance"),
+    mark("1 is level"), mark("Archaeological topography"), mark("Red relief"),
 )  # fmt: skip
 
 
@@ -100,6 +106,41 @@ def local_relief(layer: QgsRasterLayer) -> None:
     _spread(layer, ramps.RELIEF, -largest, largest)
 
 
+def slope(layer: QgsRasterLayer) -> None:
+    """Shade steep places dark."""
+    _spread(layer, ramps.GREY_UPSIDE_DOWN, 0.0, max(_cut(layer)[1], _LEAST_DEGREES))
+
+
+def sky_view(layer: QgsRasterLayer) -> None:
+    """Shade places dark that see little of the sky."""
+    _spread(layer, ramps.GREY, min(_cut(layer)[0], 1.0 - _LEAST_SKY), 1.0)
+
+
+def openness(layer: QgsRasterLayer) -> None:
+    """Shade places bright that stand out."""
+    _spread(layer, ramps.GREY, *_cut(layer, _LEAST_DEGREES))
+
+
+def negative_openness(layer: QgsRasterLayer) -> None:
+    """Shade places dark that lie deep."""
+    _spread(layer, ramps.GREY_UPSIDE_DOWN, *_cut(layer, _LEAST_DEGREES))
+
+
+def local_dominance(layer: QgsRasterLayer) -> None:
+    """Shade places bright from which one looks down."""
+    _spread(layer, ramps.GREY, *_cut(layer, _LEAST_DOMINANCE))
+
+
+def grey_picture(layer: QgsRasterLayer) -> None:
+    """Show a picture in greys as it is."""
+    layer.setRenderer(QgsSingleBandGrayRenderer(layer.dataProvider(), 1))
+
+
+def colour_picture(layer: QgsRasterLayer) -> None:
+    """Show a picture of red, green and blue as it is."""
+    layer.setRenderer(QgsMultiBandColorRenderer(layer.dataProvider(), 1, 2, 3))
+
+
 def hillshade(layer: QgsRasterLayer) -> None:
     """Shade in grey, bright where the land is level."""
     renderer = QgsSingleBandGrayRenderer(layer.dataProvider(), 1)
@@ -138,8 +179,8 @@ def rules(layer: QgsRasterLayer) -> None:
     classes(categories_of(codes, rules_in(band.GetDescription())))(layer)
 
 
-def _cut(layer: QgsRasterLayer) -> tuple[float, float]:
-    """Return the limits of the heights, without the few lowest and highest cells.
+def _cut(layer: QgsRasterLayer, least: float = _LEAST_RANGE) -> tuple[float, float]:
+    """Return the limits of the values, at least so far apart, without the few lowest and highest.
 
     The method of QGIS is not used, because GDAL would store a histogram beside the file. A new file
     with the same name would get the limits of the old one.
@@ -151,7 +192,7 @@ def _cut(layer: QgsRasterLayer) -> tuple[float, float]:
     values = values[np.isfinite(values) & (values != band.GetNoDataValue())]
     low, high = np.quantile(values, (_LOW, _HIGH)).tolist() if values.size else (0.0, 0.0)
     # In level land the range is wider, so that noise of millimetres does not look like relief.
-    return (low, high) if high - low >= _LEAST_RANGE else (low, low + _LEAST_RANGE)
+    return (low, high) if high - low >= least else (low, low + least)
 
 
 def _spread(layer: QgsRasterLayer, stops: ramps.Stops, low: float, high: float) -> None:

@@ -228,7 +228,8 @@ def test_the_field_strip_has_no_values_beyond_its_points(tmp_path):
     path = real("field/strip.laz")
     las = laspy.read(path)
     tree = cKDTree(np.column_stack((las.x, las.y)))
-    options = [word for name in RASTERS for word in (f"--{name}", tmp_path / f"{name}.tif")]
+    named = {name: f"--{name.replace('_', '-')}" for name in RASTERS}
+    options = [word for name in RASTERS for word in (named[name], tmp_path / f"{name}.tif")]
     assert said("terrain", path, *options)[0] == 0
     for name in RASTERS:
         values, x, y = _values(tmp_path / f"{name}.tif")

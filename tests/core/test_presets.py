@@ -10,6 +10,7 @@ from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
+from bare_earth.algorithms.products.above_ground import AboveGround
 from bare_earth.algorithms.products.off_terrain import OffTerrain
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
@@ -57,6 +58,7 @@ TABLES = {
     "tin-densification": (TinDensification, Selection),
     "slope-filter": (SlopeFilter,),
     "grid-minimum": (GridMinimum,),
+    "above-ground": (AboveGround, GroundClasses),
     "model-key-points": (ModelKeyPoints, GroundClasses),
     "remove-off-terrain-objects": (OffTerrain,),
 }

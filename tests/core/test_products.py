@@ -16,7 +16,7 @@ from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.key_points import KeyPointMark
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.products import raster_files
+from bare_earth.algorithms.products import relief_rasters
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.products.surface_model import SurfaceModel, canopy_height
 from bare_earth.algorithms.products.terrain_model import TerrainModel
@@ -391,7 +391,7 @@ def test_all_rasters_or_none(tmp_path, monkeypatch):
     def fail(*_):
         raise BareEarthError("the disk is full")
 
-    monkeypatch.setattr(raster_files, "hillshade", fail)
+    monkeypatch.setattr(relief_rasters, "hillshade", fail)
     files = all_files(tmp_path / "out")
     with pytest.raises(BareEarthError, match="the disk is full"):
         write_terrain_models(tmp_path / "in.las", files)

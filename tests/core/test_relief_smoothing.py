@@ -11,10 +11,10 @@ from bare_earth.algorithms.engine.runs import terrain
 from bare_earth.algorithms.grids.hillshade import hillshade
 from bare_earth.algorithms.grids.local_trend import local_trend
 from bare_earth.algorithms.grids.relief_smoothing import smoothing_reach, without_noise
-from bare_earth.algorithms.products import local_relief as local_relief_module
 from bare_earth.algorithms.products import mosaic
-from bare_earth.algorithms.products.local_relief import LocalRelief, write_local_relief
+from bare_earth.algorithms.products import relief as relief_module
 from bare_earth.algorithms.products.raster_files import RasterFiles
+from bare_earth.algorithms.products.relief import ReliefPictures, write_relief
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 
 rasterio = pytest.importorskip("rasterio")
@@ -165,8 +165,8 @@ def test_the_command_makes_the_relief_of_a_raster(tmp_path, monkeypatch):
     known = relief > -9000
     assert np.array_equal(known, found["relief"] > -9000)
     assert np.abs(relief - found["relief"])[known].max() < 1e-4
-    monkeypatch.setattr(local_relief_module, "_CELLS", 500)
-    write_local_relief(source, tmp_path / "strips.tif", LocalRelief(relief_radius=4.0))
+    monkeypatch.setattr(relief_module, "_CELLS", 500)
+    write_relief(source, tmp_path / "strips.tif", parameters=ReliefPictures(relief_radius=4.0))
     assert np.array_equal(cells(tmp_path / "strips.tif"), relief)
     with rasterio.open(target) as raster:
         assert raster.descriptions == ("Local relief, m",)

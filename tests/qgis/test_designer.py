@@ -18,6 +18,7 @@ CLOUDS = {
     "pointcloudtoterrain": ["INPUT"],
     "terrainmodel": ["INPUT"],
     "heightaboveground": ["INPUT"],
+    "classifyaboveground": ["INPUT"],
     "modelkeypoints": ["INPUT"],
     "comparesettings": ["INPUT"],
     "assess": ["CLASSIFIED", "REFERENCE"],

@@ -23,6 +23,7 @@ CASES = [
     ("bareearth:classifytiles", "OUTPUT_VPC", "list.txt"),
     ("bareearth:classifytiles", "OUTPUT_FOLDER", "missing/deep"),
     ("bareearth:heightaboveground", "OUTPUT", "missing/heights.laz"),
+    ("bareearth:classifyaboveground", "OUTPUT", "missing/classes.laz"),
     ("bareearth:modelkeypoints", "OUTPUT", "keys"),
     ("bareearth:terrainmodel", "CHM", "missing/chm.tif"),
     ("bareearth:assess", "REPORT", "report.pdf"),

@@ -20,6 +20,7 @@ from support import Log, layer_of
 gdal.UseExceptions()
 
 HEIGHT = "bareearth:heightaboveground"
+ABOVE = "bareearth:classifyaboveground"
 KEY_POINTS = "bareearth:modelkeypoints"
 TERRAIN = "bareearth:terrainmodel"
 
@@ -136,7 +137,22 @@ def test_four_lights_are_those_of_gdal(labelled, out):
     assert np.abs(lit[1] - expected).max() > 50
 
 
-@pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, TERRAIN])
+def test_classes_above_the_ground(scene, out):
+    import processing
+
+    las = laspy.read(scene.path)
+    las.classification[:] = np.where(scene.ground, 2, 1)
+    las.write(str(scene.path))
+    path = str(out / "classes.laz")
+    result = processing.run(ABOVE, {"INPUT": str(scene.path), "OUTPUT": path})
+    classes = np.asarray(laspy.read(path).classification)
+    assert np.array_equal(classes == 2, scene.ground)
+    assert np.mean(classes[~scene.ground] == 6) > 0.9  # the building
+    assert result["CHANGED_COUNT"] == np.count_nonzero(~scene.ground)
+    assert result["POINT_COUNT"] == len(classes)
+
+
+@pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, ABOVE, TERRAIN])
 def test_the_log_tells_the_same_command_line(registry, labelled, out, context, log, name):
     from bare_earth.algorithms.cli import main
 
@@ -153,7 +169,7 @@ def test_the_log_tells_the_same_command_line(registry, labelled, out, context, l
     assert same == before and results
 
 
-@pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, TERRAIN])
+@pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, ABOVE, TERRAIN])
 def test_cancel_leaves_nothing(registry, labelled, out, context, name):
     for percent in (0, 20, 70):
         log = Log(cancel_at=percent)
@@ -163,7 +179,7 @@ def test_cancel_leaves_nothing(registry, labelled, out, context, name):
         assert not context.layersToLoadOnCompletion()
 
 
-@pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, TERRAIN])
+@pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, ABOVE, TERRAIN])
 def test_no_ground_is_told(scene, out, name):
     import processing
 

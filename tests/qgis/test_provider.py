@@ -94,6 +94,11 @@ PARAMETERS = {
         "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP", "OUTPUT_AS", "THREADS", "MEMORY", "OUTPUT",
         "DTM",
     ],
+    "bareearth:classifyaboveground": [
+        "INPUT", "CRS", "ABOVE_GROUND", "MEDIUM_HEIGHT", "HIGH_HEIGHT", "LOW_HEIGHT", "BUILDINGS",
+        "BUILDING_AREA", "BUILDING_HEIGHT", "MARK_BRIDGES", "MARK_HIGH_NOISE", "RECLASSIFY",
+        "GROUND_CLASSES", "OVERLAP", "THREADS", "MEMORY", "OUTPUT",
+    ],
     "bareearth:modelkeypoints": [
         "INPUT", "CRS",
         "TOLERANCE_ABOVE", "TOLERANCE_BELOW", "GRID_SIZE",
@@ -124,6 +129,10 @@ PARAMETERS = {
         "INPUT", "CHECKPOINTS", "Z_FIELD", "COVER_FIELD", "NAME_FIELD", "DTM", "CRS",
         "ACCURACY_CLASS", "SURVEY_ERROR", "MAX_EDGE", "MIN_CONFIDENCE", "HOLD_OUT",
         "GROUND_CLASSES", "OVERLAP", "VEGETATED", "CONFIDENCE", "OUTPUT", "REPORT",
+    ],
+    "bareearth:relief": [
+        "INPUT", "KINDS", "RELIEF_RADIUS", "RELIEF_SMOOTHING",
+        "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "OUTPUT_FOLDER",
     ],
     "bareearth:removeoffterrainobjects": [
         "INPUT", "MAX_OBJECT_SIZE", "SLOPE_THRESHOLD", "BAND", "OUTPUT",
@@ -163,6 +172,12 @@ OUTPUTS = {
         "MINIMUM",
         "MAXIMUM",
     ],
+    "bareearth:classifyaboveground": [
+        "OUTPUT",
+        "POINT_COUNT",
+        "GROUND_COUNT",
+        "CHANGED_COUNT",
+    ],
     "bareearth:modelkeypoints": ["OUTPUT", "POINT_COUNT", "GROUND_COUNT", "KEY_POINT_COUNT"],
     "bareearth:water": ["OUTPUT", "BREAKLINES", "LAKES", "RIVERS", "AREA"],
     "bareearth:terrainmodel": [
@@ -195,6 +210,19 @@ OUTPUTS = {
         "VVA_RMSE",
         "SHIFT",
         "HOLD_OUT_RMSE",
+    ],
+    "bareearth:relief": [
+        "OUTPUT_FOLDER",
+        "HILLSHADE",
+        "RELIEF",
+        "MULTI_SCALE_RELIEF",
+        "SLOPE",
+        "SKY_VIEW",
+        "OPENNESS",
+        "NEGATIVE_OPENNESS",
+        "LOCAL_DOMINANCE",
+        "VAT",
+        "RED_RELIEF",
     ],
     "bareearth:removeoffterrainobjects": ["OUTPUT", "CELL_COUNT", "REMOVED_COUNT"],
 }

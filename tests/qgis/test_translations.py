@@ -134,12 +134,14 @@ def test_the_log_of_a_run_is_in_one_language(registry, marked, tmp_path, context
         "bareearth:pointcloudtoterrain": {"INPUT": str(scene.path), "DTM": terrain},
         "bareearth:terrainmodel": {"INPUT": ground, "DTM": terrain},
         "bareearth:heightaboveground": {"INPUT": ground, "OUTPUT": out},
+        "bareearth:classifyaboveground": {"INPUT": ground, "OUTPUT": out},
         "bareearth:modelkeypoints": {"INPUT": ground, "OUTPUT": out},
         "bareearth:assess": {"CLASSIFIED": ground, "REFERENCE": ground},
         "bareearth:comparesettings": {
             "INPUT": str(scene.path), "OUTPUT": str(tmp_path / "page.html"),
             "SETTINGS": ["slope:town"],
         },
+        "bareearth:relief": {"INPUT": terrain, "OUTPUT_FOLDER": str(tmp_path / "relief")},
         "bareearth:removeoffterrainobjects": {"INPUT": terrain, "OUTPUT": out + ".tif"},
     }  # fmt: skip
     for name, values in runs.items():

@@ -1,0 +1,199 @@
+"""The step that classifies the points above the ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.points import Box, box_in_words
+from ..core.progress import SILENT, Progress
+from ..las.cloud import PointCloud
+from ..las.edits import Edits
+from ..products.above_ground import AboveGround, classes_above_ground
+from ..products.height_above_ground import with_roads
+from ..survey.area import Area
+from ..survey.corrections import NO_CORRECTIONS, Corrections, changed_since
+from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.kept_classes import DECIDED, ROADS, is_one_of
+from ..survey.tally import count_classes
+from .blocks import Blocks
+from .blockwise import fill
+from .memory import Cost, Resources
+from .steps import Allocate, PointResult, PointStep, RememberedClasses
+from .store import BlockPoints, Corner, Marks, Store
+
+# The buffer of a block in metres, and the memory that it takes. A face of a roof that reaches
+# farther is large enough without what lies beyond.
+_BLOCKS = Blocks.of(100.0, Cost(350.0, 120.0))
+
+
+@dataclass(frozen=True, order=True)
+class AboveGroundSummary:
+    """The classes of the points above the ground of a file.
+
+    Attributes
+    ----------
+    name : str
+        Name of the output.
+    point_count, ground_count, changed_count : int
+        Numbers of all points, of ground points, and of points with another class than before.
+    class_counts : dict of int to int
+        Points of each class in the output.
+    """
+
+    name: str
+    point_count: int
+    ground_count: int
+    changed_count: int
+    class_counts: dict[int, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        # The keys of the JSON record are strings.
+        counts = {int(value): count for value, count in self.class_counts.items()}
+        object.__setattr__(self, "class_counts", counts)
+
+    @property
+    def text(self) -> str:
+        """The summary as a sentence."""
+        vegetation = sum(self.class_counts.get(value, 0) for value in (3, 4, 5))
+        return (
+            f"{self.name}: {self.changed_count:,} of {self.point_count:,} points have a new class;"
+            f" {self.class_counts.get(6, 0):,} are buildings and {vegetation:,} vegetation"
+        )
+
+
+@dataclass(frozen=True)
+class ClassifyAboveGround(PointStep):
+    """Finds the classes of points above the ground.
+
+    Attributes
+    ----------
+    parameters : AboveGround
+        Which classes are wanted.
+    ground : GroundClasses
+        Which points are ground.
+    area : Area or None
+        Where points can change; everywhere if it is None.
+    corrections : Corrections
+        Points in these polygons keep the class that they have by hand.
+    """
+
+    parameters: AboveGround = field(default_factory=AboveGround)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    area: Area | None = None
+    corrections: Corrections = NO_CORRECTIONS
+
+    tally = GroundTally
+    blocks = _BLOCKS
+    summary_type = AboveGroundSummary
+    vpc_name = "above_ground.vpc"
+
+    def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
+        """Return the points that are ground or stand on it, and which of them can change.
+
+        What has a meaning, such as water, wires or noise, is neither.
+        """
+        ground = self.ground.of(part, tally)
+        roads = self.ground.points_of(part, ROADS) & ~ground
+        selected = ground | roads | self.ground.points_of(part, DECIDED)
+        wanted = selected & ~ground & self.changes(part)
+        return Marks(selected, ground, wanted, roads)
+
+    def changes(self, part: PointCloud) -> np.ndarray:
+        """Return which points can change: of certain classes, in the area, not set by hand."""
+        changes = is_one_of(part.classification, self.parameters.changing) & ~changed_since(part)
+        if self.corrections.polygons:
+            changes &= self.corrections.classes_of(part) != part.classification
+        return changes if self.area is None else changes & self.area.of(part)
+
+    def check_survey(self, box: Box) -> None:
+        """Refuse the survey if the area lies outside its extent."""
+        if self.area is not None and not self.area.may_touch(box):
+            raise BareEarthError(
+                f"No point lies in the area: the files cover {box_in_words(box)}. Give the extent"
+                " or the boundary in the CRS of the points."
+            )
+
+    def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
+        """Refuse a file without ground; tell of one in which nothing can change."""
+        self.ground.check(tally, path)
+        if not tally.classes[list(self.parameters.changing)].any():
+            progress.warning(
+                f"No point of {path} has one of the classes that are decided anew"
+                f" ({', '.join(map(str, self.parameters.changing))})."
+            )
+
+    def work(self, store: Store, resources: Resources, progress: Progress) -> None:
+        """Store the class of each wanted point; 0 in blocks without ground."""
+        fill(store, self.blocks, partial(_classes, self.parameters), resources, progress)
+
+    def result(self, path: Path, allocate: Allocate) -> ClassesOfPoints:
+        """Return an object that collects the classes of a file."""
+        return ClassesOfPoints(self, allocate)
+
+
+class ClassesOfPoints(PointResult):
+    """The new classes of the points of a file.
+
+    Parameters
+    ----------
+    step : ClassifyAboveGround
+        The step.
+    allocate : callable
+        Returns an array of one value for each point.
+
+    Attributes
+    ----------
+    classification : numpy.ndarray of uint8, shape (n,)
+        The class of every point, in file order.
+    class_counts : numpy.ndarray of int64, shape (256,)
+        Points of each class.
+    """
+
+    def __init__(self, step: ClassifyAboveGround, allocate: Allocate) -> None:
+        self._step, self._memory = step, RememberedClasses(allocate)
+        self.classification = allocate(np.uint8)
+        self.class_counts = np.zeros(256, dtype=np.int64)
+        self._changed_count = 0
+
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
+        """Set the classes of some points; a value of 0 leaves the class as it is."""
+        classes = np.where(values > 0, values, part.classification).astype(np.uint8)
+        self.classification[where] = classes
+        self._memory.add(where, part, classes)
+        self.class_counts += count_classes(classes)
+        self._changed_count += int(np.count_nonzero(classes != part.classification))
+
+    def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
+        """Return the classes."""
+        return self._memory.added_to(Edits(classification=self.classification))
+
+    def summary(self, name: str) -> AboveGroundSummary:
+        """Return the numbers of points."""
+        counts = {
+            int(value): int(self.class_counts[value]) for value in np.flatnonzero(self.class_counts)
+        }
+        ground = sum(counts.get(value, 0) for value in set(self._step.ground.ground_classes))
+        return AboveGroundSummary(
+            name, len(self.classification), ground, self._changed_count, counts
+        )
+
+
+def _classes(
+    parameters: AboveGround,
+    contents: BlockPoints,
+    wanted: np.ndarray,
+    corner: Corner,
+    progress: Progress,
+) -> np.ndarray:
+    """Return the classes of wanted points; 0 if there is no ground."""
+    count = np.count_nonzero(wanted)
+    if not count or not contents.known.any():
+        return np.zeros(count, dtype=np.uint8)
+    ground = with_roads(contents.points, contents.known, contents.roads, progress.part(0.0, 0.1))
+    several, part = contents.multi_return, progress.part(0.1, 1.0)
+    return classes_above_ground(contents.points, ground, several, parameters, part)[wanted]

@@ -1,0 +1,85 @@
+"""Local dominance: how much a place looks down on its surroundings.
+
+References
+----------
+Hesse, R. (2016): Visualisierung hochaufloesender Digitaler Gelaendemodelle mit LiVT. In:
+Lieberwirth, U. and Herzog, I. (eds.): 3D-Anwendungen in der Archaeologie. Edition Topoi, Berlin,
+109-128.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Iterator
+
+import numpy as np
+
+from .horizons import Cells, Neighbour, Surroundings
+
+# Height of the eyes above the terrain in metres, and directions in which they look.
+_EYES, _DIRECTIONS = 1.7, 24
+# An observer looks at so many distances between the two radii, or at fewer if these lie less than
+# one cell apart.
+_DISTANCES, _ROUNDING = 10, 1e-6
+
+
+def dominance_reach(radius: float, cells: Cells) -> tuple[int, int]:
+    """Return up to how many rows and columns away cells matter to the local dominance."""
+    farthest = 2.0 * max(radius, max(cells))
+    return math.ceil(farthest / cells[1]), math.ceil(farthest / cells[0])
+
+
+def local_dominance(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
+    """Return how steeply an observer looks down on the land around, in relation to level land.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float, shape (rows, columns)
+        Heights in metres; NaN where there is none.
+    cells : tuple of float
+        Distance in metres between neighbours in a row, and in a column.
+    radius : float
+        The observer looks at what lies from this distance, in metres, up to twice as far; at least
+        one cell.
+
+    Returns
+    -------
+    numpy.ndarray of float32, shape (rows, columns)
+        1 on level land, more on rises, less in hollows; NaN where there is no height. Places
+        without a height do not count. A cell depends on others up to `dominance_reach`.
+    """
+    around = Surroundings(heights, dominance_reach(radius, cells), np.inf)
+    seen = list(_seen(radius, cells))
+    level = np.float32(sum(weight * _EYES for _, weight in seen))
+    dominance = np.full(heights.shape, np.nan, dtype=np.float32)
+
+    def work(rows: slice) -> None:
+        eyes, is_whole = around.own[rows] + np.float32(_EYES), around.is_whole(rows)
+        total, down = np.zeros_like(eyes), np.empty_like(eyes)
+        whole = np.full(eyes.shape, level) if is_whole else np.zeros_like(eyes)
+        for neighbour, weight in seen:
+            there = around.at(rows, neighbour)
+            np.subtract(eyes, there, out=down)
+            np.maximum(down, np.float32(0.0), out=down)
+            down *= np.float32(weight)
+            total += down
+            if not is_whole:
+                whole += np.isfinite(there) * np.float32(weight * _EYES)
+        np.divide(total, whole, out=dominance[rows], where=around.known[rows] & (whole > 0.0))
+
+    around.over_rows(work)
+    return dominance
+
+
+def _seen(radius: float, cells: Cells) -> Iterator[tuple[Neighbour, float]]:
+    """Yield places that the observer sees, and weights: the angle of a metre times the area."""
+    least = min(cells)
+    radius = max(radius, max(cells))
+    step = max(radius / _DISTANCES, least)
+    for number in range(_DIRECTIONS):
+        angle = math.radians(number * 360.0 / _DIRECTIONS)
+        for distance in np.arange(radius, 2.0 * radius + step * _ROUNDING, step).tolist():
+            row = round(math.sin(angle) * distance / cells[1])
+            column = round(math.cos(angle) * distance / cells[0])
+            weight = (2.0 * distance + step) / distance
+            yield Neighbour(-row, -column, distance), weight

@@ -1,0 +1,131 @@
+"""Pictures of the relief that several measures make together.
+
+References
+----------
+Kokalj, Z. and Somrak, M. (2019): Why Not a Single Image? Combining Visualizations to Facilitate
+Fieldwork and On-Screen Mapping. Remote Sensing 11(7), 747. The visualization for archaeological
+topography (VAT).
+Chiba, T., Kaneta, S., Suzuki, Y. (2008): Red Relief Image Map: New Visualization Method for Three
+Dimensional Data. The International Archives of the Photogrammetry, Remote Sensing and Spatial
+Information Sciences 37(B2), 1071-1076.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .hillshade import brightness, slope
+from .horizons import Cells, openness, sky_view_and_openness
+
+
+class _Land(NamedTuple):
+    """The ranges that VAT shows, for a kind of land.
+
+    Attributes
+    ----------
+    sky, open, steep : tuple of float
+        Sky-view factors, openness in degrees and slopes in degrees that are black and white.
+    altitude : float
+        Angle of the light above the horizon in degrees.
+    radii : tuple of float
+        Where terrain can hide the sky, from and to, in radii.
+    """
+
+    sky: tuple[float, float]
+    open: tuple[float, float]
+    steep: tuple[float, float]
+    altitude: float
+    radii: tuple[float, float]
+
+
+# The values of Kokalj and Somrak, as in their Relief Visualization Toolbox.
+_HILLY = _Land((0.7, 1.0), (68.0, 93.0), (50.0, 0.0), 35.0, (0.0, 1.0))
+_LEVEL = _Land((0.9, 1.0), (85.0, 93.0), (15.0, 0.0), 15.0, (0.8, 2.0))
+_AZIMUTH = 315.0
+# How many radii away cells still matter to VAT.
+VAT_RADII = _LEVEL.radii[1]
+# Slope in degrees that is as red as can be, and differences of openness in degrees that are black
+# and white. Level land is brighter than the middle.
+_REDDEST, _DARKEST, _BRIGHTEST = 45.0, -10.0, 4.0
+
+
+def archaeological_topography(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
+    """Return the visualization for archaeological topography (VAT), for hilly and level land.
+
+    A hillshade, blended with slope, openness and sky-view factor, so that a feature is visible
+    whatever its direction. It is the mean of two such pictures: one for hilly land, and one for
+    level land, which shows what is low.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray of float, shape (rows, columns)
+        Heights in metres, from north to south; NaN where there is none.
+    cells : tuple of float
+        Distance in metres between neighbours in a row, and in a column.
+    radius : float
+        Up to this distance in metres terrain can hide the sky in hilly land, and up to twice as far
+        in level land.
+
+    Returns
+    -------
+    numpy.ndarray of uint8, shape (rows, columns)
+        1 (black) to 255 (white); 0 where there is no height.
+    """
+    heights = heights.astype(np.float32)
+    steep = slope(heights, cells)
+    both = [_blended(heights, steep, cells, radius, land) for land in (_HILLY, _LEVEL)]
+    return _as_bytes(heights, (both[0] + both[1]) / 2)
+
+
+def _blended(
+    heights: np.ndarray, steep: np.ndarray, cells: Cells, radius: float, land: _Land
+) -> np.ndarray:
+    """Return VAT for a kind of land, 0 to 1."""
+    near, far = (each * radius for each in land.radii)
+    sky, zenith = sky_view_and_openness(heights, cells, (near, far))
+    shade = brightness(heights, cells, _AZIMUTH, land.altitude)
+    # From the bottom to the top: as brightness, by half.
+    picture = (shade + _stretched(steep, land.steep)) / 2
+    # "Overlay", by half.
+    zenith = _stretched(zenith, land.open)
+    dark, bright = 2 * picture * zenith, 1 - 2 * (1 - picture) * (1 - zenith)
+    picture = (picture + np.where(picture > 0.5, bright, dark)) / 2
+    # "Multiply", by a quarter.
+    return picture * (0.75 + 0.25 * _stretched(sky, land.sky))
+
+
+def red_relief(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
+    """Return a red relief image map: slopes are red, ridges bright and valleys dark.
+
+    There is no light, so that all directions look the same, and rises never look like hollows.
+
+    Parameters
+    ----------
+    heights, cells, radius
+        As for `openness`.
+
+    Returns
+    -------
+    numpy.ndarray of uint8, shape (3, rows, columns)
+        Red, green and blue from 1 to 255; 0 where there is no height.
+    """
+    heights = heights.astype(np.float32)
+    # Half of the difference is "ridge and valley", whatever the slope.
+    ridge = (openness(heights, cells, radius) - openness(-heights, cells, radius)) / 2
+    value = _stretched(ridge, (_DARKEST, _BRIGHTEST))
+    pale = value * (1 - _stretched(slope(heights, cells), (0.0, _REDDEST)))
+    return np.stack([_as_bytes(heights, each) for each in (value, pale, pale)])
+
+
+def _stretched(values: np.ndarray, ends: tuple[float, float]) -> np.ndarray:
+    """Return values from 0 at the first end to 1 at the second."""
+    return np.clip((values - ends[0]) / (ends[1] - ends[0]), 0.0, 1.0)
+
+
+def _as_bytes(heights: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return values from 0 to 1 as bytes from 1 to 255; 0 where there is no height."""
+    # A lone cell has a height, but no surroundings.
+    known = ~np.isnan(heights) & ~np.isnan(values)
+    return np.where(known, np.rint(1 + 254 * np.nan_to_num(values)), 0).astype(np.uint8)

@@ -1,0 +1,244 @@
+"""Buildings among the points above the ground: roofs, and what belongs to them.
+
+A roof is made of planes of some size, and a laser pulse meets it once. Leaves and branches lie on
+no plane, and a pulse meets several of them. Both are asked of the neighbours of each point.
+
+The parts of the method are known from others: planes and single returns (LAStools lasclassify,
+TerraScan, LiDAR360), a least area (all of them), growing from certain roofs (GRASS
+v.lidar.growing).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import SILENT, Progress
+from ..grids.cells import Cells, spacing
+from ..grids.local_planes import LocalPlanes
+from ..grids.morphology import closing, dilation, opening
+
+# The highest point of each square of this side, in metres, stands for the roof there. More points
+# would tell more of the noise of the sensor than of the roof.
+_NODE = 0.5
+# So many nearest nodes are the surroundings of a node, if they are at most so many metres away, or
+# so many spacings of the points.
+_NEIGHBOURS, _REACH, _REACH_SPACINGS = 12, 2.5, 3.5
+# Least number of nodes on a plane, and of nodes of a face: three lie on a plane by chance.
+_LEAST_NODES = 5
+# A node is no roof if more of its surroundings than this share have several returns.
+_MOST_SEVERAL = 0.5
+# More of the surroundings must lie on the plane of a node than have several returns, by this share
+# of all; and this share must without return numbers.
+_LEAD, _SHARE_WITHOUT_RETURNS = 0.2, 0.6
+# Nodes of a face have planes that differ by at most so many degrees. A crown curves more.
+_BEND = 15.0
+# Smaller planes are roof as well so many metres from a face, or so many spacings of the points.
+_JOIN, _JOIN_SPACINGS = 5.0, 2.5
+# So many planes that a node lies on make it roof without one of its own: edges, ridges.
+_VOTES = 2
+# Points within so many metres of the plane of a roof lie on it. Eaves, walls and gutters are at
+# most so many metres beside it.
+_ON, _BESIDE = 0.3, 1.0
+# Chimneys, dormers and plants on a roof are so many metres high. Lower than this above the
+# ground is no wall, but what lies in front of it.
+_ABOVE, _LEAST_WALL = 2.5, 0.5
+# Gaps of a roof of up to about three cells are closed.
+_CLOSING = 1.5
+# Side of the cells in which the width of roofs is measured, in spacings of the points.
+_CELL_SPACINGS = 1.2
+# Planes to which a point is compared.
+_COMPARED = 4
+
+
+class _Roof(NamedTuple):
+    """The nodes of roofs: their places (n, 3), their planes, and the cells that they cover."""
+
+    places: np.ndarray
+    rise: np.ndarray
+    covered: np.ndarray
+
+
+@dataclass(frozen=True)
+class Buildings:
+    """The rule for points of buildings.
+
+    Attributes
+    ----------
+    height : float
+        Least height of a roof above the ground in metres.
+    area : float
+        Least area of one of its faces in square metres. Crowns have smaller planes.
+    width : float
+        Least width of a roof in metres. Walls and hedges are narrower.
+    tolerance : float
+        Nodes lie on a plane if they are at most so many metres from it: the noise of heights, and
+        the misfit of strips.
+    steepest : float
+        Largest slope of a roof in degrees.
+    """
+
+    height: float = 2.0
+    area: float = 10.0
+    width: float = 2.0
+    tolerance: float = 0.15
+    steepest: float = 65.0
+
+    def find(
+        self,
+        points: Points,
+        heights: np.ndarray,
+        possible: np.ndarray,
+        several: np.ndarray,
+        progress: Progress = SILENT,
+    ) -> np.ndarray:
+        """Return which points belong to buildings.
+
+        Parameters
+        ----------
+        points : Points
+            All points.
+        heights : numpy.ndarray of float, shape (n,)
+            Their heights above the ground in metres.
+        possible : numpy.ndarray of bool, shape (n,)
+            Which can belong to a building; not the ground.
+        several : numpy.ndarray of bool, shape (n,)
+            Which are of pulses with several returns. If none is, the planes alone decide.
+        progress : Progress
+            Receives progress.
+
+        Returns
+        -------
+        numpy.ndarray of bool, shape (n,)
+            Points on roofs, on what stands on them, and on walls below their edges.
+        """
+        found = np.zeros(points.count, dtype=bool)
+        high = np.flatnonzero(possible & (heights > self.height))
+        if len(high) < _LEAST_NODES:
+            return found
+        apart = max(spacing(points, _NODE / 2.0), _NODE / 2.0)
+        side = _NODE * max(1, math.ceil(_CELL_SPACINGS * apart / _NODE))
+        cells = Cells.over(points, side)
+        roof = self._roof(points, high, several, cells, apart, progress.part(0.0, 0.8))
+        if not len(roof.places):
+            return found
+        nearby = dilation(roof.covered, max(_CLOSING, _BESIDE / side)).ravel()
+        low = np.flatnonzero(possible & (heights > _LEAST_WALL))
+        low = low[nearby[cells.index[low]]]
+        inside = roof.covered.ravel()[cells.index[low]]
+        found[low] = _belong(points.take(low), roof, inside, several[low])
+        progress(1.0)
+        return found
+
+    def _roof(
+        self,
+        points: Points,
+        high: np.ndarray,
+        several: np.ndarray,
+        cells: Cells,
+        apart: float,
+        progress: Progress,
+    ) -> _Roof:
+        """Return the roofs among high points, given as indices."""
+        some = points.take(high)
+        upside_down = Points(some.x, some.y, -some.z)
+        high = high[Cells.over(some, _NODE).lowest_points(upside_down)]
+        places = np.column_stack(points.take(high))
+        faces = self._faces(places, several[high], apart, progress)
+        cell = cells.index[high]
+        covered = self._wide(_holding(cells, cell[faces.roof]), cells.size)
+        kept = faces.roof & dilation(covered, _CLOSING).ravel()[cell]
+        covered |= closing(_holding(cells, cell[kept]), _CLOSING)
+        own = kept & faces.plane
+        return _Roof(places[own], faces.rise[own], covered)
+
+    def _wide(self, cells: np.ndarray, side: float) -> np.ndarray:
+        """Return cells without gaps and without what is narrower than a roof."""
+        closed, radius = closing(cells, _CLOSING), self.width / 2.0 / side
+        return opening(closed.view(np.uint8), radius).view(bool) if radius >= 1.0 else closed
+
+    def _faces(
+        self, places: np.ndarray, several: np.ndarray, apart: float, progress: Progress
+    ) -> _Faces:
+        """Return which nodes are roof, and their planes."""
+        from scipy.spatial import cKDTree
+
+        tree = cKDTree(places[:, :2])
+        distance, neighbours = tree.query(places[:, :2], k=min(_NEIGHBOURS + 1, len(places)))
+        near = distance <= max(_REACH, _REACH_SPACINGS * apart)
+        count = np.count_nonzero(near, axis=1)
+        share = np.count_nonzero(several[neighbours] & near, axis=1) / count
+        open_sky = (share <= _MOST_SEVERAL) & (count > _LEAST_NODES)
+        progress(0.2)
+        planes = LocalPlanes.through(
+            places, neighbours, near, open_sky, self.tolerance, self.steepest,
+            progress.part(0.2, 0.9),
+        )  # fmt: skip
+        least = _LEAD + share if several.any() else _SHARE_WITHOUT_RETURNS
+        votes = np.count_nonzero(planes.on, axis=1)
+        plane = open_sky & (votes >= np.maximum(least * count, _LEAST_NODES))
+        face = plane & self._are_large(neighbours, planes, plane, max(_NODE, apart))
+        if face.any():
+            far = max(_JOIN, _JOIN_SPACINGS * apart)
+            grown, _ = cKDTree(places[face, :2]).query(places[:, :2], distance_upper_bound=far)
+            face |= plane & np.isfinite(grown)
+        votes = np.bincount(neighbours[planes.on & face[:, None]], minlength=len(places))
+        return _Faces(planes.rise, face, face | (votes >= _VOTES))
+
+    def _are_large(
+        self, neighbours: np.ndarray, planes: LocalPlanes, plane: np.ndarray, node: float
+    ) -> np.ndarray:
+        """Return which nodes belong to a large face: neighbours on planes of nearly one slope."""
+        from scipy.sparse import coo_matrix
+        from scipy.sparse.csgraph import connected_components
+
+        normal = np.column_stack([-planes.rise[:, :2], np.ones(len(plane), dtype=np.float32)])
+        normal /= np.linalg.norm(normal, axis=1)[:, None]
+        one, place = np.nonzero(planes.on & plane[:, None] & plane[neighbours])
+        two = neighbours[one, place]
+        even = (normal[one] * normal[two]).sum(axis=1) >= math.cos(math.radians(_BEND))
+        one, two = one[even], two[even]
+        links = coo_matrix((np.ones(len(one), dtype=bool), (one, two)), shape=(len(plane),) * 2)
+        face = connected_components(links, directed=False)[1]
+        least = max(_LEAST_NODES, self.area / node**2)
+        return np.bincount(face)[face] >= least
+
+
+class _Faces(NamedTuple):
+    """The nodes of roofs: planes, which have one, and which are roof; (n, 3), (n,), (n,)."""
+
+    rise: np.ndarray
+    plane: np.ndarray
+    roof: np.ndarray
+
+
+def _holding(cells: Cells, index: np.ndarray) -> np.ndarray:
+    """Return which cells are among those of an index; boolean, shape (rows, columns)."""
+    holding = np.zeros(cells.shape, dtype=bool)
+    holding.ravel()[index] = True
+    return holding
+
+
+def _belong(points: Points, roof: _Roof, inside: np.ndarray, several: np.ndarray) -> np.ndarray:
+    """Return which points near roofs belong to them.
+
+    They do if they lie on the plane of a near node, below it beside the roof or under it, or above
+    it with no gap to look through, as chimneys do and branches do not.
+    """
+    from scipy.spatial import cKDTree
+
+    places = np.column_stack([points.x, points.y])
+    compared = min(_COMPARED, len(roof.places))
+    distance, which = cKDTree(roof.places[:, :2]).query(places, k=np.arange(1, compared + 1))
+    steps, rise = places[:, None] - roof.places[which][:, :, :2], roof.rise[which]
+    plane = roof.places[which][:, :, 2] + rise[:, :, 2] + (steps * rise[:, :, :2]).sum(axis=2)
+    off = points.z[:, None] - plane
+    beside = distance[:, 0] <= _BESIDE
+    on = (np.abs(off).min(axis=1) <= _ON) & (beside | inside)
+    below = beside & (off.min(axis=1) < 0.0)
+    above = inside & ~several & (off[:, 0] > 0.0) & (off[:, 0] <= _ABOVE)
+    return on | below | above

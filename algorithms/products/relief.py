@@ -1,0 +1,167 @@
+"""Makes pictures of the relief of any elevation raster."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Iterable, Iterator
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.files import new_folder
+from ..core.parameters import ParameterSet, parameter, parameter_of
+from ..core.progress import SILENT, Progress
+from ..core.threads import available_cpus, may_use
+from ..rasters.geotiff import NO_CELLS, NODATA, Raster, read_raster
+from ..rasters.writing import Rows, check_raster_output, replacing_raster, write_geotiff
+from .relief_rasters import RELIEF, ReliefRaster
+from .terrain_model import MapTerrain, TerrainModel
+
+# Cells that are worked on at a time.
+_CELLS = 4_000_000
+LOCAL_RELIEF = "local-relief"
+# The kinds of relief, by their names for users.
+KINDS = {
+    (LOCAL_RELIEF if name == "relief" else name.replace("_", "-")): each
+    for name, each in RELIEF.items()
+}
+
+
+@dataclass(frozen=True)
+class ReliefKinds(ParameterSet):
+    """The kinds of relief to make."""
+
+    kinds: tuple[str, ...] = parameter(
+        ("vat", "sky-view", LOCAL_RELIEF),
+        kind="choices",
+        label="Kinds of relief",
+        choices={name: each.label for name, each in KINDS.items()},
+        help="What to make, a raster for each. Archaeological topography (VAT) shows the most in"
+        " one picture.",
+    )
+
+
+@dataclass(frozen=True)
+class ReliefPictures(ParameterSet):
+    """The size of the features that pictures of the relief show, their smoothing, and the light."""
+
+    relief_radius: float = parameter_of(TerrainModel, "relief_radius", advanced=False)
+    relief_smoothing: str = parameter_of(TerrainModel, "relief_smoothing")
+    hillshade_light: str = parameter_of(MapTerrain, "hillshade_light")
+    hillshade_azimuth: float = parameter_of(TerrainModel, "hillshade_azimuth")
+    hillshade_altitude: float = parameter_of(TerrainModel, "hillshade_altitude")
+
+    @property
+    def terrain(self) -> TerrainModel:
+        """The same as parameters of rasters of the terrain."""
+        return TerrainModel(**{each.name: getattr(self, each.name) for each in self.declarations()})
+
+
+def write_relief(
+    source: str | Path,
+    target: Path,
+    kind: str = LOCAL_RELIEF,
+    parameters: ReliefPictures = ReliefPictures(),
+    progress: Progress = SILENT,
+    nodata: float = NODATA,
+) -> None:
+    """Write a picture of the relief of a terrain model, which need not fit into memory.
+
+    Parameters
+    ----------
+    source, target : Path
+        The terrain model, and the GeoTIFF to make.
+    kind : str
+        "local-relief", "multi-scale-relief", "slope" (degrees), "sky-view", "openness" and
+        "negative-openness" (degrees), "local-dominance", "vat" (1 to 255), "red-relief" (three
+        bands, 1 to 255) or "hillshade" (1 to 255).
+    parameters : ReliefPictures
+        The size of the features, and the light.
+    progress : Progress
+        Receives progress and messages.
+    nodata : float
+        The value of cells without data; 0 where cells are bytes.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no such kind, the raster cannot be read, or the output cannot be written.
+    """
+    if kind not in KINDS:
+        raise BareEarthError(
+            f"There is no kind of relief '{kind}'. Choose one of {', '.join(KINDS)}."
+        )
+    check_raster_output(target, (Path(source),))
+    relief = KINDS[kind]
+    raster = read_raster(source, progress=progress, window=NO_CELLS)
+    if not relief.is_height:
+        raster = raster._replace(unit="")  # that of the heights
+    nodata = 0 if relief.kind == "uint8" else nodata
+    strips = _strips(source, raster, relief, parameters.terrain, nodata, progress)
+    rows = Rows(raster.whole, relief.kind, strips, relief.bands)
+    with may_use(available_cpus()):
+        write_geotiff(target, rows, raster, nodata, progress, relief.shows)
+    progress(1.0)
+
+
+def write_reliefs(
+    source: str | Path,
+    folder: Path,
+    kinds: Iterable[str],
+    parameters: ReliefPictures = ReliefPictures(),
+    progress: Progress = SILENT,
+) -> dict[str, Path]:
+    """Write several pictures of the relief of a terrain model into a folder; all of them or none.
+
+    Parameters
+    ----------
+    source : str or Path
+        The terrain model.
+    folder : Path
+        The folder, which need not exist. The files have the names of the kinds, such as vat.tif.
+    kinds : iterable of str
+        As in `write_relief`.
+    parameters, progress
+        As in `write_relief`.
+
+    Returns
+    -------
+    dict of str to Path
+        The file of each kind.
+    """
+    targets = {kind: Path(folder) / f"{kind}.tif" for kind in kinds}
+    shares = progress.shares(*[1.0] * len(targets))
+    with contextlib.ExitStack() as outputs:
+        outputs.enter_context(new_folder(Path(folder)))
+        for target in targets.values():
+            check_raster_output(target, (Path(source),))
+        for (kind, target), part in zip(targets.items(), shares):
+            temporary = outputs.enter_context(replacing_raster(target))
+            write_relief(source, temporary, kind, parameters, part)
+    return targets
+
+
+def _strips(
+    source: str | Path,
+    raster: Raster,
+    relief: ReliefRaster,
+    model: TerrainModel,
+    nodata: float,
+    progress: Progress,
+) -> Iterator[np.ndarray]:
+    """Yield the relief of a raster, some rows at a time."""
+    (count, columns), cells = raster.whole, raster.cell_metres
+    unit, reach = raster.frame.vertical_unit, relief.reach(cells, model)
+    rows = max(_CELLS // columns, 1)
+    for start in range(0, count, rows):
+        first, last = max(start - reach, 0), min(start + rows + reach, count)
+        heights = read_raster(source, window=(0, first, columns, last - first)).heights
+        made = relief.make(heights.astype(np.float64) * unit, cells, model)
+        made = made[..., start - first : start - first + rows, :]
+        if relief.kind == "float32":
+            made = (made / unit if relief.is_height else made).astype(np.float32)
+            made = np.where(np.isnan(made), np.float32(nodata), made)
+        yield made
+        progress(0.05 + 0.85 * min(start + rows, count) / count)

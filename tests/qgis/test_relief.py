@@ -1,0 +1,120 @@
+import shlex
+
+import numpy as np
+import pytest
+from osgeo import gdal, osr
+from qgis.core import QgsProject, QgsRasterLayer
+from support import Log
+
+from bare_earth.algorithms.products.relief import KINDS
+from bare_earth.plugin.styles import rasters
+
+gdal.UseExceptions()
+ALGORITHM = "bareearth:relief"
+
+
+NODATA = -32768.0
+
+
+def write(path, heights):
+    rows, columns = heights.shape
+    raster = gdal.GetDriverByName("GTiff").Create(str(path), columns, rows, 1, gdal.GDT_Float32)
+    raster.SetGeoTransform((500_000.0, 1.0, 0.0, 5_700_000.0, 0.0, -1.0))
+    reference = osr.SpatialReference()
+    reference.ImportFromEPSG(25832)
+    raster.SetProjection(reference.ExportToWkt())
+    raster.GetRasterBand(1).SetNoDataValue(NODATA)
+    raster.GetRasterBand(1).WriteArray(np.where(np.isnan(heights), NODATA, heights))
+    raster.FlushCache()
+    return str(path)
+
+
+@pytest.fixture
+def terrain(tmp_path):
+    """Write a slope with a bank, and a corner without heights."""
+    row, column = np.mgrid[:80, :90]
+    heights = 300.0 + 0.1 * column + 0.8 * (np.abs(row - column) < 3)
+    heights[:5, -5:] = np.nan
+    return write(tmp_path / "dtm.tif", heights)
+
+
+def outputs_of(kinds):
+    return [
+        "RELIEF" if each == "local-relief" else each.replace("-", "_").upper() for each in kinds
+    ]
+
+
+def test_each_kind_is_made_and_the_log_has_commands_that_do_the_same(
+    registry, terrain, tmp_path, context, log
+):
+    from bare_earth.algorithms.cli import main
+
+    folder = tmp_path / "relief"
+    parameters = {
+        "INPUT": terrain, "KINDS": list(KINDS), "RELIEF_RADIUS": 5, "OUTPUT_FOLDER": str(folder),
+    }  # fmt: skip
+    results, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
+    assert done, log.text
+    assert {path.stem for path in folder.iterdir()} == set(KINDS)
+    commands = [each for each in log.said if each.startswith("bare-earth relief")]
+    commands = [line for each in commands for line in each.splitlines()]
+    assert len(commands) == len(KINDS)
+    for name, kind, command in zip(outputs_of(KINDS), KINDS, commands):
+        made = gdal.Open(results[name])
+        cells = made.ReadAsArray()
+        words = shlex.split(command)[1:]
+        words[2] = str(tmp_path / "again.tif")
+        assert main(words) == 0
+        assert np.array_equal(gdal.Open(words[2]).ReadAsArray(), cells), kind
+        nodata = made.GetRasterBand(1).GetNoDataValue()
+        assert np.all(cells[..., :5, -5:] == nodata) and np.all(cells[..., 5:, :] != nodata)
+        assert made.GetGeoTransform() == gdal.Open(terrain).GetGeoTransform()
+
+
+def test_the_layers_have_their_styles_and_names(terrain, tmp_path):
+    import processing
+
+    kinds = list(KINDS)
+    parameters = {"INPUT": terrain, "KINDS": kinds, "OUTPUT_FOLDER": str(tmp_path / "relief")}
+    processing.runAndLoadResults(ALGORITHM, parameters)
+    layers = {each.name(): each for each in QgsProject.instance().mapLayers().values()}
+    assert len(layers) == len(kinds)
+    assert layers["Red relief image map"].renderer().type() == "multibandcolor"
+    assert layers["Archaeological topography (VAT)"].renderer().type() == "singlebandgray"
+    assert layers["Sky-view factor"].renderer().type() == "singlebandpseudocolor"
+    tree = QgsProject.instance().layerTreeRoot()
+    shown = {
+        name for name, each in layers.items() if tree.findLayer(each.id()).itemVisibilityChecked()
+    }
+    assert shown == {"Archaeological topography (VAT)", "Hillshade"}
+    QgsProject.instance().clear()
+
+
+def test_level_land_is_white_sky_and_not_speckle(tmp_path):
+    layer = QgsRasterLayer(write(tmp_path / "sky.tif", np.full((9, 9), 0.999)))
+    rasters.sky_view(layer)
+    shader = layer.renderer()
+    assert shader.classificationMin() == pytest.approx(0.9) and shader.classificationMax() == 1.0
+
+
+@pytest.mark.parametrize("percent", [5, 40, 80])
+def test_a_cancel_leaves_old_files_and_nothing_else(registry, terrain, tmp_path, context, percent):
+    folder = tmp_path / "relief"
+    kinds = ["vat", "slope", "red-relief"]
+    values = {"INPUT": terrain, "KINDS": kinds, "OUTPUT_FOLDER": str(folder)}
+    algorithm = registry.createAlgorithmById(ALGORITHM)
+    log = Log(cancel_at=percent)
+    assert algorithm.run(values, context, log)[0] == {} and "nothing was written" in log.text
+    assert not folder.exists() and not context.layersToLoadOnCompletion()
+    folder.mkdir()
+    (folder / "vat.tif").write_bytes(b"old")
+    algorithm.run(values, context, Log(cancel_at=percent))
+    assert [path.name for path in folder.iterdir()] == ["vat.tif"]
+    assert (folder / "vat.tif").read_bytes() == b"old"
+
+
+def test_no_kind_is_refused(registry, terrain, tmp_path, context):
+    algorithm = registry.createAlgorithmById(ALGORITHM)
+    values = {"INPUT": terrain, "KINDS": [], "OUTPUT_FOLDER": str(tmp_path / "relief")}
+    possible, text = algorithm.checkParameterValues(values, context)
+    assert not possible and "choose at least one" in text
