@@ -151,11 +151,7 @@ def test_the_public_api_is_there_and_costs_nothing_before_it_is_used():
         api.nothing_of_that_name  # noqa: B018
     text = Path(api.__file__).read_text(encoding="utf-8")
     typed = {line.split()[-1] for line in text.splitlines() if line.startswith("    from .")}
-<<<<<<< HEAD
     assert {*api.__all__} - {"assess", "check", "find_water", "quality"} <= typed
-=======
-    assert {*api.__all__} - {"assess", "check", "find_water"} <= typed
->>>>>>> water
     page = (Path(api.__file__).parents[1] / "docs" / "api.md").read_text(encoding="utf-8")
     shown = re.findall(r"^::: bare_earth\.algorithms\.(\w+)$", page, re.MULTILINE)
     assert sorted(shown) == sorted({*api.__all__} - {"__version__"})
