@@ -57,7 +57,7 @@ def test_the_spacing_is_that_of_the_points_that_are_not_thinned():
     assert spacing(left, 0.01) == pytest.approx(0.177, abs=0.001)
 
 
-def village(side=300.0, density=5.0):
+def village(side=220.0, density=5.0):
     random = np.random.default_rng(4)
     x, y = random.uniform(0.0, side, (2, int(density * side**2)))
     z = 60.0 + 3.0 * np.sin(x / 40.0) + 2.0 * np.sin(y / 25.0) + random.normal(0, 0.03, len(x))
@@ -97,7 +97,7 @@ def labels(cloud, parameters, blocks, parts=1):
 @pytest.mark.parametrize("parameters", [GridMinimum(), TinDensification()])
 def test_blocks_with_thinned_surroundings_give_the_labels_of_the_whole(parameters):
     cloud, usual = village(), blocks_of(parameters)
-    blocks = Blocks(100.0, usual.buffer)
+    blocks = Blocks(75.0, usual.buffer)
     assert usual.buffer > 100.0
     whole, cut, parts = (
         labels(cloud, parameters, each, count)
