@@ -86,6 +86,18 @@ class Points(_Columns):
         west, south, east, north = self.box
         return east - west, north - south
 
+    def within(self, box: Box) -> np.ndarray:
+        """Return which points lie in a box, without its largest x and y; boolean, shape (n,)."""
+        west, south, east, north = box
+        inside = (self.x >= west) & (self.x < east)
+        inside &= (self.y >= south) & (self.y < north)
+        return inside
+
+    def are_within(self, box: Box) -> bool:
+        """Return whether all points lie in a box; there must be at least one point."""
+        west, south, east, north = self.box
+        return west >= box[0] and south >= box[1] and east < box[2] and north < box[3]
+
     def take(self, which: np.ndarray | slice) -> Points:
         """Return the points that a boolean mask, an index array or a slice selects."""
         if isinstance(which, np.ndarray) and which.dtype == bool:

@@ -61,24 +61,46 @@ class Progress:
         return _Quiet(self)
 
 
-class _Part(Progress):
-    def __init__(self, whole: Progress, start: float, end: float) -> None:
-        self._whole, self._start, self._end = whole, start, end
+class PassingOn(Progress):
+    """Passes on progress and messages to another progress; a base class.
+
+    Parameters
+    ----------
+    whole : Progress
+        Receives them.
+    """
+
+    def __init__(self, whole: Progress) -> None:
+        self._whole = whole
 
     def report(self, fraction: float) -> None:
-        self._whole(self._start + fraction * (self._end - self._start))
+        """Pass on how much is done."""
+        self._whole(fraction)
 
     def info(self, text: str) -> None:
+        """Pass on a message."""
         self._whole.info(text)
 
     def choice(self, text: str) -> None:
+        """Pass on a choice."""
         self._whole.choice(text)
 
     def warning(self, text: str) -> None:
+        """Pass on a warning."""
         self._whole.warning(text)
 
     def took(self, stage: str, seconds: float) -> None:
+        """Pass on how long a stage took."""
         self._whole.took(stage, seconds)
+
+
+class _Part(PassingOn):
+    def __init__(self, whole: Progress, start: float, end: float) -> None:
+        super().__init__(whole)
+        self._start, self._end = start, end
+
+    def report(self, fraction: float) -> None:
+        self._whole(self._start + fraction * (self._end - self._start))
 
 
 class _Quiet(Progress):

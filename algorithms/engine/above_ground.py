@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.points import Box, box_in_words
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
@@ -19,7 +18,8 @@ from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections, changed_since
 from ..survey.ground_classes import GroundClasses, GroundTally
 from ..survey.kept_classes import DECIDED, ROADS, is_one_of
-from ..survey.tally import count_classes
+from ..survey.shapes import outside
+from ..survey.tally import by_class, count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
@@ -113,10 +113,7 @@ class ClassifyAboveGround(PointStep):
     def check_survey(self, box: Box) -> None:
         """Refuse the survey if the area lies outside its extent."""
         if self.area is not None and not self.area.may_touch(box):
-            raise BareEarthError(
-                f"No point lies in the area: the files cover {box_in_words(box)}. Give the extent"
-                " or the boundary in the CRS of the points."
-            )
+            raise outside("the area", self.area.bounds, "the files", box)
 
     def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
         """Refuse a file without ground; tell of one in which nothing can change."""
@@ -174,9 +171,7 @@ class ClassesOfPoints(PointResult):
 
     def summary(self, name: str) -> AboveGroundSummary:
         """Return the numbers of points."""
-        counts = {
-            int(value): int(self.class_counts[value]) for value in np.flatnonzero(self.class_counts)
-        }
+        counts = by_class(self.class_counts)
         ground = sum(counts.get(value, 0) for value in set(self._step.ground.ground_classes))
         return AboveGroundSummary(
             name, len(self.classification), ground, self._changed_count, counts

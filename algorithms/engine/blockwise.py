@@ -12,7 +12,7 @@ from typing import Any, Callable, Iterator, Sequence
 import numpy as np
 
 from ..core.errors import Cancelled
-from ..core.progress import Notes, Progress
+from ..core.progress import Notes, PassingOn, Progress
 from ..core.threads import SharedThreads, shared_threads
 from .blocks import Block, Blocks
 from .memory import GIGABYTE, Resources, give_back
@@ -73,29 +73,18 @@ def over_blocks(
         yield number, result
 
 
-class _GivingBack(Progress):
+class _GivingBack(PassingOn):
     """Passes on progress, and gives freed memory back to the system now and then."""
 
     def __init__(self, whole: Progress) -> None:
-        self._whole, self._given = whole, time.monotonic()
+        super().__init__(whole)
+        self._given = time.monotonic()
 
     def report(self, fraction: float) -> None:
-        self._whole(fraction)
+        super().report(fraction)
         if time.monotonic() - self._given > _SECONDS:
             give_back()
             self._given = time.monotonic()
-
-    def info(self, text: str) -> None:
-        self._whole.info(text)
-
-    def choice(self, text: str) -> None:
-        self._whole.choice(text)
-
-    def warning(self, text: str) -> None:
-        self._whole.warning(text)
-
-    def took(self, stage: str, seconds: float) -> None:
-        self._whole.took(stage, seconds)
 
 
 def fill(

@@ -16,7 +16,7 @@ from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..las.records import check_class
 from ..survey.ground_classes import GroundClasses, GroundTally
-from ..survey.tally import count_classes
+from ..survey.tally import by_class, count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Resources
@@ -186,7 +186,7 @@ class KeyPointsOfPoints(PointResult):
 
     def summary(self, name: str) -> KeyPointSummary:
         """Return the numbers of points."""
-        counts = {int(each): int(self._counts[each]) for each in np.flatnonzero(self._counts)}
+        counts = by_class(self._counts)
         points = self._ground_count, self._key_point_count
         return KeyPointSummary(name, len(self._values), *points, counts)
 

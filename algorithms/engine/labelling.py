@@ -22,7 +22,7 @@ from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.kept_classes import overlapping
 from ..survey.point_chooser import PointChooser
 from ..survey.selection import Selection
-from ..survey.tally import Tally, count_classes
+from ..survey.tally import Tally, by_class, count_classes
 from .blocks import Blocks
 from .explanation import Explanation
 from .ground import Label, blocks_of, label_ground
@@ -341,11 +341,6 @@ class ClassifiedPoints(PointResult):
             self._area_count,
             self._by_hand_count,
             self._overlap_count,
-            _found(self._counts_before),
-            _found(self.class_counts),
+            by_class(self._counts_before),
+            by_class(self.class_counts),
         )
-
-
-def _found(counts: np.ndarray) -> dict[int, int]:
-    """Return the counts of the classes that there are."""
-    return {value: int(counts[value]) for value in np.flatnonzero(counts).tolist()}

@@ -114,9 +114,7 @@ class BlockPoints(NamedTuple):
 
     def within(self, box: Box) -> BlockPoints:
         """Return the points in a box, without those on its largest x and y."""
-        west, south, east, north = box
-        x, y = self.points.x, self.points.y
-        inside = (x >= west) & (x < east) & (y >= south) & (y < north)
+        inside = self.points.within(box)
         return self if inside.all() else self.take(inside)
 
 

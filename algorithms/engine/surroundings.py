@@ -38,9 +38,9 @@ def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
     box : tuple of float
         The result of `near`.
     """
-    stays = _within(contents.points, box)
-    if stays.all():
+    if not contents.points.count or contents.points.are_within(box):
         return contents
+    stays = contents.points.within(box)
     # One side after the other, since a grid of all would have many cells in the middle.
     west, south, east, north = box
     x, y = contents.points.x, contents.points.y
@@ -56,14 +56,8 @@ def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
 
 def tell_spacing(points: Points, box: Box) -> None:
     """Let points have the spacing of those in a box, which are not thinned."""
-    inside = _within(points, box)
-    if inside.any() and not inside.all():
+    if points.are_within(box):
+        return
+    inside = points.within(box)
+    if inside.any():
         keep_spacing(points, points.take(inside))
-
-
-def _within(points: Points, box: Box) -> np.ndarray:
-    """Return which points lie in a box."""
-    west, south, east, north = box
-    inside = (points.x >= west) & (points.x < east)
-    inside &= (points.y >= south) & (points.y < north)
-    return inside

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..las.class_names import named_class
 from ..survey.files import Survey
+from ..survey.tally import by_class
 from .quality_cells import FIRST, WET, Counts, QualityCells
 from .quality_rasters import QUALITY_RASTERS, differences, overlap, rows_of, twice
 from .specifications import Specification
@@ -299,14 +300,10 @@ def counted(counts: Counts) -> dict[str, Any]:
     return {
         "points": counts.points,
         "withheld": counts.withheld,
-        "classes": _present(counts.classes),
-        "returns": _present(counts.returns),
+        "classes": by_class(counts.classes),
+        "returns": by_class(counts.returns),
         "strips": sorted(counts.strips),
     }
-
-
-def _present(counts: np.ndarray) -> dict[int, int]:
-    return {int(each): int(counts[each]) for each in np.flatnonzero(counts)}
 
 
 def lines_of(found: Quality, survey: Survey, asked: Specification) -> list[Line]:

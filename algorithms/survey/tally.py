@@ -90,6 +90,11 @@ class Tally:
         )
 
 
+def by_class(counts: np.ndarray) -> dict[int, int]:
+    """Return the counts of the classes that there are, from an array with one for each class."""
+    return {value: int(counts[value]) for value in np.flatnonzero(counts).tolist()}
+
+
 def count_classes(classes: np.ndarray) -> np.ndarray:
     """Return the number of points of each class; in steps, since bincount needs much memory."""
     counts = np.zeros((256, 256), dtype=np.int64)
