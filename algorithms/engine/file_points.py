@@ -13,8 +13,8 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.reading import read_cloud, read_parts
+from ..survey.point_counts import PointCounts
 from ..survey.shapes import Place
-from ..survey.tally import Tally
 from .disk_store import DiskStore, allocated_on_disk
 from .memory import GIGABYTE, Resources
 from .memory_store import MemoryStore
@@ -135,10 +135,10 @@ class FilePoints:
     def place(self) -> Place:
         """Where the points lie."""
         if self.is_in_memory:
-            tally = Tally()
+            counts = PointCounts()
             if self.count:
-                tally.see(self.cloud)
-            return Place(str(self.path), self.cloud.crs, tally.bounds)
+                counts.see(self.cloud)
+            return Place(str(self.path), self.cloud.crs, counts.bounds)
         las = self._source
         # The header of one file can be wrong: without a sound extent nothing is refused.
         return Place(str(self.path), read_crs(las), las.outer_box if las.states_extent else None)
@@ -180,7 +180,7 @@ class FilePoints:
         Parameters
         ----------
         steps : sequence of tuple
-            Each step with its tally.
+            Each step with its counts.
         parts : iterable
             All points once, as `parts` yields them; their classes may have changed.
         progress : Progress
@@ -199,13 +199,13 @@ class FilePoints:
     ) -> list[Store]:
         every = [Marks(*(np.zeros(self.count, dtype=bool) for _ in range(4))) for _ in steps]
         for where, part in parts:
-            for (step, tally), marks in zip(steps, every):
-                for mine, some in zip(marks, step.marks(part, tally)):
+            for (step, counts), marks in zip(steps, every):
+                for mine, some in zip(marks, step.marks(part, counts)):
                     if some is not None:
                         mine[where] = some
         stores, shares = [], progress.shares(*[1.0] * len(steps))
-        for (step, tally), marks, part in zip(steps, every, shares):
-            step.tell(tally, self.path, progress)
+        for (step, counts), marks, part in zip(steps, every, shares):
+            step.tell(counts, self.path, progress)
             frame = survey_frame(self.cloud.crs, step.origin)
             store = MemoryStore(frame, step.blocks, step.kind)
             store.append(self.cloud, marks)
@@ -224,10 +224,10 @@ class FilePoints:
             for step, _ in steps
         ]
         for _, part in parts:
-            for (step, tally), store in zip(steps, stores):
-                store.append(part, step.marks(part, tally))
-        for (step, tally), store in zip(steps, stores):
-            step.tell(tally, self.path, progress)
+            for (step, counts), store in zip(steps, stores):
+                store.append(part, step.marks(part, counts))
+        for (step, counts), store in zip(steps, stores):
+            step.tell(counts, self.path, progress)
             store.finish()
         return stores
 
@@ -239,7 +239,7 @@ class FilePoints:
             yield where, part, store.values(0)[where] if self.is_in_memory else store.values(number)
 
     def find(
-        self, step: PointStep, tally: Any, progress: Progress = SILENT, then: Sequence[Step] = ()
+        self, step: PointStep, counts: Any, progress: Progress = SILENT, then: Sequence[Step] = ()
     ) -> tuple[PointResult, list[Store]]:
         """Find a value of each point.
 
@@ -247,8 +247,8 @@ class FilePoints:
         ----------
         step : PointStep
             The step that finds it.
-        tally : object
-            The tally of the step.
+        counts : object
+            The counts of the step.
         progress : Progress
             Receives progress and messages.
         then : sequence of Step
@@ -269,7 +269,7 @@ class FilePoints:
             If the user asked to stop.
         """
         parts = self.parts(progress.part(0.0, 0.08))
-        (store,) = self.gathered([(step, tally)], parts, progress.part(0.08, 0.12))
+        (store,) = self.gathered([(step, counts)], parts, progress.part(0.08, 0.12))
         step.work(store, self.resources, progress.part(0.12, 0.94))
         result = step.result(self.path, self.allocate)
 
@@ -278,5 +278,5 @@ class FilePoints:
                 result.add(where, part, values)
                 yield where, result.part(where, part)
 
-        steps = [(each, each.tally()) for each in then]
+        steps = [(each, each.counts()) for each in then]
         return result, self.gathered(steps, found(), progress.part(0.97, 1.0))
