@@ -18,6 +18,7 @@ from ..survey.shapes import Place
 from .disk_store import DiskStore, allocated_on_disk
 from .memory import GIGABYTE, Resources
 from .memory_store import MemoryStore
+from .parts_on_disk import PartsOnDisk, may_keep
 from .steps import PointResult, PointStep, Step
 from .store import Marks, Store
 
@@ -25,7 +26,7 @@ from .store import Marks, Store
 _BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
 # Bytes of memory for a point that is on disk: for its class and other changes.
 _BYTES_A_POINT_ON_DISK = 3
-# Share of the memory that the blocks may take when the points are on disk.
+# Most memory that the blocks take when the points are on disk.
 _MOST_FOR_BLOCKS = GIGABYTE
 # Largest record length of which whole records are kept in memory. To read them again for
 # writing would take as long as the filter.
@@ -84,13 +85,15 @@ class FilePoints:
         self, cloud: PointCloud | LasFile, resources: Resources, target: Path | None = None
     ) -> None:
         self.path, self.count, self.resources = cloud.path, cloud.count, resources
+        self._given = resources
         self.is_in_memory = isinstance(cloud, PointCloud)
         self.cloud = cloud if self.is_in_memory else None
         self._source, self._target = cloud, target
         self._files, self._is_told = contextlib.ExitStack(), False
+        self._kept: PartsOnDisk | None = None
         if not self.is_in_memory:
-            memory = min(resources.bytes, _MOST_FOR_BLOCKS)
-            self.resources = Resources.of(resources.threads, memory)
+            left = max(self.memory_left, resources.bytes // 2)
+            self.resources = Resources.of(resources.threads, min(left, _MOST_FOR_BLOCKS))
 
     @classmethod
     def opened(
@@ -150,7 +153,7 @@ class FilePoints:
         if self.is_in_memory:
             records = self.cloud.records
             held = _BYTES_A_POINT_KEPT + (0 if records is None else records.shape[1])
-        return max(self.resources.bytes - held * self.count, 0)
+        return max(self._given.bytes - held * self.count, 0)
 
     def parts(self, progress: Progress = SILENT) -> Iterator[tuple[slice, PointCloud]]:
         """Yield the points part by part with their indices; the parts are always the same."""
@@ -159,12 +162,31 @@ class FilePoints:
                 yield where, part
                 progress(where.stop / max(self.count, 1))
             return
-        start, told = 0, progress.quiet() if self._is_told else progress
-        self._is_told = True
-        for part in read_parts(self._source, told):
+        start = 0
+        for part in self._read(progress):
             self.cloud = self.cloud or part
             yield slice(start, start + part.count), part
             start += part.count
+
+    def _read(self, progress: Progress) -> Iterator[PointCloud]:
+        """Yield the parts of the file, and keep them on disk the first time."""
+        if self._kept is not None and self._kept.is_complete:
+            start = 0
+            for part in self._kept:
+                yield part
+                start += part.count
+                progress(start / max(self.count, 1))
+            return
+        told = progress.quiet() if self._is_told else progress
+        self._is_told = True
+        if may_keep(self._source, self._target.parent):
+            self._kept = self._files.enter_context(PartsOnDisk(self._target))
+        for part in read_parts(self._source, told):
+            if self._kept is not None:
+                self._kept.add(part)
+            yield part
+        if self._kept is not None:
+            self._kept.finish()
 
     def allocate(self, kind: type) -> np.ndarray:
         """Return an array of one value for each point, on disk if the values are large."""
