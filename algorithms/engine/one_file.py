@@ -261,10 +261,10 @@ def write_points(
         If the user asked to stop; no output is left behind.
     """
     las, resources = _checked(source, target, request.resources, request.stated)
-    step = request.step
     with may_use(resources.thread_count):
         first = progress.part(0.0, 0.1)
         with FilePoints.opened(las, target, resources, progress=first) as points:
+            (step,) = located([request.step], points.place, progress)
             result, _ = points.find(step, step.counts(), progress.part(0.1, 0.9))
             edits = result.edits(points.cloud, progress)
             last = progress.part(0.9, 1.0)
