@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ..products.constraints import Constraints
     from ..products.raster_files import RasterFiles
     from ..products.raster_grid import RasterTarget
+    from ..products.water_classes import WaterPolygons
     from ..survey.area import Area
 
 
@@ -176,6 +177,17 @@ def with_found_water(
     return dataclasses.replace(
         known, water=found.constraints.water, rivers=(*known.rivers, *found.constraints.rivers)
     )
+
+
+def water_polygons_of(options: argparse.Namespace, sets: Sequence[ParameterSet]) -> WaterPolygons:
+    """Return the polygons of water of the options, read or found."""
+    from ..products.constraints import NO_CONSTRAINTS
+    from ..products.water_classes import WaterPolygons
+    from ..survey.vector_files import read_boundary
+
+    if water_is_automatic(options):
+        return WaterPolygons(with_found_water(options, NO_CONSTRAINTS, sets).water)
+    return WaterPolygons(read_boundary(Path(options.water)))
 
 
 def constraints_of(options: argparse.Namespace, finds_water: bool = False) -> Constraints:

@@ -34,6 +34,7 @@ from .requests import (
     HeightRequest,
     KeyPointRequest,
     TerrainRequest,
+    WaterClassRequest,
 )
 from .steps import PointStep, Step, located
 
@@ -234,7 +235,7 @@ def _summary(result: ClassifiedPoints, counts: Any, request: ClassifyRequest) ->
 def write_points(
     source: Path,
     target: Path,
-    request: HeightRequest | KeyPointRequest | AboveGroundRequest,
+    request: HeightRequest | KeyPointRequest | AboveGroundRequest | WaterClassRequest,
     progress: Progress = SILENT,
 ) -> Any:
     """Write a file with the values that a step finds for its points, such as heights.
@@ -243,7 +244,7 @@ def write_points(
     ----------
     source, target : Path
         The input, and the output (.las, .laz or .copc.laz).
-    request : HeightRequest, KeyPointRequest or AboveGroundRequest
+    request : HeightRequest, KeyPointRequest, AboveGroundRequest or WaterClassRequest
         What to find.
     progress : Progress
         Receives progress and messages.
