@@ -181,11 +181,16 @@ def with_found_water(
 
 def water_polygons_of(options: argparse.Namespace, sets: Sequence[ParameterSet]) -> WaterPolygons:
     """Return the polygons of water of the options, read or found."""
+    from ..las.writing import check_cloud
     from ..products.constraints import NO_CONSTRAINTS
     from ..products.water_classes import WaterPolygons
+    from ..survey.files import is_one_file
     from ..survey.vector_files import read_boundary
 
     if water_is_automatic(options):
+        # To find the water can take minutes.
+        if is_one_file(options.input):
+            check_cloud(options.input[0], options.output)
         return WaterPolygons(with_found_water(options, NO_CONSTRAINTS, sets).water)
     return WaterPolygons(read_boundary(Path(options.water)))
 

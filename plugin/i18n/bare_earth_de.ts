@@ -338,6 +338,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Klasse der Brücken</translation>
     </message>
     <message>
+        <source>Class of ignored ground</source>
+        <translation>Klasse des ignorierten Bodens</translation>
+    </message>
+    <message>
         <source>Class of key points</source>
         <translation>Klasse der Schlüsselpunkte</translation>
     </message>
@@ -352,6 +356,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Class of the ground</source>
         <translation>Klasse des Bodens</translation>
+    </message>
+    <message>
+        <source>Class of water</source>
+        <translation>Klasse des Wassers</translation>
     </message>
     <message>
         <source>Classes</source>
@@ -430,6 +438,10 @@ Nur Punkte der Klassen 0 und 1 ändern sich, wenn Sie nicht mehr verlangen. Sons
     <message>
         <source>Classify vegetation and buildings anew</source>
         <translation>Vegetation und Gebäude neu klassifizieren</translation>
+    </message>
+    <message>
+        <source>Classify water</source>
+        <translation>Gewässer klassifizieren</translation>
     </message>
     <message>
         <source>Closed lines that are shorter are left out: they show single plants and noise.</source>
@@ -528,6 +540,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
     <message>
         <source>Direction from which the light comes, clockwise from north. Four lights have their own directions.</source>
         <translation>Richtung, aus der das Licht kommt, von Norden aus im Uhrzeigersinn. Vier Lichter haben ihre eigenen Richtungen.</translation>
+    </message>
+    <message>
+        <source>Distance of ignored ground from the shore</source>
+        <translation>Abstand des ignorierten Bodens vom Ufer</translation>
     </message>
     <message>
         <source>Distance of voids</source>
@@ -750,6 +766,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>lazrs holen</translation>
     </message>
     <message>
+        <source>Gives class 9 to ground points in water, and class 20 to those beside its shore.</source>
+        <translation>Gibt Bodenpunkten im Wasser die Klasse 9 und denen neben dem Ufer die Klasse 20.</translation>
+    </message>
+    <message>
         <source>Grid minimum</source>
         <translation>Rasterminimum</translation>
     </message>
@@ -800,6 +820,14 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Ground points</source>
         <translation>Bodenpunkte</translation>
+    </message>
+    <message>
+        <source>Ground points in polygons of water become water (9), and those within a distance of the shore ignored ground (20), as the Lidar Base Specification asks for. Nothing else in the file changes: points with other classes keep them.</source>
+        <translation>Bodenpunkte in Polygonen des Wassers werden Wasser (9) und die in einem Abstand vom Ufer ignorierter Boden (20), wie es die Lidar Base Specification verlangt. Sonst ändert sich nichts in der Datei: Punkte mit anderen Klassen behalten diese.</translation>
+    </message>
+    <message>
+        <source>Ground points outside of the water, up to this far from its shore, become ignored ground: there the breakline alone decides the terrain. The Lidar Base Specification asks for one nominal point spacing: 0.7 m for QL2, 0.35 m for QL1. 0: none.</source>
+        <translation>Bodenpunkte außerhalb des Wassers bis zu diesem Abstand vom Ufer werden ignorierter Boden: Dort bestimmt allein die Bruchkante das Gelände. Die Lidar Base Specification verlangt den nominellen Punktabstand: 0,7 m bei QL2, 0,35 m bei QL1. 0: keine.</translation>
     </message>
     <message>
         <source>Ground points per m²</source>
@@ -1362,6 +1390,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Punktwolke mit Schlüsselpunkten</translation>
     </message>
     <message>
+        <source>Point cloud with water</source>
+        <translation>Punktwolke mit Wasser</translation>
+    </message>
+    <message>
         <source>Point clouds</source>
         <translation>Punktwolken</translation>
     </message>
@@ -1406,6 +1438,14 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Punkte dieser Klassen der Referenz werden nicht gezählt, zum Beispiel Rauschen (7, 18). Leer: Alle Punkte zählen.</translation>
     </message>
     <message>
+        <source>Points that became ignored ground</source>
+        <translation>Punkte, die ignorierter Boden wurden</translation>
+    </message>
+    <message>
+        <source>Points that became water</source>
+        <translation>Punkte, die Wasser wurden</translation>
+    </message>
+    <message>
         <source>Points that took part</source>
         <translation>Punkte, die teilnahmen</translation>
     </message>
@@ -1436,6 +1476,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Polygons in which you know the class. It replaces the result of the filter. If it is the class of the ground, points of the chosen returns are ground. Any other class is given to all points, and the filter does not use them. Where polygons overlap, the last one counts.</source>
         <translation>Polygone, in denen Sie die Klasse kennen. Sie tritt an die Stelle des Ergebnisses des Filters. Ist es die Klasse des Bodens, sind Punkte der gewählten Echos Boden. Jede andere Klasse bekommen alle Punkte, und der Filter benutzt diese nicht. Wo sich Polygone überlappen, zählt das letzte.</translation>
+    </message>
+    <message>
+        <source>Polygons of water, with islands as holes. Empty: the water is found first, as 'Find water' does with its default values.</source>
+        <translation>Polygone des Wassers, mit Inseln als Löchern. Leer: Das Wasser wird zuerst gefunden, wie es 'Gewässer finden' mit seinen Vorgaben tut.</translation>
     </message>
     <message>
         <source>Polygons of water. Each is flattened to one level, that of the ground along its border.</source>
@@ -1854,10 +1898,6 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Das Attribut mit den Namen. Leer: ein Attribut mit einem üblichen Namen wie id, sonst Nummern ab 1.</translation>
     </message>
     <message>
-        <source>The boundary holds no polygon. Choose one that does.</source>
-        <translation>Die Begrenzung enthält kein Polygon. Wählen Sie eine, die eines enthält.</translation>
-    </message>
-    <message>
         <source>The checkpoints with their errors (ERROR, in metres): ground minus checkpoint.</source>
         <translation>Die Kontrollpunkte mit ihren Fehlern (ERROR, in Metern): Boden minus Kontrollpunkt.</translation>
     </message>
@@ -1874,8 +1914,16 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Die Klasse der Punkte, die kein Boden sind. Nie klassifizierte Punkte (0) werden in beiden Fällen 1. Rauschen, zurückgehaltene Punkte (withheld) und Klassen, die nicht klassifiziert werden, bleiben, wie sie sind.</translation>
     </message>
     <message>
+        <source>The class that ground points beside the shore get. Points that have it already keep it, also in the water, unless it is one of the ground classes.</source>
+        <translation>Die Klasse, die Bodenpunkte neben dem Ufer bekommen. Punkte, die sie schon haben, behalten sie, auch im Wasser, außer wenn sie eine der Bodenklassen ist.</translation>
+    </message>
+    <message>
         <source>The class that ground points get; 2 is ground in the LAS specification. Point formats 0 to 5 hold classes up to 31.</source>
         <translation>Die Klasse, die Bodenpunkte bekommen; in der LAS-Spezifikation ist Boden 2. Die Punktformate 0 bis 5 fassen Klassen bis 31.</translation>
+    </message>
+    <message>
+        <source>The class that ground points in the water get. Point formats 0 to 5 hold classes up to 31.</source>
+        <translation>Die Klasse, die Bodenpunkte im Wasser bekommen. Die Punktformate 0 bis 5 fassen Klassen bis 31.</translation>
     </message>
     <message>
         <source>The class that key points get. Points that already have it count as ground; those that are not needed get the first of the ground classes. Point formats 0 to 5 hold classes up to 31.</source>
@@ -1942,6 +1990,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Der Layer „{}“ lässt sich nicht lesen.</translation>
     </message>
     <message>
+        <source>The layer "{}" holds no polygon. Choose one that does.</source>
+        <translation>Der Layer „{}“ enthält kein Polygon. Wählen Sie einen, der eines enthält.</translation>
+    </message>
+    <message>
         <source>The layer "{}" is being edited. Save or discard the edits first.</source>
         <translation>Der Layer „{}“ wird gerade bearbeitet. Speichern oder verwerfen Sie zuerst die Änderungen.</translation>
     </message>
@@ -1996,6 +2048,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>The same points, with the classes above the ground.</source>
         <translation>Dieselben Punkte mit den Klassen über dem Boden.</translation>
+    </message>
+    <message>
+        <source>The same points, with the classes of water and of ignored ground.</source>
+        <translation>Dieselben Punkte, mit den Klassen für Wasser und ignorierten Boden.</translation>
     </message>
     <message>
         <source>The same points, with the key points marked.</source>
@@ -2316,6 +2372,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>known ground</source>
         <translation>bekannter Boden</translation>
+    </message>
+    <message>
+        <source>lake,river,pond,shore,breaklines,hydro-flattening,class 9,class 20,ignored ground,usgs,lbs,classes,classification</source>
+        <translation>See,Fluss,Teich,Ufer,Bruchkanten,Gewässer,Wasser,Klasse 9,Klasse 20,ignorierter Boden,Klassen,Klassifikation</translation>
     </message>
     <message>
         <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>

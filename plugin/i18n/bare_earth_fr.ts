@@ -338,6 +338,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Classe des ponts</translation>
     </message>
     <message>
+        <source>Class of ignored ground</source>
+        <translation>Classe du sol ignoré</translation>
+    </message>
+    <message>
         <source>Class of key points</source>
         <translation>Classe des points clés</translation>
     </message>
@@ -352,6 +356,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Class of the ground</source>
         <translation>Classe du sol</translation>
+    </message>
+    <message>
+        <source>Class of water</source>
+        <translation>Classe de l'eau</translation>
     </message>
     <message>
         <source>Classes</source>
@@ -430,6 +438,10 @@ Seuls les points des classes 0 et 1 changent, sauf demande contraire. Rien d'aut
     <message>
         <source>Classify vegetation and buildings anew</source>
         <translation>Reclasser la végétation et les bâtiments</translation>
+    </message>
+    <message>
+        <source>Classify water</source>
+        <translation>Classer l'eau</translation>
     </message>
     <message>
         <source>Closed lines that are shorter are left out: they show single plants and noise.</source>
@@ -528,6 +540,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
     <message>
         <source>Direction from which the light comes, clockwise from north. Four lights have their own directions.</source>
         <translation>Direction d'où vient la lumière, dans le sens horaire depuis le nord. Quatre lumières ont leurs propres directions.</translation>
+    </message>
+    <message>
+        <source>Distance of ignored ground from the shore</source>
+        <translation>Distance du sol ignoré à la rive</translation>
     </message>
     <message>
         <source>Distance of voids</source>
@@ -750,6 +766,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Obtenir lazrs</translation>
     </message>
     <message>
+        <source>Gives class 9 to ground points in water, and class 20 to those beside its shore.</source>
+        <translation>Donne la classe 9 aux points de sol dans l'eau, et la classe 20 à ceux qui longent la rive.</translation>
+    </message>
+    <message>
         <source>Grid minimum</source>
         <translation>Minimum de grille</translation>
     </message>
@@ -800,6 +820,14 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Ground points</source>
         <translation>Points sol</translation>
+    </message>
+    <message>
+        <source>Ground points in polygons of water become water (9), and those within a distance of the shore ignored ground (20), as the Lidar Base Specification asks for. Nothing else in the file changes: points with other classes keep them.</source>
+        <translation>Les points de sol dans les polygones d'eau deviennent de l'eau (9), et ceux à une certaine distance de la rive du sol ignoré (20), comme le demande la Lidar Base Specification. Rien d'autre ne change dans le fichier : les points des autres classes les gardent.</translation>
+    </message>
+    <message>
+        <source>Ground points outside of the water, up to this far from its shore, become ignored ground: there the breakline alone decides the terrain. The Lidar Base Specification asks for one nominal point spacing: 0.7 m for QL2, 0.35 m for QL1. 0: none.</source>
+        <translation>Les points de sol hors de l'eau, jusqu'à cette distance de la rive, deviennent du sol ignoré : là, seule la ligne de rupture décide du terrain. La Lidar Base Specification demande un espacement nominal des points : 0,7 m pour QL2, 0,35 m pour QL1. 0 : aucun.</translation>
     </message>
     <message>
         <source>Ground points per m²</source>
@@ -1362,6 +1390,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Nuage de points avec points clés</translation>
     </message>
     <message>
+        <source>Point cloud with water</source>
+        <translation>Nuage de points avec l'eau</translation>
+    </message>
+    <message>
         <source>Point clouds</source>
         <translation>Nuages de points</translation>
     </message>
@@ -1406,6 +1438,14 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Les points de ces classes de la référence ne sont pas comptés, par exemple le bruit (7, 18). Vide : tous les points sont comptés.</translation>
     </message>
     <message>
+        <source>Points that became ignored ground</source>
+        <translation>Points devenus du sol ignoré</translation>
+    </message>
+    <message>
+        <source>Points that became water</source>
+        <translation>Points devenus de l'eau</translation>
+    </message>
+    <message>
         <source>Points that took part</source>
         <translation>Points qui ont participé</translation>
     </message>
@@ -1436,6 +1476,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Polygons in which you know the class. It replaces the result of the filter. If it is the class of the ground, points of the chosen returns are ground. Any other class is given to all points, and the filter does not use them. Where polygons overlap, the last one counts.</source>
         <translation>Polygones dont vous connaissez la classe. Elle remplace le résultat du filtre. Si c'est la classe du sol, les points des retours choisis sont du sol. Toute autre classe est donnée à tous les points, et le filtre ne les utilise pas. Là où des polygones se recouvrent, le dernier compte.</translation>
+    </message>
+    <message>
+        <source>Polygons of water, with islands as holes. Empty: the water is found first, as 'Find water' does with its default values.</source>
+        <translation>Polygones d'eau, avec les îles comme trous. Vide : l'eau est d'abord trouvée, comme le fait « Trouver l'eau » avec ses valeurs par défaut.</translation>
     </message>
     <message>
         <source>Polygons of water. Each is flattened to one level, that of the ground along its border.</source>
@@ -1854,10 +1898,6 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>L'attribut des noms. Vide : un attribut au nom courant, comme id, sinon des numéros à partir de 1.</translation>
     </message>
     <message>
-        <source>The boundary holds no polygon. Choose one that does.</source>
-        <translation>La limite ne contient aucun polygone. Choisissez-en une qui en contient.</translation>
-    </message>
-    <message>
         <source>The checkpoints with their errors (ERROR, in metres): ground minus checkpoint.</source>
         <translation>Les points de contrôle avec leurs erreurs (ERROR, en mètres) : sol moins point de contrôle.</translation>
     </message>
@@ -1874,8 +1914,16 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>La classe des points qui ne sont pas du sol. Les points jamais classés (0) deviennent 1 dans les deux cas. Le bruit, les points retenus (withheld) et les classes qui ne sont pas à classer restent tels quels.</translation>
     </message>
     <message>
+        <source>The class that ground points beside the shore get. Points that have it already keep it, also in the water, unless it is one of the ground classes.</source>
+        <translation>La classe que reçoivent les points de sol qui longent la rive. Les points qui l'ont déjà la gardent, même dans l'eau, sauf si elle est l'une des classes de sol.</translation>
+    </message>
+    <message>
         <source>The class that ground points get; 2 is ground in the LAS specification. Point formats 0 to 5 hold classes up to 31.</source>
         <translation>La classe que reçoivent les points sol ; 2 est le sol dans la spécification LAS. Les formats de point 0 à 5 contiennent des classes jusqu'à 31.</translation>
+    </message>
+    <message>
+        <source>The class that ground points in the water get. Point formats 0 to 5 hold classes up to 31.</source>
+        <translation>La classe que reçoivent les points de sol dans l'eau. Les formats de points 0 à 5 contiennent des classes jusqu'à 31.</translation>
     </message>
     <message>
         <source>The class that key points get. Points that already have it count as ground; those that are not needed get the first of the ground classes. Point formats 0 to 5 hold classes up to 31.</source>
@@ -1942,6 +1990,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>La couche « {} » ne peut pas être lue.</translation>
     </message>
     <message>
+        <source>The layer "{}" holds no polygon. Choose one that does.</source>
+        <translation>La couche « {} » ne contient aucun polygone. Choisissez-en une qui en contient.</translation>
+    </message>
+    <message>
         <source>The layer "{}" is being edited. Save or discard the edits first.</source>
         <translation>La couche « {} » est en cours d'édition. Enregistrez ou annulez d'abord les modifications.</translation>
     </message>
@@ -1996,6 +2048,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>The same points, with the classes above the ground.</source>
         <translation>Les mêmes points, avec les classes au-dessus du sol.</translation>
+    </message>
+    <message>
+        <source>The same points, with the classes of water and of ignored ground.</source>
+        <translation>Les mêmes points, avec les classes de l'eau et du sol ignoré.</translation>
     </message>
     <message>
         <source>The same points, with the key points marked.</source>
@@ -2316,6 +2372,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>known ground</source>
         <translation>sol connu</translation>
+    </message>
+    <message>
+        <source>lake,river,pond,shore,breaklines,hydro-flattening,class 9,class 20,ignored ground,usgs,lbs,classes,classification</source>
+        <translation>lac,rivière,étang,rive,lignes de rupture,eau,classe 9,classe 20,sol ignoré,classes,classification</translation>
     </message>
     <message>
         <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>

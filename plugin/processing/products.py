@@ -34,9 +34,13 @@ class ProductAlgorithm(BareEarthAlgorithm):
         """Add the output fields."""
         add_cloud(self, self.cloud_label, self.cloud_help)
 
+    def add_inputs(self) -> None:
+        """Add the input fields."""
+        self.addParameter(SurveyInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
+
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
-        self.addParameter(SurveyInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
+        self.add_inputs()
         add_crs(self)
         self.add_declared()
         self.add_outputs()

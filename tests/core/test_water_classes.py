@@ -243,6 +243,9 @@ def test_what_cannot_be_done_is_a_sentence(tmp_path):
     code, _, told = said("water-classes", source, target, "--water", tmp_path / "empty.geojson")
     assert code == 1 and "holds no polygon" in told
     assert said("water-classes", source, target)[0] == 2
+    nowhere = tmp_path / "no" / "out.las"
+    code, _, told = said("water-classes", source, nowhere, "--water", "automatic")
+    assert code == 1 and "no does not exist. Create it first." in told and "Water:" not in told
     assert not target.exists()
 
 

@@ -109,6 +109,10 @@ PARAMETERS = {
         "INPUT", "CRS", "MIN_AREA", "MIN_WIDTH", "WATER_CELL", "GROUND_CLASSES", "OVERLAP",
         "OUTPUT", "BREAKLINES",
     ],
+    "bareearth:waterclasses": [
+        "INPUT", "WATER", "CRS", "SHORE_DISTANCE", "WATER_CLASS", "IGNORED_CLASS",
+        "GROUND_CLASSES", "OVERLAP", "THREADS", "MEMORY", "OUTPUT",
+    ],
     "bareearth:terrainmodel": [
         "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP",
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
@@ -184,6 +188,7 @@ OUTPUTS = {
     ],
     "bareearth:modelkeypoints": ["OUTPUT", "POINT_COUNT", "GROUND_COUNT", "KEY_POINT_COUNT"],
     "bareearth:water": ["OUTPUT", "BREAKLINES", "LAKES", "RIVERS", "AREA"],
+    "bareearth:waterclasses": ["OUTPUT", "POINT_COUNT", "WATER_COUNT", "IGNORED_COUNT"],
     "bareearth:terrainmodel": [
         "DTM",
         "DSM",

@@ -135,6 +135,7 @@ def test_the_log_of_a_run_is_in_one_language(registry, marked, tmp_path, context
         "bareearth:terrainmodel": {"INPUT": ground, "DTM": terrain},
         "bareearth:heightaboveground": {"INPUT": ground, "OUTPUT": out},
         "bareearth:classifyaboveground": {"INPUT": ground, "OUTPUT": out},
+        "bareearth:waterclasses": {"INPUT": ground, "OUTPUT": out},
         "bareearth:modelkeypoints": {"INPUT": ground, "OUTPUT": out},
         "bareearth:assess": {"CLASSIFIED": ground, "REFERENCE": ground},
         "bareearth:comparesettings": {
