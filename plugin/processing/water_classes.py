@@ -7,6 +7,7 @@ from pathlib import Path
 from ...algorithms.engine.memory import Resources
 from ...algorithms.las.writing import check_cloud
 from ...algorithms.products.water_classes import WaterClasses
+from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
 from ..styles import layers
 from .base import command_line
@@ -51,12 +52,11 @@ class WaterClassesAlgorithm(ProductAlgorithm):
         output = self.cloud_output(parameters, context, progress)
         flags = {"water": water_option(parameters), "crs": self.stated}
         progress.command(command_line("water-classes", [str(self.source), output], chosen, flags))
-        check_cloud(self.source, Path(output))  # to find the water can take minutes
+        if is_one_file(self.inputs):
+            check_cloud(self.source, Path(output))  # to find the water can take minutes
         given = parameters, context, GroundClasses.among(chosen)
         water = water_of(self, *given, progress.part(0.0, 0.4))
         request = WaterClassRequest.of(chosen, water=water, crs=self.stated)
         summary = water_classes(self.source, Path(output), request, progress.part(0.4, 1.0))
-        progress.info(summary.text)
-        self.class_counts = summary.class_counts
-        self.show(output, layers.classes(summary.class_counts))
-        return {"OUTPUT": output, **self.numbers_of(summary)}
+        look = layers.classes(summary.class_counts)
+        return self.done(output, summary, look, context, progress)
