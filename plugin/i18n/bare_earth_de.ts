@@ -20,6 +20,14 @@
         <translation>1 bis 255</translation>
     </message>
     <message>
+        <source>1 where ground points are far away</source>
+        <translation>1, wo Bodenpunkte weit entfernt sind</translation>
+    </message>
+    <message>
+        <source>1/m2</source>
+        <translation>1/m²</translation>
+    </message>
+    <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt;</source>
         <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt;</translation>
     </message>
@@ -530,8 +538,28 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Brückendecks, an ihren Querschnitten erkannt. Sonst werden sie zu Gebäuden oder Vegetation. Punkte, die schon Klasse 17 haben, behalten sie.</translation>
     </message>
     <message>
+        <source>Density of first returns</source>
+        <translation>Dichte der ersten Echos</translation>
+    </message>
+    <message>
+        <source>Density of ground points</source>
+        <translation>Dichte der Bodenpunkte</translation>
+    </message>
+    <message>
+        <source>Density of low vegetation</source>
+        <translation>Dichte der niedrigen Vegetation</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Tiefe tiefer Ausreißer</translation>
+    </message>
+    <message>
+        <source>Difference between strips</source>
+        <translation>Unterschied zwischen Flugstreifen</translation>
+    </message>
+    <message>
+        <source>Differences between strips</source>
+        <translation>Unterschiede zwischen Flugstreifen</translation>
     </message>
     <message>
         <source>Differences between strips [m]</source>
@@ -704,6 +732,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>First and single returns</source>
         <translation>Erste und einzige Echos</translation>
+    </message>
+    <message>
+        <source>First returns</source>
+        <translation>Erste Echos</translation>
     </message>
     <message>
         <source>First returns hit the tops of trees and buildings. Take all returns if the return numbers of the file are wrong.</source>
@@ -1202,6 +1234,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Größte Objektbreite</translation>
     </message>
     <message>
+        <source>Maximum surface height</source>
+        <translation>Größte Höhe der Oberfläche</translation>
+    </message>
+    <message>
         <source>Maximum terrain angle</source>
         <translation>Größte Geländeneigung</translation>
     </message>
@@ -1262,6 +1298,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Hier kein Boden</translation>
     </message>
     <message>
+        <source>No ground near</source>
+        <translation>Kein Boden in der Nähe</translation>
+    </message>
+    <message>
         <source>No specification</source>
         <translation>Keine Spezifikation</translation>
     </message>
@@ -1296,6 +1336,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Not installed yet: .laz and .copc.laz files cannot be read or written.</source>
         <translation>Noch nicht installiert: Dateien .laz und .copc.laz lassen sich weder lesen noch schreiben.</translation>
+    </message>
+    <message>
+        <source>Number of strips</source>
+        <translation>Anzahl der Flugstreifen</translation>
     </message>
     <message>
         <source>Number of the raster's band that holds the heights.</source>
@@ -1354,6 +1398,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Nur die Punkte, die ein Geländemodell braucht, werden Boden. Von allen anderen Bodenpunkten liegt keiner weiter vom TIN dieser Schlüsselpunkte entfernt, als die beiden folgenden Toleranzen erlauben.</translation>
     </message>
     <message>
+        <source>Overlap of strips</source>
+        <translation>Überlappung der Flugstreifen</translation>
+    </message>
+    <message>
         <source>Overview of the classes</source>
         <translation>Übersicht der Klassen</translation>
     </message>
@@ -1400,6 +1448,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Points</source>
         <translation>Punkte</translation>
+    </message>
+    <message>
+        <source>Points 0.2 to 2 m above the ground</source>
+        <translation>Punkte 0,2 bis 2 m über dem Boden</translation>
     </message>
     <message>
         <source>Points are compared with their neighbours up to this distance. Choose at least half the shorter side of the largest building. Empty: from the preset, 18 m in the automatic one (more if points are sparse), 2 m in Whitebox.</source>
@@ -1950,8 +2002,8 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Der Ordner für die Raster (GeoTIFF). Sie heißen nach dem, was sie zeigen, zum Beispiel vat.tif und sky-view.tif.</translation>
     </message>
     <message>
-        <source>The folder for the rasters of densities, voids and strips.</source>
-        <translation>Der Ordner für die Raster der Dichten, Lücken und Flugstreifen.</translation>
+        <source>The folder for the rasters of densities, voids and strips, which are shown as layers.</source>
+        <translation>Der Ordner für die Raster der Dichten, Lücken und Flugstreifen, die als Layer gezeigt werden.</translation>
     </message>
     <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
@@ -2214,6 +2266,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Virtuelle Punktwolke</translation>
     </message>
     <message>
+        <source>Voids of the ground</source>
+        <translation>Lücken des Bodens</translation>
+    </message>
+    <message>
         <source>Water</source>
         <translation>Gewässer</translation>
     </message>
@@ -2468,6 +2524,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>ptd,axelsson,densification</source>
         <translation>ptd,axelsson,Verdichtung</translation>
+    </message>
+    <message>
+        <source>quality</source>
+        <translation>Qualität</translation>
     </message>
     <message>
         <source>quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,specification,lasoverlap,lasgrid</source>

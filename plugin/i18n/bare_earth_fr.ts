@@ -20,6 +20,14 @@
         <translation>1 à 255</translation>
     </message>
     <message>
+        <source>1 where ground points are far away</source>
+        <translation>1 où les points du sol sont loin</translation>
+    </message>
+    <message>
+        <source>1/m2</source>
+        <translation>1/m²</translation>
+    </message>
+    <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt;</source>
         <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt;</translation>
     </message>
@@ -530,8 +538,28 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Tabliers de ponts, reconnus à leurs coupes en travers. Sinon, ils deviennent des bâtiments ou de la végétation. Les points qui ont déjà la classe 17 la gardent.</translation>
     </message>
     <message>
+        <source>Density of first returns</source>
+        <translation>Densité des premiers retours</translation>
+    </message>
+    <message>
+        <source>Density of ground points</source>
+        <translation>Densité des points du sol</translation>
+    </message>
+    <message>
+        <source>Density of low vegetation</source>
+        <translation>Densité de la végétation basse</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Profondeur des points aberrants bas</translation>
+    </message>
+    <message>
+        <source>Difference between strips</source>
+        <translation>Écart entre bandes</translation>
+    </message>
+    <message>
+        <source>Differences between strips</source>
+        <translation>Écarts entre bandes</translation>
     </message>
     <message>
         <source>Differences between strips [m]</source>
@@ -704,6 +732,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>First and single returns</source>
         <translation>Premiers retours et retours uniques</translation>
+    </message>
+    <message>
+        <source>First returns</source>
+        <translation>Premiers retours</translation>
     </message>
     <message>
         <source>First returns hit the tops of trees and buildings. Take all returns if the return numbers of the file are wrong.</source>
@@ -1202,6 +1234,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Taille maximale des objets</translation>
     </message>
     <message>
+        <source>Maximum surface height</source>
+        <translation>Hauteur maximale de la surface</translation>
+    </message>
+    <message>
         <source>Maximum terrain angle</source>
         <translation>Pente maximale du terrain</translation>
     </message>
@@ -1262,6 +1298,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Pas de sol ici</translation>
     </message>
     <message>
+        <source>No ground near</source>
+        <translation>Pas de sol à proximité</translation>
+    </message>
+    <message>
         <source>No specification</source>
         <translation>Aucune spécification</translation>
     </message>
@@ -1296,6 +1336,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Not installed yet: .laz and .copc.laz files cannot be read or written.</source>
         <translation>Pas encore installé : les fichiers .laz et .copc.laz ne peuvent être ni lus ni écrits.</translation>
+    </message>
+    <message>
+        <source>Number of strips</source>
+        <translation>Nombre de bandes</translation>
     </message>
     <message>
         <source>Number of the raster's band that holds the heights.</source>
@@ -1354,6 +1398,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Seuls les points dont un modèle de terrain a besoin deviennent du sol. Parmi tous les autres points sol, aucun n'est plus loin du TIN de ces points clés que les deux tolérances ci-dessous.</translation>
     </message>
     <message>
+        <source>Overlap of strips</source>
+        <translation>Recouvrement des bandes</translation>
+    </message>
+    <message>
         <source>Overview of the classes</source>
         <translation>Vue d'ensemble des classes</translation>
     </message>
@@ -1400,6 +1448,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Points</source>
         <translation>Points</translation>
+    </message>
+    <message>
+        <source>Points 0.2 to 2 m above the ground</source>
+        <translation>Points de 0,2 à 2 m au-dessus du sol</translation>
     </message>
     <message>
         <source>Points are compared with their neighbours up to this distance. Choose at least half the shorter side of the largest building. Empty: from the preset, 18 m in the automatic one (more if points are sparse), 2 m in Whitebox.</source>
@@ -1950,8 +2002,8 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Le dossier des rasters (GeoTIFF). Ils portent le nom de ce qu'ils montrent, par exemple vat.tif et sky-view.tif.</translation>
     </message>
     <message>
-        <source>The folder for the rasters of densities, voids and strips.</source>
-        <translation>Le dossier des rasters des densités, des vides et des bandes de vol.</translation>
+        <source>The folder for the rasters of densities, voids and strips, which are shown as layers.</source>
+        <translation>Le dossier des rasters de densités, de vides et de bandes, qui sont affichés comme couches.</translation>
     </message>
     <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
@@ -2214,6 +2266,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Nuage de points virtuel</translation>
     </message>
     <message>
+        <source>Voids of the ground</source>
+        <translation>Vides du sol</translation>
+    </message>
+    <message>
         <source>Water</source>
         <translation>Eau</translation>
     </message>
@@ -2468,6 +2524,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>ptd,axelsson,densification</source>
         <translation>ptd,axelsson,densification</translation>
+    </message>
+    <message>
+        <source>quality</source>
+        <translation>qualité</translation>
     </message>
     <message>
         <source>quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,specification,lasoverlap,lasgrid</source>

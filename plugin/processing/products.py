@@ -125,7 +125,9 @@ class ProductAlgorithm(BareEarthAlgorithm):
     def numbers_of(self, summary: Any) -> dict[str, Any]:
         """Return the outputs that are numbers, from a summary of one file or of many."""
         names = [name for name, _ in self.numbers]
-        files = getattr(summary, "tiles", (summary,))
+        files = getattr(summary, "tiles", None)
+        if files is None:
+            return {name: getattr(summary, name.lower()) for name in names}
         return {
             name: _TOGETHER.get(name, sum)(getattr(each, name.lower()) for each in files)
             for name in names
