@@ -187,6 +187,7 @@ def classify_file(
             for each in points.values(waiting["above"]):
                 result.refine(*each)
         edits = result.edits(points.cloud, progress, heights)
+        last = points.sparing(last)
         write_changed(las, target, edits, last, points.cloud, points.memory_left)
     return _summary(result, counts, request)
 
@@ -268,7 +269,7 @@ def write_points(
             (step,) = located([request.step], points.place, progress)
             result, _ = points.find(step, step.counts(), progress.part(0.1, 0.9))
             edits = result.edits(points.cloud, progress)
-            last = progress.part(0.9, 1.0)
+            last = points.sparing(progress.part(0.9, 1.0))
             write_changed(las, target, edits, last, points.cloud, points.memory_left)
     return result.summary(target.name)
 
