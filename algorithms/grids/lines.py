@@ -108,12 +108,14 @@ def near_rings(
     # When sorted by y, the places beside an edge are a slice.
     order = np.argsort(y, kind="stable")
     x, y, near = x[order], y[order], result.copy()
+    west, east = (x.min(), x.max()) if len(x) else (np.inf, -np.inf)
     for ring in rings:
         following = np.roll(ring, -1, axis=0)
         low, high = np.minimum(ring, following) - distance, np.maximum(ring, following) + distance
         firsts = np.searchsorted(y, low[:, 1])
         lasts = np.searchsorted(y, high[:, 1], side="right")
-        for edge in np.flatnonzero(firsts < lasts):
+        touches = (firsts < lasts) & (low[:, 0] <= east) & (high[:, 0] >= west)
+        for edge in np.flatnonzero(touches):
             beside = x[firsts[edge] : lasts[edge]]
             which = firsts[edge] + np.flatnonzero(
                 (beside >= low[edge, 0]) & (beside <= high[edge, 0])

@@ -9,6 +9,7 @@ import pytest
 from conftest import Heard
 from realdata import real
 from runs import CancelAt, said
+from scipy.spatial import cKDTree
 from test_water import lake, lake_scene
 
 from bare_earth.algorithms import find_water, read_boundary
@@ -17,6 +18,7 @@ from bare_earth.algorithms.crs.provider import wkt_of_epsg
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.requests import ClassifyRequest, WaterClassRequest
 from bare_earth.algorithms.engine.runs import classify, water_classes
+from bare_earth.algorithms.grids.lines import along, near_rings
 from bare_earth.algorithms.las.extrabytes import REMEMBERED
 from bare_earth.algorithms.products.water import Water
 from bare_earth.algorithms.products.water_classes import WaterClasses, WaterPolygons
@@ -260,3 +262,20 @@ def test_water_of_real_tiles_gets_its_class_back(tmp_path, name, least):
     shapes = read_boundary(Path(tmp_path / "water.geojson"))
     water_classes(ground, target, request(shapes=shapes))
     assert (classes_of(target)[water] == 9).mean() > least
+
+
+def test_distances_from_any_ring_are_those_of_a_dense_ring():
+    random = np.random.default_rng(4)
+    corners = random.uniform(0, 50, (40, 2))
+    corners[7] = corners[6]  # an edge without length
+    x, y = random.uniform(-5, 55, (2, 3000))
+    dense = along(np.column_stack((corners, np.zeros(40))), 0.002, is_closed=True)[:, :2]
+    far = cKDTree(dense).query(np.column_stack((x, y)))[0]
+    near = near_rings(x, y, [corners[:0], corners], 0.7)
+    sure = np.abs(far - 0.7) > 1e-5
+    assert sure.sum() > 2900 and 500 < near.sum() < 2500
+    assert np.array_equal(near[sure], far[sure] <= 0.7)
+    assert near_rings(x[:0], y[:0], [corners], 0.7).size == 0
+    # Places in an order of their own, and only some of them, get the same.
+    some = random.permutation(3000)[:100]
+    assert np.array_equal(near_rings(x[some], y[some], [corners], 0.7), near[some])
