@@ -13,7 +13,7 @@ from benchmarks.scenes.earthworks import BERM, ROAD, STOCKPILE
 @functools.lru_cache(maxsize=2)
 def site(kind):
     """Return a scene, and the landform of each of its points."""
-    scene = make(kind, seed=8, density=14.0)
+    scene = make(kind, seed=8, density=10.0)
     land = KINDS[kind].landscape(scene.seed, scene.settings)[0]
     x, y, _ = scene.points
     return scene, land.landform(x - scene.corner[0], y - scene.corner[1])
@@ -36,7 +36,7 @@ def test_earth_stays_and_machines_go(method):
     assert min(heaps, berms, roads) > 0.99
     assert machines < 0.03 and containers < 0.02
     # In cells of 1 m, berms of 0.6 to 1.8 m are narrow.
-    assert kept("earthworks", method, "automatic")[1] < 0.7
+    assert kept("earthworks", method, "automatic")[1] < 0.75
 
 
 @pytest.mark.parametrize("method", METHODS)
