@@ -53,7 +53,9 @@ def check_points(path, before, scene):
 
 def test_the_function_of_the_page_classifies_a_cloud_in_place(cloud, scene):
     before, called = laspy.read(cloud), []
-    code = re.search(r"```python\n(def run_pdaltranslate_smrf.+?)```", PAGE.read_text("utf-8"), re.S)
+    code = re.search(
+        r"```python\n(def run_pdaltranslate_smrf.+?)```", PAGE.read_text("utf-8"), re.S
+    )
 
     class System:
         """As `opendm.system`, whose commands are run by a shell."""
