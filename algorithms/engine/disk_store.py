@@ -5,10 +5,11 @@ from __future__ import annotations
 import bisect
 import contextlib
 import dataclasses
+import mmap
 import os
 import threading
 from pathlib import Path
-from typing import Any, BinaryIO, Iterator, NamedTuple, Sequence
+from typing import BinaryIO, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from .blocks import Blocks
+from .parts_on_disk import without_points
 from .store import (
     BlockPoints,
     Corner,
@@ -109,7 +111,7 @@ class DiskStore:
             self._records.write(records.tobytes())
             self._orders.write(which.astype(_INDEX).tobytes())
         self._runs.add(found.codes, found.counts, self._count)
-        self._parts.append(_Part(_without_points(part), self._count, part.count))
+        self._parts.append(_Part(without_points(part), self._count, part.count))
         self._count += len(which)
 
     def finish(self, progress: Progress = SILENT) -> None:
@@ -177,17 +179,6 @@ class DiskStore:
         return values
 
 
-def _without_points(part: PointCloud) -> PointCloud:
-    """Return a cloud with all but its points."""
-    columns: dict[str, Any] = {
-        # Copies, because a view would keep the points.
-        name: value[:0].copy()
-        for name, value in vars(part).items()
-        if isinstance(value, np.ndarray)
-    }
-    return dataclasses.replace(part, **columns)
-
-
 def _flags(part: PointCloud, marks: Marks, which: np.ndarray) -> np.ndarray:
     """Return the flags of some points as the bits of an integer."""
     flags = (_MULTI_RETURN * (part.number_of_returns[which] > 1)).astype(np.uint8)
@@ -203,8 +194,8 @@ def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
     return np.frombuffer(file.read((end - start) * kind.itemsize), dtype=kind)
 
 
-def allocated_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
-    """Return room for values of points in a temporary file without a name.
+class ValuesOnDisk:
+    """Values of points in a temporary file without a name, which is mapped into memory.
 
     Parameters
     ----------
@@ -215,23 +206,37 @@ def allocated_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
     count : int
         Number of values.
 
+    Attributes
+    ----------
+    values : numpy.ndarray, shape (count,)
+        The values.
+
     Raises
     ------
     BareEarthError
         If the disk is full. Without this check, writing to the mapped file would end the process.
     """
-    try:
-        with unnamed_file(target.parent) as file:
-            size = max(count, 1) * np.dtype(kind).itemsize
-            if hasattr(os, "posix_fallocate"):
-                os.posix_fallocate(file.fileno(), 0, size)
-            else:
-                for start in range(0, size, _STEP):
-                    file.write(bytes(min(_STEP, size - start)))
-                file.flush()
-            return np.memmap(file, kind, "r+", shape=(count,))
-    except OSError as error:
-        raise describe_write_error(target, error) from error
+
+    def __init__(self, target: Path, kind: type, count: int) -> None:
+        size = max(count, 1) * np.dtype(kind).itemsize
+        try:
+            with unnamed_file(target.parent) as file:
+                if hasattr(os, "posix_fallocate"):
+                    os.posix_fallocate(file.fileno(), 0, size)
+                else:
+                    for start in range(0, size, _STEP):
+                        file.write(bytes(min(_STEP, size - start)))
+                    file.flush()
+                self._map = mmap.mmap(file.fileno(), size)
+        except OSError as error:
+            raise describe_write_error(target, error) from error
+        self.values = np.frombuffer(self._map, kind, count)
+
+    def leave_memory(self) -> None:
+        """Let the values be on disk only, until they are used again."""
+        # The file keeps them, also those that have not reached the disk yet.
+        if hasattr(mmap, "MADV_DONTNEED"):
+            self._map.madvise(mmap.MADV_DONTNEED)
 
 
 def _joined(
