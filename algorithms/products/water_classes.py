@@ -19,7 +19,7 @@ class WaterClasses(ParameterSet):
 
     shore_distance: float = parameter(
         0.7,
-        label="Distance of ignored ground from the shore",
+        label="Ignored ground beside the shore",
         unit="m",
         minimum=0.0,
         maximum=1000.0,

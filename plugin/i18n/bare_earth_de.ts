@@ -24,10 +24,6 @@
         <translation>1, wo Bodenpunkte weit entfernt sind</translation>
     </message>
     <message>
-        <source>1/m2</source>
-        <translation>1/m²</translation>
-    </message>
-    <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt;</source>
         <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt;</translation>
     </message>
@@ -570,10 +566,6 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Richtung, aus der das Licht kommt, von Norden aus im Uhrzeigersinn. Vier Lichter haben ihre eigenen Richtungen.</translation>
     </message>
     <message>
-        <source>Distance of ignored ground from the shore</source>
-        <translation>Abstand des ignorierten Bodens vom Ufer</translation>
-    </message>
-    <message>
         <source>Distance of voids</source>
         <translation>Abstand für Lücken</translation>
     </message>
@@ -1000,6 +992,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Ignored classes of the reference</source>
         <translation>Nicht beachtete Klassen der Referenz</translation>
+    </message>
+    <message>
+        <source>Ignored ground beside the shore</source>
+        <translation>Ignorierter Boden neben dem Ufer</translation>
     </message>
     <message>
         <source>In a CRS in feet, a size of 3 in units of the CRS gives cells of exactly 3 feet that begin at whole multiples of 3 feet.</source>

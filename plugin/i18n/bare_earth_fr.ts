@@ -24,10 +24,6 @@
         <translation>1 où les points du sol sont loin</translation>
     </message>
     <message>
-        <source>1/m2</source>
-        <translation>1/m²</translation>
-    </message>
-    <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt;</source>
         <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt;</translation>
     </message>
@@ -570,10 +566,6 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Direction d'où vient la lumière, dans le sens horaire depuis le nord. Quatre lumières ont leurs propres directions.</translation>
     </message>
     <message>
-        <source>Distance of ignored ground from the shore</source>
-        <translation>Distance du sol ignoré à la rive</translation>
-    </message>
-    <message>
         <source>Distance of voids</source>
         <translation>Distance des vides</translation>
     </message>
@@ -1000,6 +992,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Ignored classes of the reference</source>
         <translation>Classes ignorées de la référence</translation>
+    </message>
+    <message>
+        <source>Ignored ground beside the shore</source>
+        <translation>Sol ignoré le long de la rive</translation>
     </message>
     <message>
         <source>In a CRS in feet, a size of 3 in units of the CRS gives cells of exactly 3 feet that begin at whole multiples of 3 feet.</source>

@@ -55,7 +55,7 @@ SHOWN = (
     mark("1 is level"), mark("Archaeological topography"), mark("Red relief"),
     mark("First returns"), mark("Ground points"), mark("Points 0.2 to 2 m above the ground"),
     mark("1 where ground points are far away"), mark("Number of strips"),
-    mark("Difference between strips"), mark("1/m2"),
+    mark("Difference between strips"),
 )  # fmt: skip
 
 
