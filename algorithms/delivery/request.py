@@ -28,10 +28,29 @@ from ..survey.selection import Selection
 from .deliveries import DEFAULT_DELIVERY, DELIVERIES, Delivery
 
 _Set = TypeVar("_Set", bound=ParameterSet)
-AS_DELIVERY = "as-delivery"
+# No delivery but outputs that the user chooses, and the specification that a delivery has.
+NO_DELIVERY, AS_DELIVERY = "own", "as-delivery"
 _BRIDGE_CLASS = 17
 # The specification whose limits of vegetation are not the usual ones, and the name of these.
 _IGN = "ign"
+
+
+@dataclass(frozen=True)
+class DeliveryChoice(ParameterSet):
+    """Which delivery is made, if any."""
+
+    # Optional, since it is newer than saved models of the step from a point cloud to maps.
+    delivery: str | None = parameter(
+        NO_DELIVERY,
+        label="Delivery",
+        optional=True,
+        choices={
+            NO_DELIVERY: "Own choice of outputs",
+            **{name: each.label for name, each in DELIVERIES.items()},
+        },
+        help="All outputs that a job hands over, in one folder, with a page that lists them. Only"
+        " with your own choice of outputs are the fields of single outputs used.",
+    )
 
 
 @dataclass(frozen=True)
@@ -70,7 +89,7 @@ class DeliveryOptions(ParameterSet):
 
 @dataclass(frozen=True)
 class DeliveryTerrain(MapTerrain):
-    """The same as for maps, with a cell size that follows from the ground points."""
+    """The same as for maps, with a cell size that can be left open."""
 
     dtm_cell_size: float | None = parameter_of(  # type: ignore[assignment]
         MapTerrain,
@@ -78,7 +97,16 @@ class DeliveryTerrain(MapTerrain):
         default=None,
         optional=True,
         empty="by the density of the ground points",
+        help="Side of a cell of the terrain model and of its hillshade. Empty: 1 m, and for a"
+        " delivery as fine as the ground points allow, or as the specification states.",
     )
+
+    def with_cells(self, size: float) -> MapTerrain:
+        """Return the parameters of maps, with a cell size in metres if it is left open."""
+        values = {each.name: getattr(self, each.name) for each in self.declarations()}
+        if values["dtm_cell_size"] is None:
+            values |= {"dtm_cell_size": size, "dtm_cell_unit": "m"}
+        return MapTerrain(**values)
 
 
 @dataclass(frozen=True)
@@ -203,11 +231,7 @@ class DeliveryRequest(Request):
 
     def terrain_with(self, cell_size: float) -> MapTerrain:
         """Return the parameters of the rasters, with a cell size in metres if none is given."""
-        given = _or_else(self.terrain, self.content.terrain)
-        values = {each.name: getattr(given, each.name) for each in given.declarations()}
-        if values["dtm_cell_size"] is None:
-            values |= {"dtm_cell_size": cell_size, "dtm_cell_unit": "m"}
-        return MapTerrain(**values)
+        return _or_else(self.terrain, self.content.terrain).with_cells(cell_size)
 
     @property
     def water_wanted(self) -> Water | None:

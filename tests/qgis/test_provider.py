@@ -50,7 +50,7 @@ PARAMETERS = {
     ],
     "bareearth:pointcloudtoterrain": [
         "INPUT", "INPUT_FOLDER", "CRS", "EXTENT", "BOUNDARY",
-        "METHOD", "PRESET",
+        "DELIVERY", "METHOD", "PRESET",
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "RELIEF_SMOOTHING", "RELIEF_RADIUS",
@@ -61,6 +61,7 @@ PARAMETERS = {
         "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE", "PIT_FREE", "THREADS", "MEMORY",
         "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
+        "DELIVERY_FOLDER",
         "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
     ],
     "bareearth:gridminimum": [
@@ -158,6 +159,8 @@ OUTPUTS = {
         "GROUND_COUNT",
     ],
     "bareearth:pointcloudtoterrain": [
+        "DELIVERY_FOLDER",
+        "PAGE",
         "OUTPUT",
         "DTM",
         "DSM",
@@ -379,7 +382,8 @@ def test_what_users_look_for_is_in_front(registry):
     for name in ("tindensification", "gridminimum", "slopefilter"):
         assert seen(name)[:2] == ["INPUT", "EXTENT"]
     assert seen("pointcloudtoterrain") == [
-        "INPUT", "INPUT_FOLDER", "EXTENT", "METHOD", "PRESET", "DTM_CELL_SIZE", "CONTOUR_INTERVAL",
+        "INPUT", "INPUT_FOLDER", "EXTENT", "DELIVERY", "METHOD", "PRESET", "DTM_CELL_SIZE",
+        "CONTOUR_INTERVAL",
     ]  # fmt: skip
     whole = registry.createAlgorithmById("bareearth:pointcloudtoterrain")
     interval = whole.parameterDefinition("CONTOUR_INTERVAL").description()
