@@ -30,8 +30,8 @@ from bare_earth.algorithms.products.confidence import (
     evidence,
     probability,
 )
+from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.survey.tally import Tally
 
 from . import data
 from .generated import remembered_scene
@@ -97,7 +97,7 @@ def look(place: Place) -> list[Seen]:
             ground = Filter(method).ground(cloud)
         except BareEarthError:  # no ground, no terrain
             continue
-        takes_part = Selection().choose(cloud, Tally())
+        takes_part = Selection().choose(cloud, PointCounts())
         seen = compared(points.take(takes_part), ground[takes_part], terrain, seed)
         results.append(seen._replace(method=method, is_sample=place.path is not None))
     return results

@@ -13,8 +13,8 @@ from bare_earth.algorithms.core.parameters import Declaration
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.products.comparison import AssessmentOptions, compare
+from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.survey.tally import Tally
 
 from . import data
 from .measure import Filter, mean
@@ -152,7 +152,7 @@ def _default(method: str, declaration: Declaration, cloud: PointCloud) -> object
     """Return the default; where it is chosen from the points, what is chosen for these."""
     parameters = METHODS[method].parameters()
     if getattr(parameters, declaration.name) is None and hasattr(parameters, "resolve"):
-        parameters = parameters.resolve(cloud.points(Selection().choose(cloud, Tally())))
+        parameters = parameters.resolve(cloud.points(Selection().choose(cloud, PointCounts())))
     return getattr(parameters, declaration.name)
 
 

@@ -39,7 +39,7 @@ GROUPS = {
     "stages": (24, "filters/stages/*.py"),
     "grids": (24, "grids/*.py"),
     "classes": (14, " ".join(f"survey/{each}.py" for each in (
-        "selection", "tally", "corrections", "ground_classes", "point_chooser",
+        "selection", "point_counts", "corrections", "ground_classes", "point_chooser",
     ))),
     "las": (10, "las/writing.py las/records.py las/edits.py las/header_edits.py"),
     "rasters": (6, "rasters/geotiff.py rasters/writing.py"),

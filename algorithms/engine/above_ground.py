@@ -16,10 +16,10 @@ from ..products.above_ground import AboveGround, classes_above_ground
 from ..products.height_above_ground import with_roads
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections, changed_since
-from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import DECIDED, ROADS, is_one_of
+from ..survey.point_counts import by_class, count_classes
 from ..survey.shapes import outside
-from ..survey.tally import by_class, count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
@@ -87,17 +87,17 @@ class ClassifyAboveGround(PointStep):
     area: Area | None = None
     corrections: Corrections = NO_CORRECTIONS
 
-    tally = GroundTally
+    counts = GroundCounts
     blocks = _BLOCKS
     summary_type = AboveGroundSummary
     vpc_name = "above_ground.vpc"
 
-    def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
+    def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return the points that are ground or stand on it, and which of them can change.
 
         What has a meaning, such as water, wires or noise, is neither.
         """
-        ground = self.ground.of(part, tally)
+        ground = self.ground.of(part, counts)
         roads = self.ground.points_of(part, ROADS) & ~ground
         selected = ground | roads | self.ground.points_of(part, DECIDED)
         wanted = selected & ~ground & self.changes(part)
@@ -115,10 +115,10 @@ class ClassifyAboveGround(PointStep):
         if self.area is not None and not self.area.may_touch(box):
             raise outside("the area", self.area.bounds, "the files", box)
 
-    def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
+    def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without ground; tell of one in which nothing can change."""
-        self.ground.check(tally, path)
-        if not tally.classes[list(self.parameters.changing)].any():
+        self.ground.check(counts, path)
+        if not counts.classes[list(self.parameters.changing)].any():
             progress.warning(
                 f"No point of {path} has one of the classes that are decided anew"
                 f" ({', '.join(map(str, self.parameters.changing))})."

@@ -8,7 +8,7 @@ import dataclasses
 import os
 import threading
 from pathlib import Path
-from typing import Any, BinaryIO, Iterator, NamedTuple, Sequence
+from typing import BinaryIO, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from .blocks import Blocks
+from .parts_on_disk import without_points
 from .store import (
     BlockPoints,
     Corner,
@@ -109,7 +110,7 @@ class DiskStore:
             self._records.write(records.tobytes())
             self._orders.write(which.astype(_INDEX).tobytes())
         self._runs.add(found.codes, found.counts, self._count)
-        self._parts.append(_Part(_without_points(part), self._count, part.count))
+        self._parts.append(_Part(without_points(part), self._count, part.count))
         self._count += len(which)
 
     def finish(self, progress: Progress = SILENT) -> None:
@@ -175,17 +176,6 @@ class DiskStore:
         which = _read(self._orders, _INDEX, part.start, ends[0])
         values[which] = _read(self._values, self._kind, part.start, ends[0])
         return values
-
-
-def _without_points(part: PointCloud) -> PointCloud:
-    """Return a cloud with all but its points."""
-    columns: dict[str, Any] = {
-        # Copies, because a view would keep the points.
-        name: value[:0].copy()
-        for name, value in vars(part).items()
-        if isinstance(value, np.ndarray)
-    }
-    return dataclasses.replace(part, **columns)
 
 
 def _flags(part: PointCloud, marks: Marks, which: np.ndarray) -> np.ndarray:

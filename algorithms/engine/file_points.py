@@ -13,11 +13,12 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.reading import read_cloud, read_parts
+from ..survey.point_counts import PointCounts
 from ..survey.shapes import Place
-from ..survey.tally import Tally
 from .disk_store import DiskStore, allocated_on_disk
 from .memory import GIGABYTE, Resources
 from .memory_store import MemoryStore
+from .parts_on_disk import PartsOnDisk, may_keep
 from .steps import PointResult, PointStep, Step
 from .store import Marks, Store
 
@@ -25,7 +26,7 @@ from .store import Marks, Store
 _BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
 # Bytes of memory for a point that is on disk: for its class and other changes.
 _BYTES_A_POINT_ON_DISK = 3
-# Share of the memory that the blocks may take when the points are on disk.
+# Most memory that the blocks take when the points are on disk.
 _MOST_FOR_BLOCKS = GIGABYTE
 # Largest record length of which whole records are kept in memory. To read them again for
 # writing would take as long as the filter.
@@ -84,13 +85,15 @@ class FilePoints:
         self, cloud: PointCloud | LasFile, resources: Resources, target: Path | None = None
     ) -> None:
         self.path, self.count, self.resources = cloud.path, cloud.count, resources
+        self._given = resources
         self.is_in_memory = isinstance(cloud, PointCloud)
         self.cloud = cloud if self.is_in_memory else None
         self._source, self._target = cloud, target
         self._files, self._is_told = contextlib.ExitStack(), False
+        self._kept: PartsOnDisk | None = None
         if not self.is_in_memory:
-            memory = min(resources.bytes, _MOST_FOR_BLOCKS)
-            self.resources = Resources.of(resources.threads, memory)
+            left = max(self.memory_left, resources.bytes // 2)
+            self.resources = Resources.of(resources.threads, min(left, _MOST_FOR_BLOCKS))
 
     @classmethod
     def opened(
@@ -135,10 +138,10 @@ class FilePoints:
     def place(self) -> Place:
         """Where the points lie."""
         if self.is_in_memory:
-            tally = Tally()
+            counts = PointCounts()
             if self.count:
-                tally.see(self.cloud)
-            return Place(str(self.path), self.cloud.crs, tally.bounds)
+                counts.see(self.cloud)
+            return Place(str(self.path), self.cloud.crs, counts.bounds)
         las = self._source
         # The header of one file can be wrong: without a sound extent nothing is refused.
         return Place(str(self.path), read_crs(las), las.outer_box if las.states_extent else None)
@@ -150,7 +153,7 @@ class FilePoints:
         if self.is_in_memory:
             records = self.cloud.records
             held = _BYTES_A_POINT_KEPT + (0 if records is None else records.shape[1])
-        return max(self.resources.bytes - held * self.count, 0)
+        return max(self._given.bytes - held * self.count, 0)
 
     def parts(self, progress: Progress = SILENT) -> Iterator[tuple[slice, PointCloud]]:
         """Yield the points part by part with their indices; the parts are always the same."""
@@ -159,12 +162,31 @@ class FilePoints:
                 yield where, part
                 progress(where.stop / max(self.count, 1))
             return
-        start, told = 0, progress.quiet() if self._is_told else progress
-        self._is_told = True
-        for part in read_parts(self._source, told):
+        start = 0
+        for part in self._read(progress):
             self.cloud = self.cloud or part
             yield slice(start, start + part.count), part
             start += part.count
+
+    def _read(self, progress: Progress) -> Iterator[PointCloud]:
+        """Yield the parts of the file, and keep them on disk the first time."""
+        if self._kept is not None and self._kept.is_complete:
+            start = 0
+            for part in self._kept:
+                yield part
+                start += part.count
+                progress(start / max(self.count, 1))
+            return
+        told = progress.quiet() if self._is_told else progress
+        self._is_told = True
+        if may_keep(self._source, self._target.parent):
+            self._kept = self._files.enter_context(PartsOnDisk(self._target))
+        for part in read_parts(self._source, told):
+            if self._kept is not None:
+                self._kept.add(part)
+            yield part
+        if self._kept is not None:
+            self._kept.finish()
 
     def allocate(self, kind: type) -> np.ndarray:
         """Return an array of one value for each point, on disk if the values are large."""
@@ -180,7 +202,7 @@ class FilePoints:
         Parameters
         ----------
         steps : sequence of tuple
-            Each step with its tally.
+            Each step with its counts.
         parts : iterable
             All points once, as `parts` yields them; their classes may have changed.
         progress : Progress
@@ -199,13 +221,13 @@ class FilePoints:
     ) -> list[Store]:
         every = [Marks(*(np.zeros(self.count, dtype=bool) for _ in range(4))) for _ in steps]
         for where, part in parts:
-            for (step, tally), marks in zip(steps, every):
-                for mine, some in zip(marks, step.marks(part, tally)):
+            for (step, counts), marks in zip(steps, every):
+                for mine, some in zip(marks, step.marks(part, counts)):
                     if some is not None:
                         mine[where] = some
         stores, shares = [], progress.shares(*[1.0] * len(steps))
-        for (step, tally), marks, part in zip(steps, every, shares):
-            step.tell(tally, self.path, progress)
+        for (step, counts), marks, part in zip(steps, every, shares):
+            step.tell(counts, self.path, progress)
             frame = survey_frame(self.cloud.crs, step.origin)
             store = MemoryStore(frame, step.blocks, step.kind)
             store.append(self.cloud, marks)
@@ -224,10 +246,10 @@ class FilePoints:
             for step, _ in steps
         ]
         for _, part in parts:
-            for (step, tally), store in zip(steps, stores):
-                store.append(part, step.marks(part, tally))
-        for (step, tally), store in zip(steps, stores):
-            step.tell(tally, self.path, progress)
+            for (step, counts), store in zip(steps, stores):
+                store.append(part, step.marks(part, counts))
+        for (step, counts), store in zip(steps, stores):
+            step.tell(counts, self.path, progress)
             store.finish()
         return stores
 
@@ -239,7 +261,7 @@ class FilePoints:
             yield where, part, store.values(0)[where] if self.is_in_memory else store.values(number)
 
     def find(
-        self, step: PointStep, tally: Any, progress: Progress = SILENT, then: Sequence[Step] = ()
+        self, step: PointStep, counts: Any, progress: Progress = SILENT, then: Sequence[Step] = ()
     ) -> tuple[PointResult, list[Store]]:
         """Find a value of each point.
 
@@ -247,8 +269,8 @@ class FilePoints:
         ----------
         step : PointStep
             The step that finds it.
-        tally : object
-            The tally of the step.
+        counts : object
+            The counts of the step.
         progress : Progress
             Receives progress and messages.
         then : sequence of Step
@@ -269,7 +291,7 @@ class FilePoints:
             If the user asked to stop.
         """
         parts = self.parts(progress.part(0.0, 0.08))
-        (store,) = self.gathered([(step, tally)], parts, progress.part(0.08, 0.12))
+        (store,) = self.gathered([(step, counts)], parts, progress.part(0.08, 0.12))
         step.work(store, self.resources, progress.part(0.12, 0.94))
         result = step.result(self.path, self.allocate)
 
@@ -278,5 +300,5 @@ class FilePoints:
                 result.add(where, part, values)
                 yield where, result.part(where, part)
 
-        steps = [(each, each.tally()) for each in then]
+        steps = [(each, each.counts()) for each in then]
         return result, self.gathered(steps, found(), progress.part(0.97, 1.0))

@@ -18,7 +18,7 @@ from ..las.lasfile import LasFile
 from ..products.height_above_ground import height_above_ground, with_roads
 from ..rasters.sampling import HeightRaster, HeightSampler
 from ..survey.area import Area
-from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.ground_classes import GroundClasses, GroundCounts
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
@@ -107,13 +107,13 @@ class MeasureHeights(PointStep):
     roads: tuple[int, ...] = ()
     dtm: HeightRaster | None = None
 
-    tally = GroundTally
+    counts = GroundCounts
     kind = np.float64
     blocks = _BLOCKS
     summary_type = HeightSummary
     vpc_name = "heights.vpc"
 
-    def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
+    def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return all points, which of them are ground, and which lie in the area."""
         every = np.ones(part.count, dtype=bool)
         if self.dtm is not None:  # no point needs others
@@ -122,12 +122,12 @@ class MeasureHeights(PointStep):
             return Marks(~every, ~every, ~every)
         inside = every if self.area is None else self.area.of(part)
         roads = self.ground.points_of(part, self.roads)
-        return Marks(every, self.ground.of(part, tally), inside, roads)
+        return Marks(every, self.ground.of(part, counts), inside, roads)
 
-    def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
+    def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without ground."""
         if self.dtm is None:
-            self.ground.check(tally, path)
+            self.ground.check(counts, path)
 
     def check_tile(self, tile: LasFile) -> None:
         """Refuse a file in another CRS than the raster."""

@@ -199,14 +199,14 @@ class PointJob(BlockJob):
         self, store: MemoryStore | DiskStore, cache: CloudCache, progress: Progress
     ) -> list[_Part]:
         """Add the points that the blocks need to a store; return what else is known of them."""
-        parts, tally = [], self.step.tally()
+        parts, counts = [], self.step.counts()
         here = np.array([code(place) for place in self.places])
         for cloud in self.clouds(cache, progress):
             codes = self.grid.codes(cloud)
             places = np.zeros(cloud.count, dtype=np.uint8)
             for number, block in enumerate(here.tolist(), start=1):
                 places[codes == block] = number
-            marks = self.step.marks(cloud, tally)
+            marks = self.step.marks(cloud, counts)
             wanted = places > 0
             if marks.wanted is not None:
                 wanted &= marks.wanted
@@ -301,7 +301,7 @@ class TileJob:
     def run(self, share: Share, progress: Progress) -> Any:
         """Write the file. Return the summary of the step, or None if there is nothing to write."""
         step, las, path, resources = self.step, self.tile, self.tile.path, share.resources
-        tally, kept = step.tally(), TileValues(self)
+        counts, kept = step.counts(), TileValues(self)
         is_copied = layers_kept(las, self.target) is not None
         reading = progress.part(0.0, 0.4).quiet()
         # Where whole records are needed, the file is read again.
@@ -313,10 +313,10 @@ class TileJob:
         with points:
             result = step.result(path, points.allocate)
             for where, part in points.parts():
-                step.count(part, tally)
+                step.count(part, counts)
                 result.add(where, part, kept.of(where, part))
             kept.check()
-            step.tell_of_tile(tally, path, progress)
+            step.tell_of_tile(counts, path, progress)
             result.check(kept.failure)
             if result.is_empty:
                 return None

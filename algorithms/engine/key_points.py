@@ -15,8 +15,8 @@ from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..las.records import check_class
-from ..survey.ground_classes import GroundClasses, GroundTally
-from ..survey.tally import by_class, count_classes
+from ..survey.ground_classes import GroundClasses, GroundCounts
+from ..survey.point_counts import by_class, count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Resources
@@ -109,7 +109,7 @@ class FindKeyPoints(PointStep):
     ground: GroundClasses = field(default_factory=GroundClasses)
     mark: KeyPointMark = field(default_factory=KeyPointMark)
 
-    tally = GroundTally
+    counts = GroundCounts
     summary_type = KeyPointSummary
     vpc_name = "key_points.vpc"
 
@@ -118,16 +118,16 @@ class FindKeyPoints(PointStep):
         """The blocks in which key points are found."""
         return Blocks.of(reach(self.parameters))
 
-    def marks(self, part: PointCloud, tally: GroundTally) -> Marks:
+    def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return the ground points."""
         self.check_tile(part)
         also = (self.mark.key_class,) if self.mark.by_class else ()
-        ground = self.ground.of(part, tally, also)
+        ground = self.ground.of(part, counts, also)
         return Marks(ground, ground, ground)
 
-    def tell(self, tally: GroundTally, path: Path, progress: Progress) -> None:
+    def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without ground."""
-        self.ground.check(tally, path)
+        self.ground.check(counts, path)
 
     def check_tile(self, tile: LasFile | PointCloud) -> None:
         """Refuse a file whose points cannot hold the class."""

@@ -21,8 +21,8 @@ from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.kept_classes import overlapping
 from ..survey.point_chooser import PointChooser
+from ..survey.point_counts import PointCounts, by_class, count_classes
 from ..survey.selection import Selection
-from ..survey.tally import Tally, by_class, count_classes
 from .blocks import Blocks
 from .explanation import Explanation
 from .ground import Label, blocks_of, label_ground
@@ -103,7 +103,7 @@ class LabelGround(PointStep):
     corrections: Corrections = NO_CORRECTIONS
     explanation: Explanation | None = field(default=None, compare=False)
 
-    tally = Tally
+    counts = PointCounts
     summary_type = ClassifiedSummary
     vpc_name = "classified.vpc"
 
@@ -118,30 +118,30 @@ class LabelGround(PointStep):
         reach = method_of(self.parameters).reach(self.parameters)
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
-    def marks(self, part: PointCloud, tally: Tally) -> Marks:
+    def marks(self, part: PointCloud, counts: PointCounts) -> Marks:
         """Return which points take part, are known ground, and lie in the area."""
-        inside, selected, known = self.chooser.choose(part, tally)
+        inside, selected, known = self.chooser.choose(part, counts)
         return Marks(selected, known, inside)
 
-    def tell(self, tally: Tally, path: Path, progress: Progress) -> None:
+    def tell(self, counts: PointCounts, path: Path, progress: Progress) -> None:
         """Report how many points take part; refuse a file without any."""
-        self.chooser.tell(tally, path, progress)
+        self.chooser.tell(counts, path, progress)
 
     def check_tile(self, tile: LasFile) -> None:
         """Refuse a file whose points cannot hold the classes."""
         self.chooser.check_classes(tile.path, tile.point_format)
 
-    def count(self, part: PointCloud, tally: Tally) -> None:
+    def count(self, part: PointCloud, counts: PointCounts) -> None:
         """Count which points take part."""
-        self.chooser.choose(part, tally)
+        self.chooser.choose(part, counts)
 
-    def tell_of_tile(self, tally: Tally, path: Path, progress: Progress) -> None:
+    def tell_of_tile(self, counts: PointCounts, path: Path, progress: Progress) -> None:
         """Report how many points took part; refuse a file without any.
 
         If an area is given, a file need not have points in it.
         """
-        if self.area is None or tally.of_returns:
-            self.selection.tell(tally, path, progress)
+        if self.area is None or counts.of_returns:
+            self.selection.tell(counts, path, progress)
 
     def check_survey(self, box: Box) -> None:
         """Refuse the survey if the area lies outside its extent."""
@@ -156,11 +156,11 @@ class LabelGround(PointStep):
 
     def tell_of_survey(self, done: Sequence[ClassifiedSummary], progress: Progress) -> None:
         """Tell which classes stay; warn if no point lies in the area or in the corrections."""
-        tally = Tally(overlap=sum(each.overlap_count for each in done))
+        counts = PointCounts(overlap=sum(each.overlap_count for each in done))
         for summary in done:
             for value, count in summary.input_class_counts.items():
-                tally.classes[value] += count
-        self.selection.tell_of_kept(tally, progress)
+                counts.classes[value] += count
+        self.selection.tell_of_kept(counts, progress)
         if self.area is not None and not any(each.area_count for each in done):
             progress.warning(
                 "No point lies in the area. Give the extent or the boundary in the CRS of the"

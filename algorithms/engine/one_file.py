@@ -112,9 +112,9 @@ def classify_cloud(
     with may_use(resources.thread_count):
         points = FilePoints(cloud, resources)
         (step,) = located([step], points.place, progress)
-        result, _ = points.find(step, step.tally(), progress)
+        result, _ = points.find(step, step.counts(), progress)
         result.tell(progress)
-        inside, selected, _ = step.chooser.choose(cloud, step.tally())
+        inside, selected, _ = step.chooser.choose(cloud, step.counts())
     return result.classification, selected & inside
 
 
@@ -149,7 +149,7 @@ def classify_file(
         check_raster_output(request.explain, (source, target))
         check_distinct([*request.rasters.wanted.values(), request.explain])
     step, products = request.step, _products(request, las, progress)
-    tally = step.tally()
+    counts = step.counts()
     # Shares of the progress bar.
     raster_count = len(request.rasters.wanted)
     made_too = 3.0 * bool(raster_count) + raster_count, 3.0 * ("heights" in products)
@@ -164,7 +164,7 @@ def classify_file(
         outputs.enter_context(points)
         step, *more = located([step, *products.values()], points.place, progress)
         products = dict(zip(products, more))
-        result, stores = points.find(step, tally, finding, list(products.values()))
+        result, stores = points.find(step, counts, finding, list(products.values()))
         result.tell(progress)
         if request.explain is not None and step.explanation is not None:
             explained = outputs.enter_context(replacing_raster(request.explain))
@@ -187,7 +187,7 @@ def classify_file(
                 result.refine(*each)
         edits = result.edits(points.cloud, progress, heights)
         write_changed(las, target, edits, last, points.cloud, points.memory_left)
-    return _summary(result, tally, request)
+    return _summary(result, counts, request)
 
 
 def _products(request: ClassifyRequest, las: LasFile, progress: Progress) -> dict[str, Step]:
@@ -218,16 +218,16 @@ def _worked(points: FilePoints, step: PointStep, store: Any, progress: Progress)
     return result
 
 
-def _summary(result: ClassifiedPoints, tally: Any, request: ClassifyRequest) -> Summary:
-    counts, to_class = result.class_counts, request.selection.to_class
-    written = [to_class] if request.output.ground_only else np.flatnonzero(counts)
+def _summary(result: ClassifiedPoints, counts: Any, request: ClassifyRequest) -> Summary:
+    by_class, to_class = result.class_counts, request.selection.to_class
+    written = [to_class] if request.output.ground_only else np.flatnonzero(by_class)
     return Summary(
-        point_count=tally.points,
-        area_count=tally.inside,
-        selected_count=tally.wanted,
-        ground_count=int(counts[to_class]),
+        point_count=counts.points,
+        area_count=counts.inside,
+        selected_count=counts.wanted,
+        ground_count=int(by_class[to_class]),
         area_ground_count=result.area_ground_count,
-        class_counts={int(value): int(counts[value]) for value in written},
+        class_counts={int(value): int(by_class[value]) for value in written},
     )
 
 
@@ -265,7 +265,7 @@ def write_points(
     with may_use(resources.thread_count):
         first = progress.part(0.0, 0.1)
         with FilePoints.opened(las, target, resources, progress=first) as points:
-            result, _ = points.find(step, step.tally(), progress.part(0.1, 0.9))
+            result, _ = points.find(step, step.counts(), progress.part(0.1, 0.9))
             edits = result.edits(points.cloud, progress)
             last = progress.part(0.9, 1.0)
             write_changed(las, target, edits, last, points.cloud, points.memory_left)
@@ -302,7 +302,7 @@ def rasters_of_file(
         outputs.enter_context(points)
         (step,) = located([step], points.place, progress)
         parts = points.parts(progress.part(0.1, 0.13))
-        (store,) = points.gathered([(step, step.tally())], parts, progress.part(0.13, 0.15))
+        (store,) = points.gathered([(step, step.counts())], parts, progress.part(0.13, 0.15))
         frame = survey_frame(points.cloud.crs, step.origin)
         step = step.seeing((part for _, part in points.parts()), frame, progress)
         made = step.work(store, points.resources, progress.part(0.15, 0.9))

@@ -40,11 +40,11 @@ class RasterJob(BlockJob):
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
-        step, tally, has_points = self.step, self.step.tally(), False
+        step, counts, has_points = self.step, self.step.counts(), False
         made: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
         with self.store(share) as store:
             for cloud in self.clouds(share.cache, progress.part(0.0, 0.5)):
-                marks = step.marks(cloud, tally)
+                marks = step.marks(cloud, counts)
                 has_points |= bool(marks.selected.any())
                 store.append(cloud, marks)
             store.finish(progress.part(0.5, 0.6))

@@ -40,7 +40,7 @@ from ..rasters.geotiff import RasterGrid
 from ..rasters.virtual import write_virtual
 from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
 from ..survey.area import Area
-from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import NOISE
 from .blocks import Block, Blocks
 from .blockwise import over_blocks
@@ -79,8 +79,8 @@ class RasterSize:
 
 
 @dataclass
-class RasterTally(GroundTally):
-    """Counts of points so far, beside those of `GroundTally`.
+class RasterCounts(GroundCounts):
+    """Counts of points so far, beside those of `GroundCounts`.
 
     Attributes
     ----------
@@ -139,7 +139,7 @@ class MakeRasters(Step):
     cells: CellGrid | None = None
     area: Area | None = None
 
-    tally = RasterTally
+    counts = RasterCounts
 
     @property
     def needs_ground(self) -> bool:
@@ -194,16 +194,16 @@ class MakeRasters(Step):
         cost = Cost(_BYTES_A_POINT, _BYTES_A_CELL / self.cell**2)
         return Blocks.of(self.of_block.reach, cost)
 
-    def marks(self, part: PointCloud, tally: RasterTally) -> Marks:
+    def marks(self, part: PointCloud, counts: RasterCounts) -> Marks:
         """Return which points the rasters cover, which are ground, and which are of the surface."""
         nothing = np.zeros(part.count, dtype=bool)
-        ground = self.ground.of(part, tally)
+        ground = self.ground.of(part, counts)
         if not self.needs_ground:
             ground = nothing
         roads = self.ground.points_of(part, self.roads if self.needs_ground else ())
         if self.constraints.any:
             stays = self.constraints.is_ground(part, ground)
-            tally.excluded += int(np.count_nonzero(ground & ~stays))
+            counts.excluded += int(np.count_nonzero(ground & ~stays))
             ground, roads = stays, self.constraints.is_ground(part, roads)
         if self.covers_ground:
             return Marks(ground | roads, ground, nothing, roads)
@@ -216,7 +216,7 @@ class MakeRasters(Step):
             top &= np.isin(part.classification, self.surface.surface_classes)
         if self.surface.surface_returns == "first":
             top &= part.return_number <= 1
-        tally.top += int(np.count_nonzero(top))
+        counts.top += int(np.count_nonzero(top))
         return Marks(shown, ground, top, roads)
 
     def _thinned(self, part: PointCloud, shown: np.ndarray) -> np.ndarray:
@@ -234,16 +234,16 @@ class MakeRasters(Step):
         kept[which] = True
         return kept
 
-    def tell(self, tally: RasterTally, path: Path, progress: Progress) -> None:
+    def tell(self, counts: RasterCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without points for the rasters."""
         if self.needs_ground:
-            self.ground.check(tally, path)
-            if tally.ground == tally.excluded:
+            self.ground.check(counts, path)
+            if counts.ground == counts.excluded:
                 raise BareEarthError(
                     f"All ground points of {path} lie in polygons of water or without ground."
                     " Check the polygons."
                 )
-        if self.needs_surface and not tally.top:
+        if self.needs_surface and not counts.top:
             if self.surface.surface_classes:
                 raise BareEarthError(
                     f"{path} has no points to make a surface of. Choose other classes for the"

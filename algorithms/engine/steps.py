@@ -39,12 +39,12 @@ class Step:
     ----------
     kind : type
         Type of the value that a store holds for each point.
-    tally : type
+    counts : type
         Type of the counters that `marks` adds to.
     """
 
     kind: type = np.uint8
-    tally: type
+    counts: type
 
     @property
     def origin(self) -> tuple[float, float]:
@@ -56,7 +56,7 @@ class Step:
         """The blocks in which the step works."""
         raise NotImplementedError
 
-    def marks(self, part: PointCloud, tally: Any) -> Marks:
+    def marks(self, part: PointCloud, counts: Any) -> Marks:
         """Return the flags of the points of a part of a file, and count them.
 
         Raises
@@ -66,7 +66,7 @@ class Step:
         """
         raise NotImplementedError
 
-    def tell(self, tally: Any, path: Path, progress: Progress) -> None:
+    def tell(self, counts: Any, path: Path, progress: Progress) -> None:
         """Report what was counted in a file.
 
         Raises
@@ -140,10 +140,10 @@ class PointStep(Step):
         """Return whether no point of a file is to be written, according to its header."""
         return False
 
-    def count(self, part: PointCloud, tally: Any) -> None:
+    def count(self, part: PointCloud, counts: Any) -> None:
         """Count points of one of many files for `tell_of_tile`."""
 
-    def tell_of_tile(self, tally: Any, path: Path, progress: Progress) -> None:
+    def tell_of_tile(self, counts: Any, path: Path, progress: Progress) -> None:
         """Report what was counted in one of many files, or refuse the file."""
 
     def tell_of_survey(self, done: Sequence[Any], progress: Progress) -> None:

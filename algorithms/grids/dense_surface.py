@@ -15,10 +15,10 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
+from .lattice_sample import TILE, LatticeSample
+from .local_delaunay import WIDEST, LocalDelaunay, Queries
 from .morphology import within_square
-from .near_vertices import WIDEST, NearVertices, Queries
 from .surface import CellLattice, Surface
-from .thinned import TILE, ThinnedPoints
 
 # Cells of the lattice along the side of a raster cell, so that the centre of a raster cell is a
 # corner of four lattice cells.
@@ -57,7 +57,7 @@ class DenseSurface:
         progress: Progress = SILENT,
     ) -> None:
         self._points, self._cell = points, cell
-        self._thinned = ThinnedPoints(points, cell / VERTICES_A_SIDE, anchor, progress)
+        self._thinned = LatticeSample(points, cell / VERTICES_A_SIDE, anchor, progress)
 
     def raster(
         self,
@@ -191,7 +191,7 @@ class DenseSurface:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return the heights of the queries in a tile, and which of them are certain."""
         longest = np.inf if max_edge is None else max_edge / self._thinned.side
-        return NearVertices(self._thinned, place, are_corners, longest).heights(queries)
+        return LocalDelaunay(self._thinned, place, are_corners, longest).heights(queries)
 
     def _rest(
         self,
@@ -225,7 +225,7 @@ class DenseSurface:
 
 
 def _by_tile(
-    thinned: ThinnedPoints, x: np.ndarray, y: np.ndarray
+    thinned: LatticeSample, x: np.ndarray, y: np.ndarray
 ) -> list[tuple[tuple[int, int], np.ndarray]]:
     """Return row and column of each tile that holds queries, with the indices of its queries."""
     row, column = (
@@ -240,7 +240,7 @@ def _by_tile(
 
 
 def _marked(
-    thinned: ThinnedPoints, x: np.ndarray, y: np.ndarray, rim: int
+    thinned: LatticeSample, x: np.ndarray, y: np.ndarray, rim: int
 ) -> dict[tuple[int, int], np.ndarray]:
     """Return a mask (TILE * TILE,) of the cells near places for each tile that has any."""
     marked: dict[tuple[int, int], np.ndarray] = {}

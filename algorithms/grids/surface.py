@@ -10,7 +10,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
-from .enclosing import circumcircles, interpolated, leaving_corner, longest_edge
+from .delaunay_walk import circumcircles, interpolated, leaving_corner, longest_edge
 from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates
 from .tin_cells import triangles_of_cells
 

@@ -26,7 +26,7 @@ from .lasfile import (
     new_vlr,
     text_of,
 )
-from .records import Tally, as_points, laszip_vlr, named
+from .records import HeaderCounts, as_points, laszip_vlr, named
 
 _GPS_TIME_TYPE, _SYNTHETIC_RETURNS, _WKT = 0x01, 0x08, 0x10
 _WAVEFORM_DESCRIPTORS = range(100, 355)
@@ -36,7 +36,7 @@ NEW_FORMATS = (6, 6, 7, 7, 6, 7, 6, 7, 8, 6, 8)
 _ANGLE_UNIT = 0.006
 
 
-class Statistics(Tally):
+class Statistics(HeaderCounts):
     """Counts what header and info record state about points."""
 
     def __init__(self, layout: LasFile) -> None:

@@ -148,7 +148,7 @@ def column(records: np.ndarray, start: int, kind: str | np.dtype) -> np.ndarray:
     return records.view(np.dtype({**row, "itemsize": records.shape[1]}))["field"][:, 0]
 
 
-class Tally:
+class HeaderCounts:
     """Counts what a header states about points, while they are written.
 
     Attributes

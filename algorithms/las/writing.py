@@ -27,7 +27,7 @@ from .header import EVLR_COUNT
 from .header_edits import with_statistics
 from .lasfile import COPC_HIERARCHY, COPC_INFO, LASZIP, LasFile
 from .opening import open_las
-from .records import LasRecordWriter, LazRecordWriter, Tally, copy_range, laszip_vlr, named
+from .records import HeaderCounts, LasRecordWriter, LazRecordWriter, copy_range, laszip_vlr, named
 from .sources import open_source
 
 _COPC_SUFFIX = ".copc.laz"
@@ -220,7 +220,7 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
     with open(target, "w+b") as file:
         file.write(layout.prefix(tuple(vlrs), compressed))
         writer = LazRecordWriter(file, laszip) if laszip else LasRecordWriter(file)
-        channels, tally = set(), Tally(layout)
+        channels, counts = set(), HeaderCounts(layout)
         for records, classes, done in rewriting.points():
             if len(records):
                 points = named(layout, records)
@@ -231,13 +231,13 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
                     _check_channels(layout, channels)
             writer.write(records)
             if rewriting.leaves_out:
-                tally.add(records)
+                counts.add(records)
             progress(done)
         writer.finish()
         if rewriting.leaves_out:
             # The header of the source describes all points, not those that are left.
             layout = with_statistics(
-                layout, tally.lowest.tolist(), tally.highest.tolist(), tally.returns.tolist()
+                layout, counts.lowest.tolist(), counts.highest.tolist(), counts.returns.tolist()
             )
             file.seek(0)
             file.write(layout.prefix(tuple(vlrs), compressed)[: len(layout.header)])

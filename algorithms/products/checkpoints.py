@@ -179,7 +179,7 @@ def _residuals(
     if dtm is not None:
         _tell_of_gaps(checkpoints, np.isnan(dtm), progress)
     heights = ground.heights(np.column_stack((x, y)) * across, reach, progress).heights
-    if ground.tally.classes.any():  # else no file is near, and all checkpoints are outside
+    if ground.counts.classes.any():  # else no file is near, and all checkpoints are outside
         ground.check()
     states = np.full(len(x), COUNTED, dtype=object)
     if sure is not None:

@@ -15,7 +15,7 @@ from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.reading import read_parts
 from ..survey.area import Area, Polygon
-from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.shapes import Geometry, Place, located
 
 # Ground points up to so many metres from a line or border give its height.
@@ -300,9 +300,9 @@ def _ground_near(
     if not lines:
         return np.zeros((0, 3))
     wanted = NearPlaces(*np.concatenate(lines)[:, :2].T, _NEAR)
-    found, tally = [np.zeros((0, 3))], GroundTally()
+    found, counts = [np.zeros((0, 3))], GroundCounts()
     for some in clouds:
-        which = np.flatnonzero(ground.of(some, tally))
+        which = np.flatnonzero(ground.of(some, counts))
         places = some.places(which, frame)
         near = which[wanted.of(*places)]
         found.append(np.column_stack(some.points(near, frame)))

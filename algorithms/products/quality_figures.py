@@ -10,7 +10,7 @@ import numpy as np
 
 from ..las.class_names import named_class
 from ..survey.files import Survey
-from ..survey.tally import by_class
+from ..survey.point_counts import by_class
 from .quality_cells import FIRST, WET, Counts, QualityCells
 from .quality_rasters import QUALITY_RASTERS, differences, overlap, rows_of, twice
 from .specifications import Specification

@@ -11,7 +11,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
-from ..grids.enclosing import (
+from ..grids.delaunay_walk import (
     NOWHERE,
     circumcircles,
     enclosing_triangles,
@@ -24,7 +24,7 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.lasfile import LasFile
 from ..las.reading import read_parts
 from ..survey.files import Survey, open_survey
-from ..survey.ground_classes import GroundClasses, GroundTally
+from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.shapes import Place
 
 # Points near places are kept in so many rounds, with more for the places that are not certain yet.
@@ -70,13 +70,13 @@ class SurveyGround:
         The files.
     ground : GroundClasses
         Which points are ground.
-    tally : GroundTally
+    counts : GroundCounts
         Counts of the points that were read last.
     """
 
     survey: Survey
     ground: GroundClasses
-    tally: GroundTally = field(default_factory=GroundTally)
+    counts: GroundCounts = field(default_factory=GroundCounts)
 
     @classmethod
     def of(
@@ -124,13 +124,13 @@ class SurveyGround:
         reach : float
             How near, in metres.
         """
-        self.tally = GroundTally()
+        self.counts = GroundCounts()
         tiles = list(self.survey.tiles)
         if near is not None and len(tiles) > 1:
             tiles = [each for each in tiles if self._is_near(each, near, reach)]
         for tile, part in zip(tiles, progress.shares(*[max(each.count, 1) for each in tiles])):
             for cloud in read_parts(tile, part):
-                yield cloud, self.ground.of(cloud, self.tally)
+                yield cloud, self.ground.of(cloud, self.counts)
 
     def check(self) -> None:
         """Refuse a survey without ground, after all of its parts were read.
@@ -140,7 +140,7 @@ class SurveyGround:
         BareEarthError
             If none of the points that were read is ground.
         """
-        self.ground.check(self.tally, Path(self.place.name))
+        self.ground.check(self.counts, Path(self.place.name))
 
     def _is_near(self, tile: LasFile, places: np.ndarray, reach: float) -> bool:
         west, south, east, north = (each * self.frame.horizontal_unit for each in tile.outer_box)

@@ -12,12 +12,12 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..las.cloud import PointCloud
 from .kept_classes import used
+from .point_counts import count_classes
 from .selection import Selection
-from .tally import count_classes
 
 
 @dataclass
-class GroundTally:
+class GroundCounts:
     """Counts of the parts of a file so far.
 
     Attributes
@@ -53,14 +53,14 @@ class GroundClasses(ParameterSet):
         choices={"use": "Use as others", "leave-out": "Leave out"},
     )
 
-    def of(self, part: PointCloud, tally: GroundTally, also: tuple[int, ...] = ()) -> np.ndarray:
+    def of(self, part: PointCloud, counts: GroundCounts, also: tuple[int, ...] = ()) -> np.ndarray:
         """Return which points are ground, and count them.
 
         Parameters
         ----------
         part : PointCloud
             Any points of a file, with their classes.
-        tally : GroundTally
+        counts : GroundCounts
             The counts are added to it.
         also : tuple of int
             Further classes that are ground.
@@ -78,8 +78,8 @@ class GroundClasses(ParameterSet):
         if not self.ground_classes:
             raise BareEarthError("Choose at least one ground class.")
         ground = self.points_of(part, (*self.ground_classes, *also))
-        tally.ground += int(np.count_nonzero(ground))
-        tally.classes += count_classes(part.classification)
+        counts.ground += int(np.count_nonzero(ground))
+        counts.classes += count_classes(part.classification)
         return ground
 
     def points_of(self, part: PointCloud, classes: Sequence[int]) -> np.ndarray:
@@ -92,7 +92,7 @@ class GroundClasses(ParameterSet):
         """Return which points are used, of any class; boolean, shape (n,)."""
         return used(part, self.overlap)
 
-    def check(self, tally: GroundTally, path: Path) -> None:
+    def check(self, counts: GroundCounts, path: Path) -> None:
         """Refuse a file without ground.
 
         Raises
@@ -100,15 +100,15 @@ class GroundClasses(ParameterSet):
         BareEarthError
             If none of the counted points is ground.
         """
-        if tally.ground:
+        if counts.ground:
             return
         wanted = " or ".join(str(each) for each in self.ground_classes)
-        if tally.classes[list(self.ground_classes)].any():
+        if counts.classes[list(self.ground_classes)].any():
             why = "withheld. Clear that flag first."
             if self.overlap == "leave-out":
                 why = "withheld or points of overlap. Use points of overlap, too."
             raise BareEarthError(f"All ground points of {path} (class {wanted}) are {why}")
-        classes = np.flatnonzero(tally.classes)
+        classes = np.flatnonzero(counts.classes)
         present = ("classes " if classes[1:].size else "class ") + ", ".join(map(str, classes))
         raise BareEarthError(
             f"{path} has no ground points: none is of class {wanted}, all are of"

@@ -9,7 +9,7 @@ import numpy as np
 from ..core.progress import Progress
 from ..las.class_names import named_class
 from ..las.cloud import PointCloud
-from .tally import Tally
+from .point_counts import PointCounts
 
 NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
 LOW_NOISE, HIGH_NOISE = 7, 18
@@ -25,37 +25,37 @@ OVERLAP = 12
 ALL_CLASSES = "all"
 
 
-def tell_of_kept(tally: Tally, others: Collection[int], progress: Progress) -> None:
+def tell_of_kept(counts: PointCounts, others: Collection[int], progress: Progress) -> None:
     """Name the classes that stay by default, and how to classify them too.
 
     Parameters
     ----------
-    tally : Tally
+    counts : PointCounts
         The points of each class.
     others : collection of int
         Further classes that are decided anew, or are known ground.
     progress : Progress
         Receives the messages.
     """
-    present = set(np.flatnonzero(tally.classes).tolist())
+    present = set(np.flatnonzero(counts.classes).tolist())
     kept = present - {*DECIDED, *NOISE, *others}
     roads, left = sorted(kept & set(ROADS)), sorted(kept - set(ROADS))
     if roads:
         progress.info(
-            f"{_counted(tally, roads)} keep their class. Where they lie on the ground, they"
+            f"{_counted(counts, roads)} keep their class. Where they lie on the ground, they"
             " support it."
         )
     if left:
         progress.info(
-            f"{_counted(tally, left)} keep their class and do not take part. To classify them"
+            f"{_counted(counts, left)} keep their class and do not take part. To classify them"
             f' too, give "{ALL_CLASSES}" for the classes to classify (--from-classes'
             f" {ALL_CLASSES})."
         )
 
 
-def _counted(tally: Tally, classes: Sequence[int]) -> str:
+def _counted(counts: PointCounts, classes: Sequence[int]) -> str:
     """Return the numbers of points of some classes in words."""
-    first, *more = (f"{tally.classes[each]:,} {{}}of {named_class(each)}" for each in classes)
+    first, *more = (f"{counts.classes[each]:,} {{}}of {named_class(each)}" for each in classes)
     return ", ".join([first.format("points "), *(each.format("") for each in more)])
 
 

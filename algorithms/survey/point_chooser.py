@@ -14,9 +14,9 @@ from ..las.cloud import PointCloud
 from ..las.records import check_class
 from .area import Area
 from .corrections import NO_CORRECTIONS, ByHand, Corrections
+from .point_counts import PointCounts
 from .selection import Selection
 from .shapes import outside
-from .tally import Tally
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,9 @@ class PointChooser:
     context: float = 0.0
     corrections: Corrections = NO_CORRECTIONS
 
-    def choose(self, part: PointCloud, tally: Tally) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def choose(
+        self, part: PointCloud, counts: PointCounts
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return which points lie in the area, take part, and are known ground; count them.
 
         Returns
@@ -56,13 +58,13 @@ class PointChooser:
         self.check_classes(part.path, part.point_format)
         inside, near = self.inside(part), None
         if self.area is not None:
-            tally.see(part)
+            counts.see(part)
             box = self.area.buffered_box(self.context / part.crs.horizontal_unit)
             near = Area(box).of(part)
         by_hand = self.by_hand(part)
-        selected = self.selection.choose(part, tally, near, by_hand)
-        tally.inside += int(np.count_nonzero(inside))
-        tally.wanted += int(np.count_nonzero(inside & selected))
+        selected = self.selection.choose(part, counts, near, by_hand)
+        counts.inside += int(np.count_nonzero(inside))
+        counts.wanted += int(np.count_nonzero(inside & selected))
         return inside, selected, self.selection.known_ground(part, selected, by_hand)
 
     def check_classes(self, path: Path, point_format: int) -> None:
@@ -81,7 +83,7 @@ class PointChooser:
         """Return which points lie in the area; boolean, shape (n,)."""
         return np.ones(part.count, dtype=bool) if self.area is None else self.area.of(part)
 
-    def tell(self, tally: Tally, path: Path, progress: Progress) -> None:
+    def tell(self, counts: PointCounts, path: Path, progress: Progress) -> None:
         """Tell how many points lie in the area and take part, when all points are counted.
 
         Raises
@@ -90,15 +92,15 @@ class PointChooser:
             If no point lies in the area, or none in the area takes part.
         """
         if self.area is not None:
-            if not tally.inside:
-                raise self.no_point_in_area(str(path), tally.bounds)
-            progress.info(f"{tally.inside:,} of {tally.points:,} points lie in the area.")
-        self.selection.tell(tally, path, progress, self.area is not None)
-        if not tally.by_hand:
+            if not counts.inside:
+                raise self.no_point_in_area(str(path), counts.bounds)
+            progress.info(f"{counts.inside:,} of {counts.points:,} points lie in the area.")
+        self.selection.tell(counts, path, progress, self.area is not None)
+        if not counts.by_hand:
             self.tell_of_corrections(progress)
-        if not tally.wanted:
+        if not counts.wanted:
             raise BareEarthError(
-                f"None of the {tally.inside:,} points in the area takes part. Choose"
+                f"None of the {counts.inside:,} points in the area takes part. Choose"
                 " another area, or other returns or classes."
             )
 

@@ -28,7 +28,7 @@ from .kept_classes import (
     tell_of_kept,
     used,
 )
-from .tally import Tally
+from .point_counts import PointCounts
 
 
 @dataclass(frozen=True)
@@ -171,7 +171,7 @@ class Selection(ParameterSet):
     def choose(
         self,
         part: PointCloud,
-        tally: Tally,
+        counts: PointCounts,
         within: np.ndarray | None = None,
         by_hand: ByHand | None = None,
     ) -> np.ndarray:
@@ -181,7 +181,7 @@ class Selection(ParameterSet):
         ----------
         part : PointCloud
             Any points of the file.
-        tally : Tally
+        counts : PointCounts
             The counts are added to it.
         within : numpy.ndarray of bool, shape (n,), optional
             Only these points can take part. By default, all points.
@@ -196,19 +196,19 @@ class Selection(ParameterSet):
         eligible = self._eligible(part, within)
         of_returns = self._of_returns(part, unnumbered)
         selected = eligible & of_returns
-        tally.add(part, within, unnumbered=unnumbered, eligible=eligible, of_returns=selected)
-        tally.add_counts(overlap=overlapping(part))
+        counts.add(part, within, unnumbered=unnumbered, eligible=eligible, of_returns=selected)
+        counts.add_counts(overlap=overlapping(part))
         if self.roads:
             selected = selected | (self._of_classes(part, self.roads, within) & of_returns)
         if self.seed_classes:
             known = self.known_ground(part, within)
             selected = selected | known
-            tally.add_counts(known=known)
+            counts.add_counts(known=known)
         if by_hand is not None:
             known = self.known_ground(part, within, by_hand)
             selected = np.where(by_hand.known, known, selected)
-            tally.add_counts(by_hand=by_hand.known)
-        tally.add_counts(selected=selected)
+            counts.add_counts(by_hand=by_hand.known)
+        counts.add_counts(selected=selected)
         return selected
 
     def by_hand(self, part: PointCloud, corrections: Corrections) -> ByHand | None:
@@ -225,7 +225,9 @@ class Selection(ParameterSet):
         classes = np.where(inside, told, part.classification).astype(np.uint8)
         return ByHand(inside | changed_since(part), classes)
 
-    def tell(self, tally: Tally, path: Path, progress: Progress, in_area: bool = False) -> None:
+    def tell(
+        self, counts: PointCounts, path: Path, progress: Progress, in_area: bool = False
+    ) -> None:
         """Tell how many points of a file take part, and why others do not.
 
         Raises
@@ -235,42 +237,44 @@ class Selection(ParameterSet):
         """
         given = () if self.from_classes == ALL_CLASSES else self.from_classes or ()
         noise = [value for value in NOISE if value not in given]
-        counts = ", ".join(
-            f"{tally.classes[value]:,} of class {value}" for value in noise if tally.classes[value]
+        left_out = ", ".join(
+            f"{counts.classes[value]:,} of class {value}"
+            for value in noise
+            if counts.classes[value]
         )
-        if counts:
-            progress.info(f"Noise is left out: {counts}.")
-        if tally.withheld:
-            progress.info(f"{tally.withheld:,} withheld points are left out.")
-        self.tell_of_kept(tally, progress)
-        if self.returns == "last" and tally.unnumbered == tally.points:
+        if left_out:
+            progress.info(f"Noise is left out: {left_out}.")
+        if counts.withheld:
+            progress.info(f"{counts.withheld:,} withheld points are left out.")
+        self.tell_of_kept(counts, progress)
+        if self.returns == "last" and counts.unnumbered == counts.points:
             progress.warning("The points have no return numbers: all of them are used.")
-        elif self.returns == "last" and tally.unnumbered:
+        elif self.returns == "last" and counts.unnumbered:
             progress.warning(
-                f"{tally.unnumbered:,} points have no return number: they are taken as single"
+                f"{counts.unnumbered:,} points have no return number: they are taken as single"
                 " returns."
             )
-        if not tally.of_returns:
-            raise BareEarthError(tally.why_empty(f"{path} in the area" if in_area else f"{path}"))
+        if not counts.of_returns:
+            raise BareEarthError(counts.why_empty(f"{path} in the area" if in_area else f"{path}"))
         if self.seed_classes:
             classes = ", ".join(map(str, self.seed_classes))
-            if tally.known:
-                progress.info(f"{tally.known:,} points of class {classes} are known ground.")
+            if counts.known:
+                progress.info(f"{counts.known:,} points of class {classes} are known ground.")
             else:
                 progress.warning(f"There are no points of known ground (class {classes}).")
-        if tally.by_hand:
+        if counts.by_hand:
             progress.info(
-                f"{tally.by_hand:,} points have a class that was set by hand, and keep it."
+                f"{counts.by_hand:,} points have a class that was set by hand, and keep it."
             )
-        progress.info(f"{tally.selected:,} of {tally.points:,} points take part.")
+        progress.info(f"{counts.selected:,} of {counts.points:,} points take part.")
 
-    def tell_of_kept(self, tally: Tally, progress: Progress) -> None:
+    def tell_of_kept(self, counts: PointCounts, progress: Progress) -> None:
         """Tell which classes stay by default, and how many points are of overlap."""
         if not self.from_classes:
-            tell_of_kept(tally, {self.to_class, *(self.seed_classes or ())}, progress)
-        if tally.overlap:
+            tell_of_kept(counts, {self.to_class, *(self.seed_classes or ())}, progress)
+        if counts.overlap:
             fate = "are left out" if self.overlap == "leave-out" else "take part as others do"
-            progress.info(f"{tally.overlap:,} points of overlap {fate}.")
+            progress.info(f"{counts.overlap:,} points of overlap {fate}.")
 
     @property
     def roads(self) -> tuple[int, ...]:

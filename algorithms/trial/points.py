@@ -123,9 +123,9 @@ class TrialPoints:
             If the user asked to stop.
         """
         step = LabelGround(setting.parameters)
-        tally = step.tally()
-        marks = [step.marks(cloud, tally) for cloud in self.clouds]
-        step.tell(tally, self.clouds[0].path, progress if is_first else progress.quiet())
+        counts = step.counts()
+        marks = [step.marks(cloud, counts) for cloud in self.clouds]
+        step.tell(counts, self.clouds[0].path, progress if is_first else progress.quiet())
         progress.info(f"{setting.label}:")
         frame = survey_frame(self.crs)
         store = MemoryStore(frame, step.blocks, step.kind)

@@ -3,12 +3,12 @@
 import laspy
 import numpy as np
 import pytest
+from conftest import Heard
 from runs import said
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
-from bare_earth.algorithms.engine import file_points
 from bare_earth.algorithms.engine.above_ground import ClassifyAboveGround
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.memory import Resources
@@ -311,11 +311,11 @@ def test_there_are_no_seams_between_blocks(file, tmp_path, monkeypatch):
     assert np.mean(one != blocks) < 1e-4
 
 
-def test_points_on_disk_get_the_same_classes(file, tmp_path, monkeypatch):
+def test_points_on_disk_get_the_same_classes(file, tmp_path):
     above_ground(file, tmp_path / "memory.laz")
-    monkeypatch.setattr(file_points, "fits_in_memory", lambda *_: False)
-    few = AboveGroundRequest(resources=Resources(1, 1.0))
-    above_ground(file, tmp_path / "disk.laz", few)
+    few, heard = AboveGroundRequest(resources=Resources(1, 0.001)), Heard()
+    above_ground(file, tmp_path / "disk.laz", few, heard)
+    assert any("wait in a temporary file" in text for text in heard.infos)
     assert np.array_equal(_classes(tmp_path / "memory.laz"), _classes(tmp_path / "disk.laz"))
 
 

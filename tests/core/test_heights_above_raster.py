@@ -5,13 +5,13 @@ import json
 import laspy
 import numpy as np
 import pytest
+from conftest import Heard
 from runs import said
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import SILENT, Notes
 from bare_earth.algorithms.crs.provider import wkt_of_epsg
-from bare_earth.algorithms.engine import file_points
 from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.requests import HeightRequest
@@ -87,15 +87,15 @@ def test_heights_above_a_raster_as_z(tmp_path):
 
 
 def test_memory_and_squares_change_nothing(tmp_path, monkeypatch):
-    source = points(tmp_path / "in.las")
+    source = points(tmp_path / "in.las", count=9000)
     request = HeightRequest(dtm=HeightRaster.of(dtm(tmp_path / "dtm.tif", hole=True)))
     heights(source, tmp_path / "one.las", request)
     monkeypatch.setattr(sampling, "_SIDE", 7)
     monkeypatch.setattr(sampling, "_MOST_KEPT", 2)
     heights(source, tmp_path / "squares.las", request)
-    monkeypatch.setattr(file_points, "fits_in_memory", lambda *_: False)
-    few = Resources(memory=1)
-    heights(source, tmp_path / "disk.las", HeightRequest(dtm=request.dtm, resources=few))
+    few, heard = Resources(memory=0.001), Heard()
+    heights(source, tmp_path / "disk.las", HeightRequest(dtm=request.dtm, resources=few), heard)
+    assert any("wait in a temporary file" in text for text in heard.infos)
     for name in ("squares", "disk"):
         assert (tmp_path / f"{name}.las").read_bytes() == (tmp_path / "one.las").read_bytes()
 

@@ -3,10 +3,11 @@
 import laspy
 import numpy as np
 import pytest
+from conftest import Heard
 from realdata import real
 from runs import said
 
-from bare_earth.algorithms.engine import file_points
+from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.engine.runs import classify, terrain
@@ -96,11 +97,13 @@ def test_many_files_give_the_roads_of_one(town, tmp_path, threads_for_processes)
             np.testing.assert_array_equal(np.asarray(whole[each])[same], np.asarray(part[each]))
 
 
-def test_roads_that_wait_on_disk_are_the_same(town, tmp_path, monkeypatch):
-    for name in ("memory", "disk"):
+def test_roads_that_wait_on_disk_are_the_same(town, tmp_path):
+    for name, memory in (("memory", 4.0), ("disk", 0.001)):
         (tmp_path / name).mkdir()
-        classify(town / "one.las", tmp_path / name / "out.las", request(tmp_path / name))
-        monkeypatch.setattr(file_points, "fits_in_memory", lambda *_: False)
+        how, heard = request(tmp_path / name, resources=Resources(memory=memory)), Heard()
+        classify(town / "one.las", tmp_path / name / "out.las", how, heard)
+        waits = any("wait in a temporary file" in text for text in heard.infos)
+        assert waits == (name == "disk")
     for name in ("out.las", "dtm.tif", "confidence.tif"):
         one, other = ((tmp_path / each / name).read_bytes() for each in ("memory", "disk"))
         assert one == other, name

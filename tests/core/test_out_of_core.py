@@ -1,8 +1,10 @@
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import time
+from types import SimpleNamespace
 
 import laspy
 import numpy as np
@@ -145,8 +147,11 @@ def test_ground_points_only_in_memory_and_on_disk(small, tmp_path):
     assert results[0][0].class_counts == {2: results[0][0].ground_count}
 
 
-def test_heights_above_ground_in_memory_and_on_disk(small, tmp_path):
-    source = write(tmp_path / "in.las", 3000, shape=(130.0, 70.0))
+@pytest.mark.parametrize(("name", "free"), [("in.las", 0), ("in.laz", 0), ("in.laz", 1 << 40)])
+def test_heights_above_ground_in_memory_and_on_disk(small, tmp_path, monkeypatch, name, free):
+    # A compressed file is kept on a disk with room, so that it is decompressed once.
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=free))
+    source = write(tmp_path / name, 3000, shape=(130.0, 70.0))
     heights = Output(height_above_ground=True)
     results = [
         run(source, tmp_path / str(each.memory), GridMinimum(), each, output=heights)

@@ -10,8 +10,8 @@ from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.point_chooser import PointChooser
+from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.survey.tally import Tally
 
 
 def cloud_of(classes, number=None, total=None, withheld=None, point_format=6, crs=None):
@@ -29,10 +29,10 @@ def cloud_of(classes, number=None, total=None, withheld=None, point_format=6, cr
 
 def selected_by(selection, cloud, progress, within=None):
     """Return which points take part, and tell of the others, as a run does."""
-    PointChooser(selection).choose(cloud, Tally())
-    tally = Tally()
-    selected = selection.choose(cloud, tally, within)
-    selection.tell(tally, cloud.path, progress, within is not None)
+    PointChooser(selection).choose(cloud, PointCounts())
+    counts = PointCounts()
+    selected = selection.choose(cloud, counts, within)
+    selection.tell(counts, cloud.path, progress, within is not None)
     return selected
 
 

@@ -41,8 +41,8 @@ from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.survey.files import open_survey
+from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.survey.tally import Tally
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
@@ -73,7 +73,7 @@ def many(tmp_path_factory):
 def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
     """Return the points of a file with the classes that they get as one cloud in these blocks."""
     cloud = read_cloud(path)
-    selected = selection.choose(cloud, Tally())
+    selected = selection.choose(cloud, PointCounts())
     store = memory_store(
         [(cloud, selected, selection.known_ground(cloud, selected))],
         survey_frame(cloud.crs),

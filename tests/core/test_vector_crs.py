@@ -12,7 +12,7 @@ from realdata import real
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs import provider
-from bare_earth.algorithms.engine import file_points
+from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.engine.runs import classify, terrain
 from bare_earth.algorithms.products.constraints import Constraints
@@ -84,9 +84,12 @@ def by_library(path, corners, crs, kind="Polygon", layer=None, append=False, **a
     return path
 
 
-def highest(source, target, progress=None, **constraints):
-    known = Constraints(**constraints)
-    request = TerrainRequest(rasters=RasterFiles(dtm=target), constraints=known)
+def highest(source, target, progress=None, resources=Resources(), **constraints):
+    request = TerrainRequest(
+        rasters=RasterFiles(dtm=target),
+        constraints=Constraints(**constraints),
+        resources=resources,
+    )
     terrain(source, request, *[progress] if progress else [])
     with rasterio.open(target) as raster:
         return float(raster.read(1, masked=True).max())
@@ -125,14 +128,16 @@ def test_extended_wkt_states_its_crs(cloud, tmp_path):
 
 
 @pytest.mark.parametrize("at", ["near", "far"])
-def test_points_that_wait_on_disk_are_no_exception(cloud, tmp_path, monkeypatch, at):
-    monkeypatch.setattr(file_points, "fits_in_memory", lambda *_: False)
+def test_points_that_wait_on_disk_are_no_exception(cloud, tmp_path, at):
+    few, heard = Resources(memory=0.001), Heard()
     path = geojson(tmp_path / "a.geojson", moved(CORNERS if at == "near" else FAR, "EPSG:4326"))
+    how = {"no_ground": read_boundary(path), "resources": few, "progress": heard}
     if at == "near":
-        assert highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(path)) < 50.1
+        assert highest(cloud, tmp_path / "a.tif", **how) < 50.1
     else:
         with pytest.raises(BareEarthError, match="lies in the polygons without ground"):
-            highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(path))
+            highest(cloud, tmp_path / "a.tif", **how)
+    assert any("wait in a temporary file" in text for text in heard.infos)
 
 
 def test_the_same_points_are_classified_in_a_boundary_of_any_crs(cloud, tmp_path):

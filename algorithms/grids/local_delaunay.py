@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.threads import parts_of
 from .cells import numbered
-from .enclosing import (
+from .delaunay_walk import (
     NOWHERE,
     enclosing_triangles,
     heights_of_four,
@@ -16,7 +16,7 @@ from .enclosing import (
     longest_edge,
     picked,
 )
-from .thinned import ThinnedPoints
+from .lattice_sample import LatticeSample
 
 # Widths in cells of the windows in which triangles are searched, one after the other. With each,
 # the number of queries for each vertex of the tile above which a triangulation takes less time.
@@ -53,12 +53,12 @@ class Queries(NamedTuple):
         return Queries(*(each[which] for each in self))
 
 
-class NearVertices:
+class LocalDelaunay:
     """The vertices of a tile. They give heights at queries from the vertices near each.
 
     Parameters
     ----------
-    thinned : ThinnedPoints
+    thinned : LatticeSample
         The vertices.
     place : tuple of int
         Row and column of the tile.
@@ -71,7 +71,7 @@ class NearVertices:
 
     def __init__(
         self,
-        thinned: ThinnedPoints,
+        thinned: LatticeSample,
         place: tuple[int, int],
         are_corners: bool,
         max_edge: float = np.inf,

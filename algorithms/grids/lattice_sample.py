@@ -48,7 +48,7 @@ class Tile(NamedTuple):
     outer: np.ndarray
 
 
-class ThinnedPoints:
+class LatticeSample:
     """The point nearest to the centre of each occupied cell; of equally near points, the lowest.
 
     Parameters

@@ -14,7 +14,7 @@ _STEP = 1 << 20
 
 
 @dataclass
-class Tally:
+class PointCounts:
     """Counts of the parts of a file so far.
 
     Attributes
