@@ -18,6 +18,7 @@ from support import ALGORITHM, ROOT
 
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.output import Output
+from bare_earth.algorithms.products.above_ground import ThenAboveGround
 from bare_earth.algorithms.products.surface_model import Gaps
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.selection import Selection
@@ -30,7 +31,10 @@ SHARED_PARAMETERS = [
     "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "RELIEF_SMOOTHING",
         "MAX_EDGE",
-    "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND", "THREADS", "MEMORY",
+    "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND",
+    "ABOVE_GROUND", "MEDIUM_HEIGHT", "HIGH_HEIGHT", "LOW_HEIGHT", "BUILDINGS",
+    "BUILDING_AREA", "BUILDING_HEIGHT", "MARK_BRIDGES", "MARK_HIGH_NOISE", "RECLASSIFY",
+    "THREADS", "MEMORY",
     "CORRECTIONS", "CORRECTIONS_FIELD",
     "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
     "OUTPUT", "DTM", "HILLSHADE", "EXPLANATION",
@@ -84,6 +88,8 @@ PARAMETERS = {
         "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
         "RECURSIVE", "FORMAT", "RESUME", "OVERVIEW",
         "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND",
+        "ABOVE_GROUND", "MEDIUM_HEIGHT", "HIGH_HEIGHT", "LOW_HEIGHT", "BUILDINGS",
+        "BUILDING_AREA", "BUILDING_HEIGHT", "MARK_BRIDGES", "MARK_HIGH_NOISE", "RECLASSIFY",
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "RELIEF_SMOOTHING",
         "MAX_EDGE", "RASTER_PER_FILE",
@@ -492,7 +498,7 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
     page = page_of(each)
     # What all ground classifications share stands on the page of one of them.
     shared = page_of(registry.createAlgorithmById(ALGORITHM))
-    sets = (Selection, TerrainModel, Gaps, Output, Resources)
+    sets = (Selection, TerrainModel, Gaps, Output, ThenAboveGround, Resources)
     of_all = [parameter for declared in sets for parameter in declared.declarations()]
     for declared in each.parameter_sets():
         for parameter in declared.declarations():
