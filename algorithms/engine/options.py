@@ -29,6 +29,7 @@ class TileMethod(ParameterSet):
             "steep": "Steep or rugged terrain",
             "town": "Town",
             "city": "City, large halls",
+            "site": "Drone survey, construction or mining site",
         },
         help="The values of the method for a kind of terrain. For other values, use the command"
         " line or the algorithm of the method.",

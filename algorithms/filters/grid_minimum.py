@@ -81,6 +81,7 @@ PRESETS = {
     "steep": Preset("Steep or rugged terrain", 1.0, (5.0, 2.0), 0.5, 25.0),
     "town": Preset("Town", 1.0, (5.0, 2.0), 0.3, 60.0),
     "city": Preset("City, large halls", 1.0, (5.0, 2.0), 0.3, 120.0),
+    "site": Preset("Drone survey, construction or mining site", 0.5, (5.0, 2.0), 0.5, 25.0),
     CLASSIC: Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0, 0.4, 0.6),
 }
 

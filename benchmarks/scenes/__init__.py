@@ -6,14 +6,14 @@ are the `TUNING_SEEDS`; what is quoted is measured on the `REPORTING_SEEDS`.
 
 from __future__ import annotations
 
-from . import buildings, faults, landforms, mixed, sensors, transport, vegetation
+from . import buildings, earthworks, faults, landforms, mixed, sensors, transport, vegetation
 from .scene import Kind, Scene, Settings
 
 __all__ = ["KINDS", "REPORTING_SEEDS", "TUNING_SEEDS", "Kind", "Scene", "Settings", "make"]
 
 KINDS: dict[str, Kind] = {
     kind.name: kind
-    for module in (landforms, buildings, transport, vegetation, sensors, faults, mixed)
+    for module in (landforms, buildings, transport, vegetation, sensors, faults, mixed, earthworks)
     for kind in module.KINDS
 }
 # Even numbers are for tuning, odd ones for reporting.

@@ -222,6 +222,8 @@ class Landscape:
         Points far from all others; class 7 or 18.
     echoes : tuple of (x, y, radius, depth)
         Clusters of points below the ground, as multiple reflections make them.
+    landform : callable, optional
+        Number of the landform at each place, 0 for none, for figures by landform.
     """
 
     terrain: Surface
@@ -234,6 +236,7 @@ class Landscape:
     missing: Surface | None = None
     stray: tuple[tuple[float, float, float], ...] = ()
     echoes: tuple[tuple[float, float, float, float], ...] = ()
+    landform: Surface | None = None
 
     def surface(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return height and class (0 for the terrain) of what is solid down to the ground."""

@@ -45,6 +45,11 @@ class Settings:
     photogrammetric : bool
         Whether images made the points: one return, edges that are rounded, noise that neighbours
         share, outliers on both sides.
+    blur : float
+        Of points from images: distance in metres within which their heights are means. With 0, a
+        height is that of one place near by.
+    low_tail : float
+        Of points from images: share of points that lie below the surface, mostly by decimetres.
     """
 
     density: float = 4.0
@@ -55,6 +60,8 @@ class Settings:
     noise: float = 0.03
     low_outliers: float = 1e-4
     photogrammetric: bool = False
+    blur: float = 0.0
+    low_tail: float = 0.0
 
 
 @dataclass(frozen=True)

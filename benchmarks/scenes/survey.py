@@ -33,6 +33,12 @@ _MOST_RETURNS = 5
 _BEAM = 0.2
 # What is lower counts as ground, as those who edit surveys by hand have it.
 _LOWEST_PLANT = 0.25
+# A blurred height is the mean of so many places. The tail of points below the surface of images
+# falls off within so many metres.
+_MEAN_OF = 5
+_TAIL = 0.35
+# Points that lie deeper than this are noise.
+_LOW = 0.8
 
 
 class Returns(NamedTuple):
@@ -165,6 +171,8 @@ def _from_images(
     # A match is a mean of what lies round about: the height is that of a place near by.
     near_x, near_y = (each + random.normal(0, 0.12, len(x)) for each in (x, y))
     near, codes = landscape.surface(near_x, near_y)
+    if settings.blur:
+        near, codes = _blurred(x, y, landscape, settings.blur, random)
     solid = classes != 17
     z = np.where(solid, near, z)
     classes = np.where(solid, np.where(codes == 0, GROUND, codes), classes)
@@ -183,6 +191,25 @@ def _from_images(
     ones = np.ones(len(x), dtype=np.uint8)
     returns = Returns(x, y, z, classes.astype(np.uint8), ones, ones.copy())
     return _finished(returns, landscape, settings, random)
+
+
+def _blurred(
+    x: np.ndarray, y: np.ndarray, landscape: Landscape, blur: float, random: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return means of heights round about: walls become slopes, and objects get a foot.
+
+    A point belongs to the object as soon as it stands a step above the ground.
+    """
+    total, code = np.zeros(len(x)), np.zeros(len(x), dtype=np.uint8)
+    side = random.normal(0, 0.5 * blur, (2, len(x)))  # what all places of a mean share
+    for _ in range(_MEAN_OF):
+        off = side + random.uniform(-blur, blur, (2, len(x)))
+        z, its = landscape.surface(x + off[0], y + off[1])
+        total += z
+        code = np.maximum(code, its)
+    z = total / _MEAN_OF
+    stands = z > landscape.terrain(x, y) + _LOWEST_PLANT
+    return z, np.where(stands, code, 0).astype(np.uint8)
 
 
 def _sorted(
@@ -222,6 +249,11 @@ def _finished(
         turn, length = random.uniform(0, np.pi), random.uniform(1.5, 3.0)
         u, v = x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn)
         z += settings.noise * np.sin(u / length) * np.sin(v / length + np.sin(u / 5.3))
+    if settings.low_tail:
+        sunk = np.flatnonzero(random.random(count) < settings.low_tail)
+        deep = random.exponential(_TAIL, len(sunk))
+        z[sunk] -= deep
+        classes[sunk[deep > _LOW]] = LOW_NOISE
     x += random.normal(0, 2 * settings.noise, count)
     y += random.normal(0, 2 * settings.noise, count)
     z += random.normal(0, settings.noise, count)

@@ -574,6 +574,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Gelände aus Drohnenflug</translation>
     </message>
     <message>
+        <source>Drone survey, construction or mining site</source>
+        <translation>Drohnenvermessung, Baustelle oder Abbau</translation>
+    </message>
+    <message>
         <source>Elevation raster</source>
         <translation>Höhenraster</translation>
     </message>
@@ -800,6 +804,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Grid minimum, City, large halls</source>
         <translation>Rasterminimum, Großstadt, große Hallen</translation>
+    </message>
+    <message>
+        <source>Grid minimum, Drone survey, construction or mining site</source>
+        <translation>Rasterminimum, Drohnenvermessung, Baustelle oder Abbau</translation>
     </message>
     <message>
         <source>Grid minimum, Flat land, fields</source>
@@ -1730,8 +1738,12 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Seitenlänge der Zellen von Dichten und Lücken. Flugstreifen und größte Höhen haben doppelt so große Zellen.</translation>
     </message>
     <message>
-        <source>Side of the cells whose lowest points are compared. Not used with the preset Whitebox. Empty: the usual distance between points, at least 1 m.</source>
-        <translation>Seite der Zellen, deren tiefste Punkte verglichen werden. Nicht für die Voreinstellung Whitebox. Leer: der übliche Abstand der Punkte, mindestens 1 m.</translation>
+        <source>Side of the cells whose lowest points are compared. Not used with the preset Whitebox. Empty: the usual distance between points, at least 1 m (0.5 m in the preset for sites).</source>
+        <translation>Seite der Zellen, deren tiefste Punkte verglichen werden. Nicht für die Voreinstellung Whitebox. Leer: der übliche Abstand der Punkte, mindestens 1 m (0,5 m in der Voreinstellung für Baustellen).</translation>
+    </message>
+    <message>
+        <source>Side of the cells whose lowest points may become vertices of the TIN; at least the usual distance between points. Smaller cells keep narrow banks and sharp edges, but under trees also more plants. Empty: from the preset.</source>
+        <translation>Seite der Zellen, deren tiefste Punkte Ecken des TIN werden können; mindestens der übliche Abstand der Punkte. Kleinere Zellen erhalten schmale Wälle und scharfe Kanten, unter Bäumen aber auch mehr Pflanzen. Leer: aus der Voreinstellung.</translation>
     </message>
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller cells follow finer terrain if they hold at least one point, but have more rims at low plants. Empty: from the preset, or larger if points are too sparse for it.</source>
@@ -1756,6 +1768,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Slope filter, City, large halls</source>
         <translation>Neigungsfilter, Großstadt, große Hallen</translation>
+    </message>
+    <message>
+        <source>Slope filter, Drone survey, construction or mining site</source>
+        <translation>Neigungsfilter, Drohnenvermessung, Baustelle oder Abbau</translation>
     </message>
     <message>
         <source>Slope filter, Flat land, fields</source>
@@ -1852,6 +1868,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>TIN densification, City, large halls</source>
         <translation>TIN-Verdichtung, Großstadt, große Hallen</translation>
+    </message>
+    <message>
+        <source>TIN densification, Drone survey, construction or mining site</source>
+        <translation>TIN-Verdichtung, Drohnenvermessung, Baustelle oder Abbau</translation>
     </message>
     <message>
         <source>TIN densification, Flat land, fields</source>

@@ -574,6 +574,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Site relevé par drone</translation>
     </message>
     <message>
+        <source>Drone survey, construction or mining site</source>
+        <translation>Relevé par drone, chantier ou carrière</translation>
+    </message>
+    <message>
         <source>Elevation raster</source>
         <translation>Raster d'altitudes</translation>
     </message>
@@ -800,6 +804,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Grid minimum, City, large halls</source>
         <translation>Minimum de grille, Grande ville, grandes halles</translation>
+    </message>
+    <message>
+        <source>Grid minimum, Drone survey, construction or mining site</source>
+        <translation>Minimum de grille, Relevé par drone, chantier ou carrière</translation>
     </message>
     <message>
         <source>Grid minimum, Flat land, fields</source>
@@ -1730,8 +1738,12 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Côté des cellules des densités et des vides. Les bandes de vol et les hauteurs maximales ont des cellules deux fois plus grandes.</translation>
     </message>
     <message>
-        <source>Side of the cells whose lowest points are compared. Not used with the preset Whitebox. Empty: the usual distance between points, at least 1 m.</source>
-        <translation>Côté des cellules dont les points les plus bas sont comparés. Pas pour le préréglage Whitebox. Vide : la distance habituelle entre les points, au moins 1 m.</translation>
+        <source>Side of the cells whose lowest points are compared. Not used with the preset Whitebox. Empty: the usual distance between points, at least 1 m (0.5 m in the preset for sites).</source>
+        <translation>Côté des cellules dont les points les plus bas sont comparés. Pas pour le préréglage Whitebox. Vide : la distance habituelle entre les points, au moins 1 m (0,5 m dans le préréglage pour les chantiers).</translation>
+    </message>
+    <message>
+        <source>Side of the cells whose lowest points may become vertices of the TIN; at least the usual distance between points. Smaller cells keep narrow banks and sharp edges, but under trees also more plants. Empty: from the preset.</source>
+        <translation>Côté des cellules dont les points les plus bas peuvent devenir des sommets du TIN ; au moins la distance habituelle entre les points. Des cellules plus petites gardent les talus étroits et les arêtes vives, mais aussi plus de plantes sous les arbres. Vide : d'après le préréglage.</translation>
     </message>
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller cells follow finer terrain if they hold at least one point, but have more rims at low plants. Empty: from the preset, or larger if points are too sparse for it.</source>
@@ -1756,6 +1768,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Slope filter, City, large halls</source>
         <translation>Filtre de pente, Grande ville, grandes halles</translation>
+    </message>
+    <message>
+        <source>Slope filter, Drone survey, construction or mining site</source>
+        <translation>Filtre de pente, Relevé par drone, chantier ou carrière</translation>
     </message>
     <message>
         <source>Slope filter, Flat land, fields</source>
@@ -1852,6 +1868,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>TIN densification, City, large halls</source>
         <translation>Densification de TIN, Grande ville, grandes halles</translation>
+    </message>
+    <message>
+        <source>TIN densification, Drone survey, construction or mining site</source>
+        <translation>Densification de TIN, Relevé par drone, chantier ou carrière</translation>
     </message>
     <message>
         <source>TIN densification, Flat land, fields</source>

@@ -18,7 +18,12 @@ from benchmarks.scenes.simple import village
 
 DOCS = Path(__file__).parents[2] / "docs"
 NAMES = {
-    "tin-densification": ("max_building_size", "iteration_angle", "iteration_distance"),
+    "tin-densification": (
+        "max_building_size",
+        "iteration_angle",
+        "iteration_distance",
+        "cell_size",
+    ),
     "grid-minimum": ("cell_size", "height_thresholds", "final_height", "max_object_size"),
     "slope": ("search_radius", "slope_threshold", "height_threshold"),
 }
@@ -93,7 +98,7 @@ def test_the_presets_of_the_slope_filter_have_the_sizes_of_its_page():
     points, _ = village()
     text = PAGES["slope"].read_text("utf-8")
     sizes = re.findall(r"(\d+) m in \*(\w+)\*", text)
-    assert [preset for _, preset in sizes] == ["hilly", "steep", "city"]
+    assert [preset for _, preset in sizes] == ["hilly", "steep", "city", "site"]
     for size, preset in sizes:
         chosen = METHODS["slope"].parameters(preset=preset).resolve(points)
         assert chosen.max_building_size == float(size)

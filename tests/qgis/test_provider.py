@@ -408,8 +408,10 @@ def test_the_help_has_the_order_of_the_dialog(each):
 def test_the_values_of_presets_are_told_before_a_run(algorithm, registry):
     help_text = algorithm.shortHelpString()
     row = help_text.partition("<td>Steep or rugged terrain</td>")[2].partition("</tr>")[0]
-    assert row == "<td>30 / 25 / 2</td>"
-    columns = "Maximum building size [m] / Iteration angle [°] / Iteration distance [m]"
+    assert row == "<td>30 / 25 / 2 / 1</td>"
+    columns = (
+        "Maximum building size [m] / Iteration angle [°] / Iteration distance [m] / Cell size [m]"
+    )
     assert f'<tr><td colspan="2">{columns}</td></tr>' in help_text
     tables = {"gridminimum": 1, "slopefilter": 1, "classifytiles": 3, "pointcloudtoterrain": 3}
     for name, count in tables.items():

@@ -33,6 +33,9 @@ class OnSlope(Rule):
         filling spreads the drop at a wall over two cells, not over three.
     block : int
         Cells along the side of the blocks that are tested where narrow cells have no point.
+    narrowest : float
+        In cells narrower than this, in metres, no step is part of a slope: in points from images
+        three steps of half a metre can be the side of a machine.
     """
 
     stage: ClassVar = Stage.TERRAIN
@@ -41,6 +44,7 @@ class OnSlope(Rule):
     alike_across: float = 0.55
     wide: float = 2.0
     block: int = 2
+    narrowest: float = 1.0
 
     def spared(
         self, grid: HeightGrid, filled: np.ndarray, one: np.ndarray, axis: int

@@ -170,7 +170,7 @@ class GentleRegions(GridRule):
         allowed = step + np.abs(usual)
         rise -= usual
         sign = (rise > allowed).astype(np.int8) - (rise < -allowed).astype(np.int8)
-        if self.on_slope:
+        if self.on_slope and size >= self.on_slope.narrowest:
             stepped = np.flatnonzero(sign)
             sign[stepped[self.on_slope.spared(grid.heights, filled, one[stepped], axis)]] = 0
         return one, other, sign
