@@ -2358,6 +2358,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Grad</translation>
     </message>
     <message>
+        <source>deliverables,archaeology,forestry,flood,drone</source>
+        <translation>Lieferung,Archäologie,Forst,Hochwasser,Drohne</translation>
+    </message>
+    <message>
         <source>densification</source>
         <translation>Verdichtung</translation>
     </message>

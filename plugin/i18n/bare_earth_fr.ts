@@ -2358,6 +2358,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>degrés</translation>
     </message>
     <message>
+        <source>deliverables,archaeology,forestry,flood,drone</source>
+        <translation>livrables,archéologie,forêt,inondation,drone</translation>
+    </message>
+    <message>
         <source>densification</source>
         <translation>densification</translation>
     </message>
