@@ -226,10 +226,11 @@ def settings_of(request: DeliveryRequest, cell_size: float) -> dict[str, dict[st
     sets: dict[str, ParameterSet] = {
         method: how.parameters,
         "Classes": how.selection,
-        "Above the ground": how.above_ground,
         "Terrain model": request.terrain_with(cell_size),
         "Surface model": request.surface_model,
     }
+    if how.above_ground.wanted:
+        sets["Above the ground"] = how.above_ground
     if request.water_wanted is not None:
         sets["Water"] = request.water_wanted
     if request.content.contours:
