@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import threading
-import time
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from functools import partial
 from typing import Any, Callable, Iterator, Sequence
@@ -12,15 +11,14 @@ from typing import Any, Callable, Iterator, Sequence
 import numpy as np
 
 from ..core.errors import Cancelled
-from ..core.progress import Notes, PassingOn, Progress
+from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads, shared_threads
 from .blocks import Block, Blocks
-from .memory import GIGABYTE, Resources, give_back
+from .memory import GIGABYTE, GivingBack, Resources, give_back
 from .store import BlockPoints, Corner, Store
 
-# Blocks that take so many bytes give their memory back to the system when they are done, and all
-# do every so many seconds if memory is short.
-_MUCH, _SECONDS = 100_000_000, 0.3
+# Blocks that take so many bytes give their memory back to the system when they are done.
+_MUCH = 100_000_000
 
 
 def over_blocks(
@@ -66,25 +64,11 @@ def over_blocks(
         )
     is_tight = sum(memory) > resources.bytes
     if is_tight:
-        progress = _GivingBack(progress)
+        progress = GivingBack(progress)
     for number, result in run_jobs(jobs, counts, at_once, resources.thread_count, progress):
         if is_tight and memory[number] > _MUCH:
             give_back()
         yield number, result
-
-
-class _GivingBack(PassingOn):
-    """Passes on progress, and gives freed memory back to the system now and then."""
-
-    def __init__(self, whole: Progress) -> None:
-        super().__init__(whole)
-        self._given = time.monotonic()
-
-    def report(self, fraction: float) -> None:
-        super().report(fraction)
-        if time.monotonic() - self._given > _SECONDS:
-            give_back()
-            self._given = time.monotonic()
 
 
 def fill(
