@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import threading
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
 from typing import Any, Callable, Iterator, Sequence
 
@@ -15,6 +15,7 @@ from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads, shared_threads
 from .blocks import Block, Blocks
 from .memory import GIGABYTE, GivingBack, Resources, give_back
+from .polling import ended
 from .store import BlockPoints, Corner, Store
 
 # Blocks that take so many bytes give their memory back to the system when they are done.
@@ -105,8 +106,6 @@ def _at_once(number: int, largest: int, resources: Resources) -> int:
     return int(max(1, min(number, resources.thread_count, fitting)))
 
 
-_POLL = 0.1
-
 Job = Callable[[Progress], Any]
 
 
@@ -160,37 +159,39 @@ def _run(
     shared: SharedThreads,
     progress: Progress,
 ) -> Iterator[tuple[int, Any]]:
-    stop, ended, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
+    stop, done, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
     talks: dict[int, JobProgress] = {}
+    running: dict[Future[Any], int] = {}
+    waiting = iter(range(len(jobs)))
+    pool = ThreadPoolExecutor(max(1, at_once), thread_name_prefix="block")
 
     def run(number: int) -> Any:
         with shared.used():
             return jobs[number](talks[number])
 
-    pool = ThreadPoolExecutor(max(1, at_once), thread_name_prefix="block")
-    try:
-        waiting = iter(range(len(jobs)))
-        running: dict[Future[Any], int] = {}
+    def start() -> list[Future[Any]]:
         # Not all at once, since results that were not fetched yet would fill the memory.
-        while True:
-            for number in waiting:
-                talks[number] = JobProgress(stop)
-                running[pool.submit(run, number)] = number
-                if len(running) >= max(1, at_once):
-                    break
-            if not running:
-                return
-            done, _ = wait(running, _POLL, FIRST_COMPLETED)
-            for talk in talks.values():
-                talk.tell(progress)
-            under_way = sum(talk.fraction * weights[number] for number, talk in talks.items())
-            progress((ended + under_way) / total)
-            for future in sorted(done, key=running.__getitem__):
-                number = running.pop(future)
-                result = future.result()
-                del talks[number]
-                ended += weights[number]
-                yield number, result
+        while len(running) < max(1, at_once):
+            number = next(waiting, None)
+            if number is None:
+                break
+            talks[number] = JobProgress(stop)
+            running[pool.submit(run, number)] = number
+        return list(running)
+
+    def look() -> None:
+        for talk in talks.values():
+            talk.tell(progress)
+        under_way = sum(talk.fraction * weights[number] for number, talk in talks.items())
+        progress((done + under_way) / total)
+
+    try:
+        for future in ended(start, look):
+            number = running.pop(future)
+            result = future.result()
+            del talks[number]
+            done += weights[number]
+            yield number, result
     finally:
         stop.set()
         pool.shutdown(wait=False, cancel_futures=True)

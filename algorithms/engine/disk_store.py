@@ -230,7 +230,7 @@ class ValuesOnDisk:
                 self._map = mmap.mmap(file.fileno(), size)
         except OSError as error:
             raise describe_write_error(target, error) from error
-        self.values = np.frombuffer(self._map, kind, count)
+        self.values: np.ndarray = np.frombuffer(self._map, kind, count)
 
     def leave_memory(self) -> None:
         """Let the values be on disk only, until they are used again."""

@@ -14,8 +14,8 @@ from ..grids.cells import lower_at
 _MOST_CELLS = 60_000_000
 # The rest is for cells that only touch the extent.
 _SHARE_FOR_BORDERS = 0.99
-# Cells that become larger in a large survey stay so small that the narrowest river of the Lidar Base
-# Specification, 30 m, is six cells wide.
+# Cells that become larger in a large survey stay so small that the narrowest river of the Lidar
+# Base Specification, 30 m, is six cells wide.
 _LARGEST_CELL = 5.0
 _MOST_COUNT = np.iinfo(np.uint16).max
 # A cell has about so many last returns on open land: an empty one is then hardly chance.
