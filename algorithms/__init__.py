@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from .core.errors import Cancelled as Cancelled
     from .core.progress import Progress as Progress
     from .core.version import __version__ as __version__
+    from .delivery.delivering import deliver as deliver
+    from .delivery.request import DeliveryOptions as DeliveryOptions
+    from .delivery.request import DeliveryRequest as DeliveryRequest
+    from .delivery.request import DeliveryTerrain as DeliveryTerrain
     from .engine.heights import HeightOutput as HeightOutput
     from .engine.key_points import KeyPointMark as KeyPointMark
     from .engine.memory import Resources as Resources
@@ -84,6 +88,10 @@ _MODULES = {
     "Progress": "core.progress",
     "__version__": "core.version",
     "Constraints": "products.constraints",
+    "deliver": "delivery.delivering",
+    "DeliveryOptions": "delivery.request",
+    "DeliveryRequest": "delivery.request",
+    "DeliveryTerrain": "delivery.request",
     "HeightOutput": "engine.heights",
     "KeyPointMark": "engine.key_points",
     "Resources": "engine.memory",

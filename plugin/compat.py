@@ -103,6 +103,11 @@ def load_raster(path: str, context: QgsProcessingContext) -> None:
     _load(path, context, QgsProcessingUtils.LayerHint.Raster)
 
 
+def load_vector(path: str, context: QgsProcessingContext) -> None:
+    """Let QGIS load a vector file as a layer after the run."""
+    _load(path, context, QgsProcessingUtils.LayerHint.Vector)
+
+
 def _load(path: str, context: QgsProcessingContext, hint: QgsProcessingUtils.LayerHint) -> None:
     if context.project() is None:
         return

@@ -69,7 +69,7 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
         " classified.vpc in the output folder)",
     )  # fmt: skip
     add_scheduler(parser)
-    method = _add_method(parser, arguments)
+    method = add_method(parser, arguments)
     add_json(parser, "the counts ")
     add_parameters(
         parser, method.parameters, Selection, ThenAboveGround, TerrainModel, SurfaceModel,
@@ -82,7 +82,7 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     )  # fmt: skip
 
 
-def _add_method(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Method:
+def add_method(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Method:
     """Add the option for the ground filter, and return the method in the command line."""
     from ..filters import DEFAULT_METHOD, METHODS
 

@@ -307,6 +307,8 @@ class TerrainRequest(Request):
         A raster whose grid the rasters get, and their extent.
     area : Area or None
         Where the rasters have values; None for everywhere.
+    roads : tuple of int
+        Classes whose points are ground as well, where they lie on it.
     """
 
     rasters: RasterFiles = field(default_factory=RasterFiles)
@@ -317,11 +319,13 @@ class TerrainRequest(Request):
     raster_output: RasterOutput = field(default_factory=RasterOutput)
     raster_target: RasterTarget = ANYWHERE
     area: Area | None = None
+    roads: tuple[int, ...] = ()
 
     @property
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters."""
         return MakeRasters(
-            self.rasters, self.terrain, self.surface, self.ground, constraints=self.constraints,
+            self.rasters, self.terrain, self.surface, self.ground, self.roads,
+            constraints=self.constraints,
             per_file=self.raster_output.raster_per_file, target=self.raster_target, area=self.area,
         )  # fmt: skip

@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 import zlib
 from dataclasses import dataclass
+from typing import Sequence
 
 import numpy as np
 
@@ -21,6 +22,9 @@ _GAP = 3
 # A cell with one marked point of many has a faint colour, but it must be visible.
 _FAINTEST = 0.55
 _DARKEST = 120
+# Colours of heights, from the lowest to the highest, and where there is no value.
+HEIGHTS = ("#33664d", "#9ab87a", "#e8dfa8", "#b9855a", "#f4f4f4")
+NOWHERE = "#ffffff"
 
 
 @dataclass(frozen=True)
@@ -119,6 +123,55 @@ def _shade(place: np.ndarray, z: np.ndarray, shape: tuple[int, int], cell: float
     # Without dark tones, on which the colours would not be visible.
     light = _DARKEST + (255 - _DARKEST) * (hillshade(inpaint(heights), cell) / 255.0)
     return np.where(near, light, 255.0)
+
+
+def ramped(values: np.ndarray, colours: Sequence[str], low: float, high: float) -> np.ndarray:
+    """Return the pixels of values, coloured by a ramp.
+
+    Parameters
+    ----------
+    values : numpy.ndarray of float, shape (rows, columns)
+        The values; NaN for none.
+    colours : sequence of str
+        From the least to the greatest value, such as ``#d1157f``.
+    low, high : float
+        The values at both ends of the ramp.
+
+    Returns
+    -------
+    numpy.ndarray of uint8, shape (rows, columns, 3)
+    """
+    ramp = np.array([rgb(each) for each in colours], dtype=np.float64)
+    share = np.clip((np.nan_to_num(values, nan=low) - low) / (high - low), 0.0, 1.0)
+    places = np.linspace(0.0, 1.0, len(ramp))
+    pixels = np.stack([np.interp(share, places, ramp[:, each]) for each in range(3)], axis=-1)
+    pixels[np.isnan(values)] = rgb(NOWHERE)
+    return np.rint(pixels).astype(np.uint8)
+
+
+def reduced(values: np.ndarray, step: int, is_worst: bool = False) -> np.ndarray:
+    """Return the mean, or the greatest value, of each square of cells; NaN is left out.
+
+    Parameters
+    ----------
+    values : numpy.ndarray of float, shape (rows, columns)
+        The cells.
+    step : int
+        Side of the squares in cells.
+    is_worst : bool
+        Whether the greatest value is wanted.
+    """
+    rows, columns = values.shape
+    padded = np.pad(values, ((0, -rows % step), (0, -columns % step)), constant_values=np.nan)
+    height, width = padded.shape
+    squares = padded.reshape(height // step, step, width // step, step)
+    known = ~np.isnan(squares)
+    count = known.sum(axis=(1, 3))
+    if is_worst:
+        found = np.where(known, squares, -np.inf).max(axis=(1, 3))
+    else:
+        found = np.where(known, squares, 0.0).sum(axis=(1, 3)) / np.maximum(count, 1)
+    return np.where(count > 0, found, np.nan)
 
 
 def rgb(colour: str) -> tuple[int, ...]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..survey.files import Survey
 from .page import Units, key, map_figure, page_html, text
-from .pictures import Picture, rgb
+from .pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
 from .quality_cells import QualityCells
 from .quality_figures import FAIL, LIMITS, LOOK, PASS, Extent, Quality
 from .quality_rasters import QUALITY_RASTERS, rows_of
@@ -24,11 +24,9 @@ _STYLE = """
 """
 # From the least to the greatest value.
 _RAMP = ("#f7fbff", "#c6dbef", "#6baed6", "#2171b5", "#08306b")
-_HEIGHTS = ("#33664d", "#9ab87a", "#e8dfa8", "#b9855a", "#f4f4f4")
 _STRIPS = ("#3a9d5d", "#f0c93a", "#c0262d")
 _OVERLAP = ("#ffffff", "#c6dbef", "#6baed6", "#2171b5", "#08306b")
 _VOIDS = ("#e4ecdf", "#c0262d")
-_NOWHERE = "#ffffff"
 _TITLES = {
     "points": "Points", "withheld": "Withheld points", "classes": "Classes", "returns": "Returns",
     "strips": "Flight strips (point source ids)", "area": "Area of the figures below",
@@ -131,24 +129,9 @@ def _small(name: str, cells: QualityCells, extent: Extent, void: float) -> tuple
     for rows in rows_of(window):
         waiting = np.vstack((waiting, raster.make(cells, rows, extent.inside, void)))
         full = len(waiting) // step * step if rows.stop < window.rows else len(waiting)
-        small = np.vstack((small, _reduced(waiting[:full], step, is_worst)))
+        small = np.vstack((small, reduced(waiting[:full], step, is_worst)))
         waiting = waiting[full:]
     return small[::-1], size * step
-
-
-def _reduced(values: np.ndarray, step: int, is_worst: bool) -> np.ndarray:
-    """Return means, or the greatest, of squares of cells; NaN is left out."""
-    rows, columns = values.shape
-    padded = np.pad(values, ((0, -rows % step), (0, -columns % step)), constant_values=np.nan)
-    height, width = padded.shape
-    squares = padded.reshape(height // step, step, width // step, step)
-    known = ~np.isnan(squares)
-    count = known.sum(axis=(1, 3))
-    if is_worst:
-        found = np.where(known, squares, -np.inf).max(axis=(1, 3))
-    else:
-        found = np.where(known, squares, 0.0).sum(axis=(1, 3)) / np.maximum(count, 1)
-    return np.where(count > 0, found, np.nan)
 
 
 def _coloured(name: str, values: np.ndarray, units: Units) -> tuple[np.ndarray, str]:
@@ -164,17 +147,13 @@ def _coloured(name: str, values: np.ndarray, units: Units) -> tuple[np.ndarray, 
         number = np.clip(np.nan_to_num(np.rint(values)), 0, 4).astype(np.int64)
         return _by_kind(values, number, _OVERLAP, words)
     is_height = name == "surface_height"
-    ramp = np.array([rgb(each) for each in (_HEIGHTS if is_height else _RAMP)], dtype=np.float64)
+    colours = HEIGHTS if is_height else _RAMP
     low, high = (float(np.percentile(known, each)) for each in (2.0, 98.0))
     low = low if is_height else 0.0
     high = max(high, low + 1e-6)
-    share = np.clip((np.nan_to_num(values, nan=low) - low) / (high - low), 0.0, 1.0)
-    places = np.linspace(0.0, 1.0, len(ramp))
-    pixels = np.stack([np.interp(share, places, ramp[:, each]) for each in range(3)], axis=-1)
-    pixels[np.isnan(values)] = rgb(_NOWHERE)
-    colours = _HEIGHTS if is_height else _RAMP
+    pixels = ramped(values, colours, low, high)
     ends = [units.height(low), units.height(high)] if is_height else [f"{low:.3g}", f"{high:.3g}"]
-    return np.rint(pixels).astype(np.uint8), key(colours[0], ends[0]) + key(colours[-1], ends[1])
+    return pixels, key(colours[0], ends[0]) + key(colours[-1], ends[1])
 
 
 def _by_kind(
@@ -183,7 +162,7 @@ def _by_kind(
     """Return pixels with a colour for each kind, and the legend."""
     table = np.array([rgb(each) for each in colours], dtype=np.uint8)
     pixels = table[np.clip(kinds.astype(np.int64), 0, len(colours) - 1)]
-    pixels[np.isnan(values)] = rgb(_NOWHERE)
+    pixels[np.isnan(values)] = rgb(NOWHERE)
     return pixels, "".join(key(colour, word) for colour, word in zip(colours, words))
 
 

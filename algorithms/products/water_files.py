@@ -188,6 +188,31 @@ class SurveyWater:
             if len(each.line):
                 yield Feature((number, "river"), self.in_crs(each.line))
 
+    def write(
+        self, target: Path, breaklines: Path | None = None, progress: Progress = SILENT
+    ) -> None:
+        """Write the polygons, and the breaklines if they have a file; both of them or none.
+
+        Raises
+        ------
+        BareEarthError
+            If a file cannot be written.
+        """
+        named = self.crs.wkt, self.crs.epsg
+        layers = [(target, self.polygons, Layer("water", "Polygon", FIELDS, *named))]
+        if breaklines is not None:
+            layer = Layer("breaklines", "LineString Z", LINE_FIELDS, *named)
+            layers.append((breaklines, self.lines, layer))
+        with contextlib.ExitStack() as opened:
+            folders = []
+            for output, features, layer in layers:
+                folders.append(opened.enter_context(temporary_folder(output.parent)))
+                write = feature_writer(output, "water")
+                write(folders[-1] / output.name, features(), layer, progress)
+            progress(1.0)  # the last moment to cancel
+            for (output, _, _), folder in zip(layers, folders):
+                replace_with_files_of(folder, output, files_beside(output))
+
 
 def _add(
     grid: WaterGrid,
@@ -245,21 +270,5 @@ def write_water(
         check_output(each, tuple(paths))
         feature_writer(each, "water")
     found = SurveyWater.of(paths, request, progress.part(0.0, 0.95))
-    layers = (
-        (found.polygons, Layer("water", "Polygon", FIELDS, *_named(found.crs))),
-        (found.lines, Layer("breaklines", "LineString Z", LINE_FIELDS, *_named(found.crs))),
-    )
-    with contextlib.ExitStack() as opened:
-        folders = []
-        for output, (features, layer) in zip(outputs, layers):
-            folders.append(opened.enter_context(temporary_folder(output.parent)))
-            write = feature_writer(output, "water")
-            write(folders[-1] / output.name, features(), layer, progress)
-        progress(1.0)  # the last moment to cancel
-        for output, folder in zip(outputs, folders):
-            replace_with_files_of(folder, output, files_beside(output))
+    found.write(target, request.breaklines, progress)
     return found.summary
-
-
-def _named(crs: Crs) -> tuple[str | None, int | None]:
-    return crs.wkt, crs.epsg

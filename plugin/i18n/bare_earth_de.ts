@@ -166,6 +166,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Alles in einem</translation>
     </message>
     <message>
+        <source>All outputs that a job hands over, in one folder, with a page that lists them. Only with your own choice of outputs are the fields of single outputs used.</source>
+        <translation>Alles, was ein Auftrag übergibt, in einem Ordner, mit einer Seite, die es auflistet. Die Felder der einzelnen Ausgaben gelten nur bei eigener Auswahl.</translation>
+    </message>
+    <message>
         <source>All rasters get the grid of this raster: CRS, cell size, position of the cells, and extent. It must be in the CRS of the points, with square cells and north up. It replaces the cell size.</source>
         <translation>Alle Raster bekommen das Gitter dieses Rasters: KBS, Zellgröße, Lage der Zellen und Ausdehnung. Dieses muss im KBS der Punkte sein, mit quadratischen Zellen und Norden oben. Es tritt an die Stelle der Zellgröße.</translation>
     </message>
@@ -188,6 +192,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Archaeological topography (VAT)</source>
         <translation>Archäologische Topographie (VAT)</translation>
+    </message>
+    <message>
+        <source>Archaeology</source>
+        <translation>Archäologie</translation>
     </message>
     <message>
         <source>Area [m²]</source>
@@ -314,6 +322,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Wählen Sie eine Datei: {}.</translation>
     </message>
     <message>
+        <source>Choose a folder for the delivery.</source>
+        <translation>Wählen Sie einen Ordner für die Lieferung.</translation>
+    </message>
+    <message>
         <source>Choose a point cloud, or a folder of them.</source>
         <translation>Wählen Sie eine Punktwolke oder einen Ordner mit Punktwolken.</translation>
     </message>
@@ -370,6 +382,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Klassen</translation>
     </message>
     <message>
+        <source>Classes above the ground</source>
+        <translation>Klassen über dem Boden</translation>
+    </message>
+    <message>
         <source>Classes of known ground</source>
         <translation>Klassen bekannten Bodens</translation>
     </message>
@@ -404,6 +420,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Classifies the ground points of many files as if they were one file, and writes each file under its name into the output folder. A virtual point cloud (.vpc) lists the results.</source>
         <translation>Klassifiziert die Bodenpunkte vieler Dateien, als wären alle eine einzige, und schreibt jede Datei unter ihrem Namen in den Ausgabeordner. Eine virtuelle Punktwolke (.vpc) verzeichnet die Ergebnisse.</translation>
+    </message>
+    <message>
+        <source>Classifies the points above the ground as well: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18).</source>
+        <translation>Klassifiziert auch die Punkte über dem Boden: niedrige, mittlere und hohe Vegetation (3, 4, 5) nach der Höhe über dem Boden, Gebäude (6), Brücken (17) und hohes Rauschen (18).</translation>
     </message>
     <message>
         <source>Classifies the points above the ground of a classified point cloud: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18). Buildings are found by planes that laser pulses meet once; without return numbers the planes alone decide, and smooth crowns can become buildings.
@@ -534,6 +554,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Brückendecks, an ihren Querschnitten erkannt. Sonst werden sie zu Gebäuden oder Vegetation. Punkte, die schon Klasse 17 haben, behalten sie.</translation>
     </message>
     <message>
+        <source>Delivery</source>
+        <translation>Lieferung</translation>
+    </message>
+    <message>
         <source>Density of first returns</source>
         <translation>Dichte der ersten Echos</translation>
     </message>
@@ -580,6 +604,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
     <message>
         <source>Doubtful</source>
         <translation>Zweifelhaft</translation>
+    </message>
+    <message>
+        <source>Drone site</source>
+        <translation>Gelände aus Drohnenflug</translation>
     </message>
     <message>
         <source>Drone survey, construction or mining site</source>
@@ -676,8 +704,8 @@ Längen sind Meter, gleich welche Einheit das KBS hat.</translation>
         <translation>Findet den Boden einer rohen Lidar-Punktwolke (TIN-Verdichtung), macht daraus Geländemodell und Schummerung und aus dem Geländemodell Höhenlinien (GDAL).</translation>
     </message>
     <message>
-        <source>Finds the ground of a raw lidar point cloud and makes maps of it. Each output is optional. Local relief shows small features. Lengths are metres.</source>
-        <translation>Findet den Boden einer rohen Lidar-Punktwolke und macht Karten davon. Jede Ausgabe ist optional. Das lokale Relief zeigt kleine Formen. Längen sind Meter.</translation>
+        <source>Finds the ground of a raw lidar point cloud and makes maps of it. Each output is optional. A delivery makes all that a job hands over, in one folder: for a survey, archaeology, forestry, floods or a drone site. Lengths are metres.</source>
+        <translation>Findet den Boden einer rohen Lidar-Punktwolke und macht Karten davon. Jede Ausgabe ist optional. Eine Lieferung macht alles, was ein Auftrag übergibt, in einem Ordner: für eine Vermessung, Archäologie, Forst, Hochwasser oder ein Gelände aus einem Drohnenflug. Längen sind in Metern.</translation>
     </message>
     <message>
         <source>Finds the ground of a raw lidar point cloud by TIN densification and by the slope filter, and compares the two: a hillshade of each, and a report with TIN densification as the reference. Where both agree, the result is more certain; check the places where they differ.</source>
@@ -746,6 +774,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Flachland, Felder</translation>
     </message>
     <message>
+        <source>Flood model</source>
+        <translation>Hochwassermodell</translation>
+    </message>
+    <message>
         <source>Folder of point clouds</source>
         <translation>Ordner mit Punktwolken</translation>
     </message>
@@ -754,12 +786,20 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Ordner der klassifizierten Punktwolken</translation>
     </message>
     <message>
+        <source>Folder of the delivery</source>
+        <translation>Ordner der Lieferung</translation>
+    </message>
+    <message>
         <source>Folder of the rasters</source>
         <translation>Ordner der Raster</translation>
     </message>
     <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
         <translation>Für die Linien wird jede Höhe mit ihrer Umgebung bis etwa zu dieser Entfernung gemittelt, damit sie kein Rauschen zeigen. Das Geländemodell ändert sich nicht. 0: wie das Geländemodell ist.</translation>
+    </message>
+    <message>
+        <source>Forestry</source>
+        <translation>Forst</translation>
     </message>
     <message>
         <source>Format of the output</source>
@@ -1322,6 +1362,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Keine</translation>
     </message>
     <message>
+        <source>None: what is not ground has no further class</source>
+        <translation>Keine: was kein Boden ist, hat keine weitere Klasse</translation>
+    </message>
+    <message>
         <source>Not counted</source>
         <translation>Nicht gezählt</translation>
     </message>
@@ -1414,8 +1458,16 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Übersicht der virtuellen Punktwolke</translation>
     </message>
     <message>
+        <source>Own choice of outputs</source>
+        <translation>Eigene Auswahl der Ausgaben</translation>
+    </message>
+    <message>
         <source>Page about the quality</source>
         <translation>Seite über die Qualität</translation>
+    </message>
+    <message>
+        <source>Page of the delivery</source>
+        <translation>Seite der Lieferung</translation>
     </message>
     <message>
         <source>Parts of rivers</source>
@@ -1766,6 +1818,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Seite einer Zelle des Geländemodells und seiner Schummerung. Wählen Sie etwa den Abstand der Bodenpunkte; kleinere Zellen machen nur die Datei größer.</translation>
     </message>
     <message>
+        <source>Side of a cell of the terrain model and of its hillshade. Empty: 1 m, and for a delivery as fine as the ground points allow, or as the specification states.</source>
+        <translation>Seite einer Zelle des Geländemodells und seiner Schummerung. Leer: 1 m, und bei einer Lieferung so fein, wie es die Bodenpunkte erlauben, oder wie es die Spezifikation vorgibt.</translation>
+    </message>
+    <message>
         <source>Side of the cells in which points are counted. Empty: twice the distance between points, at least 1 m, and up to 5 m if a large survey would have too many cells.</source>
         <translation>Seite der Zellen, in denen Punkte gezählt werden. Leer: das Doppelte des Punktabstands, mindestens 1 m, und bis zu 5 m, wenn ein großes Projekt zu viele Zellen hätte.</translation>
     </message>
@@ -1890,6 +1946,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Oberflächenmodell (DOM)</translation>
     </message>
     <message>
+        <source>Survey</source>
+        <translation>Vermessung</translation>
+    </message>
+    <message>
         <source>TIN densification</source>
         <translation>TIN-Verdichtung</translation>
     </message>
@@ -1936,6 +1996,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Terrain model (DTM)</source>
         <translation>Geländemodell (DGM)</translation>
+    </message>
+    <message>
+        <source>Terrain with buildings</source>
+        <translation>Gelände mit Gebäuden</translation>
     </message>
     <message>
         <source>Terrain, hillshade and contours</source>
@@ -2008,6 +2072,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>The elevation raster is not a file. Export it as GeoTIFF first.</source>
         <translation>Das Höhenraster ist keine Datei. Exportieren Sie es zuerst als GeoTIFF.</translation>
+    </message>
+    <message>
+        <source>The folder for all outputs of a delivery: an empty or new one, or that of an earlier delivery, which is replaced.</source>
+        <translation>Der Ordner für alle Ausgaben einer Lieferung: ein leerer oder neuer, oder der einer früheren Lieferung, die ersetzt wird.</translation>
     </message>
     <message>
         <source>The folder for the classified files. Each keeps its name.</source>
@@ -2396,6 +2464,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>degrees</source>
         <translation>Grad</translation>
+    </message>
+    <message>
+        <source>deliverables,archaeology,forestry,flood,drone</source>
+        <translation>Lieferung,Archäologie,Forst,Hochwasser,Drohne</translation>
     </message>
     <message>
         <source>densification</source>

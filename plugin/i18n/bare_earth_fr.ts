@@ -166,6 +166,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Chaîne complète</translation>
     </message>
     <message>
+        <source>All outputs that a job hands over, in one folder, with a page that lists them. Only with your own choice of outputs are the fields of single outputs used.</source>
+        <translation>Tout ce qu'une mission remet, dans un dossier, avec une page qui en fait la liste. Les champs des sorties ne servent que si vous choisissez les sorties vous-même.</translation>
+    </message>
+    <message>
         <source>All rasters get the grid of this raster: CRS, cell size, position of the cells, and extent. It must be in the CRS of the points, with square cells and north up. It replaces the cell size.</source>
         <translation>Tous les rasters reçoivent la grille de ce raster : SCR, taille de cellule, position des cellules et emprise. Il doit être dans le SCR des points, avec des cellules carrées et le nord en haut. Il remplace la taille de cellule.</translation>
     </message>
@@ -188,6 +192,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Archaeological topography (VAT)</source>
         <translation>Topographie archéologique (VAT)</translation>
+    </message>
+    <message>
+        <source>Archaeology</source>
+        <translation>Archéologie</translation>
     </message>
     <message>
         <source>Area [m²]</source>
@@ -314,6 +322,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Choisissez un fichier : {}.</translation>
     </message>
     <message>
+        <source>Choose a folder for the delivery.</source>
+        <translation>Choisissez un dossier pour la livraison.</translation>
+    </message>
+    <message>
         <source>Choose a point cloud, or a folder of them.</source>
         <translation>Choisissez un nuage de points, ou un dossier de nuages de points.</translation>
     </message>
@@ -370,6 +382,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Classes</translation>
     </message>
     <message>
+        <source>Classes above the ground</source>
+        <translation>Classes au-dessus du sol</translation>
+    </message>
+    <message>
         <source>Classes of known ground</source>
         <translation>Classes de sol connu</translation>
     </message>
@@ -404,6 +420,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Classifies the ground points of many files as if they were one file, and writes each file under its name into the output folder. A virtual point cloud (.vpc) lists the results.</source>
         <translation>Classe les points sol de nombreux fichiers comme s'ils n'en formaient qu'un, et écrit chaque fichier sous son nom dans le dossier de sortie. Un nuage de points virtuel (.vpc) énumère les résultats.</translation>
+    </message>
+    <message>
+        <source>Classifies the points above the ground as well: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18).</source>
+        <translation>Classe aussi les points au-dessus du sol : végétation basse, moyenne et haute (3, 4, 5) selon la hauteur au-dessus du sol, bâtiments (6), ponts (17) et bruit haut (18).</translation>
     </message>
     <message>
         <source>Classifies the points above the ground of a classified point cloud: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18). Buildings are found by planes that laser pulses meet once; without return numbers the planes alone decide, and smooth crowns can become buildings.
@@ -534,6 +554,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Tabliers de ponts, reconnus à leurs coupes en travers. Sinon, ils deviennent des bâtiments ou de la végétation. Les points qui ont déjà la classe 17 la gardent.</translation>
     </message>
     <message>
+        <source>Delivery</source>
+        <translation>Livraison</translation>
+    </message>
+    <message>
         <source>Density of first returns</source>
         <translation>Densité des premiers retours</translation>
     </message>
@@ -580,6 +604,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
     <message>
         <source>Doubtful</source>
         <translation>Douteux</translation>
+    </message>
+    <message>
+        <source>Drone site</source>
+        <translation>Site relevé par drone</translation>
     </message>
     <message>
         <source>Drone survey, construction or mining site</source>
@@ -676,8 +704,8 @@ Les longueurs sont en mètres, quelle que soit l'unité du SCR.</translation>
         <translation>Trouve le sol d'un nuage de points lidar brut (densification de TIN), en fait un modèle de terrain et un ombrage, et des courbes de niveau du modèle de terrain (GDAL).</translation>
     </message>
     <message>
-        <source>Finds the ground of a raw lidar point cloud and makes maps of it. Each output is optional. Local relief shows small features. Lengths are metres.</source>
-        <translation>Trouve le sol d'un nuage de points lidar brut et en produit des cartes. Chaque sortie est facultative. Le relief local montre les petites formes. Les longueurs sont en mètres.</translation>
+        <source>Finds the ground of a raw lidar point cloud and makes maps of it. Each output is optional. A delivery makes all that a job hands over, in one folder: for a survey, archaeology, forestry, floods or a drone site. Lengths are metres.</source>
+        <translation>Trouve le sol d'un nuage de points lidar brut et en fait des cartes. Chaque sortie est facultative. Une livraison fait tout ce qu'une mission remet, dans un dossier : pour un levé, l'archéologie, la forêt, les inondations ou un site relevé par drone. Les longueurs sont en mètres.</translation>
     </message>
     <message>
         <source>Finds the ground of a raw lidar point cloud by TIN densification and by the slope filter, and compares the two: a hillshade of each, and a report with TIN densification as the reference. Where both agree, the result is more certain; check the places where they differ.</source>
@@ -746,6 +774,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Terrain plat, champs</translation>
     </message>
     <message>
+        <source>Flood model</source>
+        <translation>Modèle d'inondation</translation>
+    </message>
+    <message>
         <source>Folder of point clouds</source>
         <translation>Dossier de nuages de points</translation>
     </message>
@@ -754,12 +786,20 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Dossier des nuages de points classés</translation>
     </message>
     <message>
+        <source>Folder of the delivery</source>
+        <translation>Dossier de la livraison</translation>
+    </message>
+    <message>
         <source>Folder of the rasters</source>
         <translation>Dossier des rasters</translation>
     </message>
     <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
         <translation>Pour les lignes, chaque altitude est moyennée avec son voisinage jusqu'à environ cette distance, afin qu'elles ne montrent pas de bruit. Le modèle de terrain ne change pas. 0 : comme le modèle de terrain.</translation>
+    </message>
+    <message>
+        <source>Forestry</source>
+        <translation>Forêt</translation>
     </message>
     <message>
         <source>Format of the output</source>
@@ -1322,6 +1362,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Aucun</translation>
     </message>
     <message>
+        <source>None: what is not ground has no further class</source>
+        <translation>Aucune : ce qui n'est pas le sol n'a pas d'autre classe</translation>
+    </message>
+    <message>
         <source>Not counted</source>
         <translation>Non comptés</translation>
     </message>
@@ -1414,8 +1458,16 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Vue d'ensemble du nuage de points virtuel</translation>
     </message>
     <message>
+        <source>Own choice of outputs</source>
+        <translation>Sorties à votre choix</translation>
+    </message>
+    <message>
         <source>Page about the quality</source>
         <translation>Page sur la qualité</translation>
+    </message>
+    <message>
+        <source>Page of the delivery</source>
+        <translation>Page de la livraison</translation>
     </message>
     <message>
         <source>Parts of rivers</source>
@@ -1766,6 +1818,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Côté d'une cellule du modèle de terrain et de son ombrage. Choisissez environ la distance entre points sol ; des cellules plus petites ne font qu'agrandir le fichier.</translation>
     </message>
     <message>
+        <source>Side of a cell of the terrain model and of its hillshade. Empty: 1 m, and for a delivery as fine as the ground points allow, or as the specification states.</source>
+        <translation>Côté d'une maille du modèle de terrain et de son ombrage. Vide : 1 m et, pour une livraison, aussi fin que les points du sol le permettent, ou comme la spécification l'indique.</translation>
+    </message>
+    <message>
         <source>Side of the cells in which points are counted. Empty: twice the distance between points, at least 1 m, and up to 5 m if a large survey would have too many cells.</source>
         <translation>Côté des cellules dans lesquelles les points sont comptés. Vide : deux fois la distance entre les points, au moins 1 m, et jusqu'à 5 m si un grand levé avait trop de cellules.</translation>
     </message>
@@ -1890,6 +1946,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Modèle numérique de surface (MNS)</translation>
     </message>
     <message>
+        <source>Survey</source>
+        <translation>Levé</translation>
+    </message>
+    <message>
         <source>TIN densification</source>
         <translation>Densification de TIN</translation>
     </message>
@@ -1936,6 +1996,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Terrain model (DTM)</source>
         <translation>Modèle numérique de terrain (MNT)</translation>
+    </message>
+    <message>
+        <source>Terrain with buildings</source>
+        <translation>Terrain avec bâtiments</translation>
     </message>
     <message>
         <source>Terrain, hillshade and contours</source>
@@ -2008,6 +2072,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>The elevation raster is not a file. Export it as GeoTIFF first.</source>
         <translation>Le raster d'altitudes n'est pas un fichier. Exportez-le d'abord en GeoTIFF.</translation>
+    </message>
+    <message>
+        <source>The folder for all outputs of a delivery: an empty or new one, or that of an earlier delivery, which is replaced.</source>
+        <translation>Le dossier de toutes les sorties d'une livraison : un dossier vide ou nouveau, ou celui d'une livraison antérieure, qui est remplacée.</translation>
     </message>
     <message>
         <source>The folder for the classified files. Each keeps its name.</source>
@@ -2396,6 +2464,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>degrees</source>
         <translation>degrés</translation>
+    </message>
+    <message>
+        <source>deliverables,archaeology,forestry,flood,drone</source>
+        <translation>livrables,archéologie,forêt,inondation,drone</translation>
     </message>
     <message>
         <source>densification</source>

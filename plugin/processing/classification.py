@@ -11,6 +11,7 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.output import Output
 from ...algorithms.filters import METHODS
+from ...algorithms.products.above_ground import ThenAboveGround
 from ...algorithms.products.surface_model import Gaps
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
@@ -60,8 +61,8 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the parameters of the method, then those of all methods."""
-        sets = METHODS[self.method].parameters, Selection, TerrainModel, Gaps, Output, Resources
-        return sets
+        sets = METHODS[self.method].parameters, Selection, TerrainModel, Gaps, Output
+        return *sets, ThenAboveGround, Resources
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""

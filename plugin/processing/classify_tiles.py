@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...algorithms.engine import memory, options
-from ...algorithms.engine.output import Output
+from ...algorithms.engine import memory, options, output
+from ...algorithms.products.above_ground import ThenAboveGround
 from ...algorithms.products.surface_model import Gaps
 from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.survey.selection import Selection
@@ -32,8 +32,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method, points and classes, files, outputs, and resources."""
-        files = options.TileMethod, Selection, options.TileInput, options.ShownTiles
-        return (*files, Output, TerrainModel, Gaps, options.RasterOutput, memory.Resources)
+        first = options.TileMethod, Selection, options.TileInput, options.ShownTiles, output.Output
+        return *first, ThenAboveGround, TerrainModel, Gaps, options.RasterOutput, memory.Resources
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""

@@ -32,6 +32,7 @@ _KEPT: list[QgsProcessingLayerPostProcessorInterface] = []
 
 # Values of `Look.hides` for a classified cloud. The second is for runs whose result is the terrain.
 CLOUD, BELOW_TERRAIN = 6, 4
+_FIRST = 9
 
 
 class Look(NamedTuple):
@@ -72,6 +73,7 @@ TERRAIN = Look(mark("Terrain model"), 1, rasters.terrain, 5)
 # The only layer of its run, shown on top of other layers.
 BARE = Look(mark("Without objects"), 1, rasters.surface)
 SURFACE = Look(mark("Surface model"), 2, rasters.surface, 1)
+WITH_BUILDINGS = Look(mark("Terrain with buildings"), 2, rasters.surface, 1)
 CANOPY = Look(mark("Canopy height"), 3, rasters.canopy, 3)
 RELIEF = Look(mark("Local relief"), 4, rasters.local_relief, 2)
 MULTI_SCALE = Look(mark("Multi-scale relief"), 4, rasters.local_relief, 1)
@@ -92,7 +94,7 @@ RASTERS = {
     "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,
     "EXPLANATION": RULES, "MULTI_SCALE_RELIEF": MULTI_SCALE, "SLOPE": SLOPE, "SKY_VIEW": SKY_VIEW,
     "OPENNESS": OPENNESS, "NEGATIVE_OPENNESS": NEGATIVE_OPENNESS, "LOCAL_DOMINANCE": DOMINANCE,
-    "VAT": VAT, "RED_RELIEF": RED_RELIEF,
+    "VAT": VAT, "RED_RELIEF": RED_RELIEF, "TERRAIN_WITH_BUILDINGS": WITH_BUILDINGS,
 }  # fmt: skip
 
 # Of the quality of a survey, by the names of the files.
@@ -116,6 +118,11 @@ def in_crs(look: Look, crs: QgsCoordinateReferenceSystem) -> Look:
         look.dress(layer)
 
     return look._replace(dress=dress)
+
+
+def first(look: Look) -> Look:
+    """Return the look of a layer that is visible at first, before all others that hide it."""
+    return look._replace(hides=_FIRST) if look.hides else look
 
 
 CLASSES = mark("Classes")

@@ -30,9 +30,10 @@ FLOORS = {
     "products": "core crs grids las survey rasters filters",
     "engine": "core crs grids las survey rasters filters products",
     "trial": "core crs grids las survey rasters filters products engine",
-    "cli": "core crs grids las survey rasters filters products engine trial",
+    "delivery": "core crs grids las survey rasters filters products engine",
+    "cli": "core crs grids las survey rasters filters products engine trial delivery",
     "__main__": "cli",
-    "__init__": "core crs grids las survey rasters filters products engine trial",
+    "__init__": "core crs grids las survey rasters filters products engine trial delivery",
 }
 
 

@@ -3,6 +3,7 @@ import json
 import os
 import re
 import shlex
+import shutil
 
 import laspy
 import numpy as np
@@ -316,3 +317,21 @@ def test_a_run_that_is_cancelled_says_how_to_do_it_elsewhere(algorithm, scene, o
     algorithm.run(everything(scene, out), context, log)
     assert log.said[-1].startswith("bare-earth classify ")
     assert "Class 2" not in log.text
+
+
+@pytest.mark.parametrize("how", ["file", "folder"])
+def test_points_above_the_ground_get_classes_in_the_same_run(scene, tmp_path, how):
+    import processing
+
+    tiles, written = tmp_path / "tiles", tmp_path / "out" / "scene.laz"
+    tiles.mkdir()
+    written.parent.mkdir()
+    shutil.copy(scene.path, tiles / "scene.laz")
+    if how == "file":
+        given = {"INPUT": str(scene.path), "OUTPUT": str(written)}
+        processing.run(ALGORITHM, {**given, "ABOVE_GROUND": "asprs"})
+    else:
+        given = {"INPUT_FOLDER": str(tiles), "OUTPUT_FOLDER": str(written.parent)}
+        processing.run("bareearth:classifytiles", {**given, "ABOVE_GROUND": "asprs"})
+    found = np.asarray(laspy.read(str(written)).classification)
+    assert np.array_equal(found == 2, scene.ground) and np.mean(found[~scene.ground] == 6) > 0.95

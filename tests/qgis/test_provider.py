@@ -18,6 +18,7 @@ from support import ALGORITHM, ROOT
 
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.output import Output
+from bare_earth.algorithms.products.above_ground import ThenAboveGround
 from bare_earth.algorithms.products.surface_model import Gaps
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.selection import Selection
@@ -30,7 +31,10 @@ SHARED_PARAMETERS = [
     "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "RELIEF_SMOOTHING",
         "MAX_EDGE",
-    "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND", "THREADS", "MEMORY",
+    "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND",
+    "ABOVE_GROUND", "MEDIUM_HEIGHT", "HIGH_HEIGHT", "LOW_HEIGHT", "BUILDINGS",
+    "BUILDING_AREA", "BUILDING_HEIGHT", "MARK_BRIDGES", "MARK_HIGH_NOISE", "RECLASSIFY",
+    "THREADS", "MEMORY",
     "CORRECTIONS", "CORRECTIONS_FIELD",
     "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
     "OUTPUT", "DTM", "HILLSHADE", "EXPLANATION",
@@ -43,14 +47,14 @@ PARAMETERS = {
     "bareearth:tindensification": [
         "INPUT", "CRS", "EXTENT", "BOUNDARY",
         "PRESET", "MAX_BUILDING_SIZE", "MAX_TERRAIN_ANGLE", "ITERATION_ANGLE",
-        "ITERATION_DISTANCE", "REDUCE_ANGLE_EDGE", "STOP_EDGE", "NOISE_DISTANCE",
+        "ITERATION_DISTANCE", "CELL_SIZE", "REDUCE_ANGLE_EDGE", "STOP_EDGE", "NOISE_DISTANCE",
         "GROUND_TOLERANCE", "GROUND_TOLERANCE_BELOW", "SLOPE_TOLERANCE", "ONLY_KEY_POINTS",
         "KEY_POINT_TOLERANCE_ABOVE", "KEY_POINT_TOLERANCE_BELOW", "KEY_POINT_GRID_SIZE",
         *SHARED_PARAMETERS,
     ],
     "bareearth:pointcloudtoterrain": [
         "INPUT", "INPUT_FOLDER", "CRS", "EXTENT", "BOUNDARY",
-        "METHOD", "PRESET",
+        "DELIVERY", "METHOD", "PRESET",
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "RELIEF_SMOOTHING", "RELIEF_RADIUS",
@@ -61,6 +65,7 @@ PARAMETERS = {
         "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE", "PIT_FREE", "THREADS", "MEMORY",
         "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
+        "DELIVERY_FOLDER",
         "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
     ],
     "bareearth:gridminimum": [
@@ -83,6 +88,8 @@ PARAMETERS = {
         "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
         "RECURSIVE", "FORMAT", "RESUME", "OVERVIEW",
         "GROUND_ONLY", "AREA_ONLY", "HEIGHT_ABOVE_GROUND",
+        "ABOVE_GROUND", "MEDIUM_HEIGHT", "HIGH_HEIGHT", "LOW_HEIGHT", "BUILDINGS",
+        "BUILDING_AREA", "BUILDING_HEIGHT", "MARK_BRIDGES", "MARK_HIGH_NOISE", "RECLASSIFY",
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE", "RELIEF_SMOOTHING",
         "MAX_EDGE", "RASTER_PER_FILE",
@@ -162,6 +169,8 @@ OUTPUTS = {
         "GROUND_COUNT",
     ],
     "bareearth:pointcloudtoterrain": [
+        "DELIVERY_FOLDER",
+        "PAGE",
         "OUTPUT",
         "DTM",
         "DSM",
@@ -384,7 +393,8 @@ def test_what_users_look_for_is_in_front(registry):
     for name in ("tindensification", "gridminimum", "slopefilter"):
         assert seen(name)[:2] == ["INPUT", "EXTENT"]
     assert seen("pointcloudtoterrain") == [
-        "INPUT", "INPUT_FOLDER", "EXTENT", "METHOD", "PRESET", "DTM_CELL_SIZE", "CONTOUR_INTERVAL",
+        "INPUT", "INPUT_FOLDER", "EXTENT", "DELIVERY", "METHOD", "PRESET", "DTM_CELL_SIZE",
+        "CONTOUR_INTERVAL",
     ]  # fmt: skip
     whole = registry.createAlgorithmById("bareearth:pointcloudtoterrain")
     interval = whole.parameterDefinition("CONTOUR_INTERVAL").description()
@@ -495,7 +505,7 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
     page = page_of(each)
     # What all ground classifications share stands on the page of one of them.
     shared = page_of(registry.createAlgorithmById(ALGORITHM))
-    sets = (Selection, TerrainModel, Gaps, Output, Resources)
+    sets = (Selection, TerrainModel, Gaps, Output, ThenAboveGround, Resources)
     of_all = [parameter for declared in sets for parameter in declared.declarations()]
     for declared in each.parameter_sets():
         for parameter in declared.declarations():

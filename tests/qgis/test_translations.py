@@ -86,8 +86,8 @@ def test_qgis_speaks_german_and_french(registry, speak, locale, title, label, ta
 @pytest.mark.parametrize(
     ("locale", "values"),
     [
-        ("de", "<td>30 / 15 / 1,4</td>"),
-        ("fr", "<td>30 / 15 / 1,4</td>"),
+        ("de", "<td>30 / 15 / 1,4 / 1</td>"),
+        ("fr", "<td>30 / 15 / 1,4 / 1</td>"),
         ("es", "<td>30 / 15 / 1.4"),
     ],
 )

@@ -1,0 +1,1 @@
+"""Deliveries: everything that a job hands over, made from raw points in one run."""

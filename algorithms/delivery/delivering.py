@@ -1,0 +1,158 @@
+"""Makes a delivery: everything that a job hands over, from raw points, in one folder."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import asdict
+from pathlib import Path
+from typing import Iterable, Iterator
+
+from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
+from ..core.files import temporary_folder
+from ..core.progress import SILENT, Progress
+from ..core.version import __version__
+from ..engine.workers import Workers
+from ..survey.files import Survey, is_one_file, open_survey
+from ..survey.shapes import Place
+from .folder import PAGE, DeliveryFolder
+from .page import delivery_html, settings_of
+from .request import DeliveryRequest
+from .steps import DeliverySteps, Heard, Made
+from .summary import DeliverySummary
+
+
+def deliver(
+    sources: str | Path | Iterable[str | Path],
+    folder: str | Path,
+    request: DeliveryRequest = DeliveryRequest(),
+    progress: Progress = SILENT,
+    workers: Workers | None = None,
+) -> DeliverySummary:
+    """Make all outputs of a job from raw points: a delivery.
+
+    Parameters
+    ----------
+    sources : path or iterable of paths
+        LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc) and lists (.txt); all
+        of them together are one survey.
+    folder : path
+        The folder for the outputs: new, empty, or that of an earlier delivery, which is replaced.
+    request : DeliveryRequest
+        Which delivery, and how it is made.
+    progress : Progress
+        Receives progress and messages.
+    workers : Workers, optional
+        The workers for many files; by default threads of this process.
+
+    Returns
+    -------
+    DeliverySummary
+        Its figures and files.
+
+    Raises
+    ------
+    BareEarthError
+        If an input cannot be read, there is no ground, or an output cannot be written.
+    Cancelled
+        If the user asked to stop; the folder is as it was. It is `FinishedFilesStay` for many
+        files: those that are classified stay, and the run can be continued.
+
+    Examples
+    --------
+    >>> from bare_earth.algorithms import DeliveryRequest, deliver
+    >>> deliver("tile.laz", "hand-over", DeliveryRequest(delivery="survey")).page  # doctest: +SKIP
+    'hand-over/index.html'
+    """
+    given = [sources] if isinstance(sources, (str, Path)) else list(sources)
+    paths, place = [Path(each) for each in given], DeliveryFolder(Path(folder))
+    place.check(paths)
+    is_one = is_one_file(paths)
+    survey = _opened(paths, request, progress)
+    if not is_one:
+        place.begin(request.delivery)
+    # On the disk of the folder, so that outputs can be moved there.
+    beside = place.path.parent if is_one else place.path
+    with _left_in_order(place, is_one), temporary_folder(beside) as working:
+        heard = Heard(progress, working, place.path)
+        work = DeliveryFolder(working)
+        steps = DeliverySteps(request, survey, paths, is_one, work, place, workers)
+        try:
+            made = steps.run(heard.part(0.01, 0.97))
+        except BareEarthError as error:
+            raise BareEarthError(str(error).replace(str(working), str(place.path))) from error
+        made.warnings = heard.warnings
+        page = delivery_html(request, made, survey, working)
+        (working / PAGE).write_text(page, encoding="utf-8")
+        summary = _summary(request, made, working, place.path)
+        heard(1.0)  # the last moment to cancel
+        place.take(working, _record(request, made, place.path))
+    return summary
+
+
+def _opened(paths: list[Path], request: DeliveryRequest, progress: Progress) -> Survey:
+    """Open the files, and refuse now what would fail after hours."""
+    recursive, stated = request.files.recursive, request.stated
+    survey = open_survey(paths, recursive, progress.part(0.0, 0.01), stated)
+    if request.checkpoints is not None:
+        request.checkpoints.located(Place("the files", survey.crs, survey.box), progress)
+    return survey
+
+
+@contextlib.contextmanager
+def _left_in_order(place: DeliveryFolder, is_one: bool) -> Iterator[None]:
+    """After a cancel or an error, leave no empty folder; say if the run can be continued."""
+    try:
+        yield
+    except (BareEarthError, Cancelled, KeyboardInterrupt) as error:
+        if is_one:
+            raise
+        stays = place.leave()
+        if stays and not isinstance(error, (BareEarthError, FinishedFilesStay)):
+            raise FinishedFilesStay from error
+        if not stays and isinstance(error, FinishedFilesStay):
+            raise Cancelled from error
+        raise
+
+
+def _moved(path: Path, working: Path, folder: Path) -> Path:
+    """Return where a file of the working folder will be."""
+    return folder / path.relative_to(working) if working in path.parents else path
+
+
+def _summary(request: DeliveryRequest, made: Made, working: Path, folder: Path) -> DeliverySummary:
+    if made.cloud is None or made.quality is None:
+        raise BareEarthError("The delivery is not complete.")
+    return DeliverySummary(
+        folder=str(folder),
+        delivery=request.delivery,
+        page=str(folder / PAGE),
+        cloud=str(_moved(made.cloud, working, folder)),
+        layers={name: str(_moved(path, working, folder)) for name, path in made.layers.items()},
+        point_count=made.point_count,
+        ground_count=made.ground_count,
+        class_counts=made.class_counts,
+        cell_size=made.cell_size,
+        failures=made.failures,
+        warnings=made.warnings,
+        seconds={name: round(took, 2) for name, took in made.seconds.items()},
+        quality=made.quality,
+        check=made.check,
+        water=made.water,
+        interval=made.interval,
+    )
+
+
+def _record(request: DeliveryRequest, made: Made, folder: Path) -> dict[str, object]:
+    """Return what is said of a delivery beside its files."""
+    # The points of many files are in the folder already.
+    there = [each for each in made.files if folder in each.parents and each.is_file()]
+    return {
+        "delivery": request.delivery,
+        "version": __version__,
+        "settings": settings_of(request, made.cell_size),
+        "points": made.point_count,
+        "ground": made.ground_count,
+        "classes": made.class_counts,
+        "water": None if made.water is None else asdict(made.water),
+        "files": [each.relative_to(folder).as_posix() for each in there],
+    }

@@ -1,0 +1,254 @@
+"""The page of a delivery: a note for those who receive it, as a single HTML file."""
+
+from __future__ import annotations
+
+from datetime import date
+from pathlib import Path
+from typing import Iterable
+from urllib.parse import quote
+
+from ..core.parameters import ParameterSet, shown_value
+from ..filters import method_of
+from ..las.class_names import named_class
+from ..products.accuracy import Figures
+from ..products.page import Units, map_figure, page_html, text
+from ..products.quality_figures import FAIL, LOOK
+from ..products.quality_rasters import QUALITY_RASTERS
+from ..products.raster_files import RASTERS
+from ..survey.files import Survey
+from .deliveries import WITH_BUILDINGS
+from .pictures import picture_of
+from .request import DeliveryRequest
+from .steps import Made
+
+_MOST_ROWS = 200
+_STYLE = """
+.maps { display: grid; grid-template-columns: repeat(auto-fill, minmax(380px, 1fr)); gap: 1.2em; }
+.maps figure:first-child { grid-column: 1 / -1; }
+"""
+_ABOUT = {
+    WITH_BUILDINGS: "The terrain with the buildings on it: the highest point of ground or buildings"
+    " in each cell.",
+    "contours": "Contour lines; the field ELEV has the height, INDEX is 1 for every fifth line.",
+    "water": "Lakes and rivers as polygons, with their level, the spread of their shore and a grade"
+    " of certainty. They are flat in the terrain model.",
+    "breaklines": "Shores, islands and the middles of rivers, with heights.",
+    "checkpoints": "The checkpoints, with the errors of the ground points and the terrain model.",
+    "quality.html": "Densities, voids, strips and classes of the survey, and the comparison with"
+    " the specification.",
+    "accuracy.html": "The errors at checkpoints and at ground points that were held out.",
+    "checkpoints.csv": "The checkpoints and their errors as a table.",
+}
+
+
+def delivery_html(request: DeliveryRequest, made: Made, survey: Survey, root: Path) -> str:
+    """Return the page of a delivery.
+
+    Parameters
+    ----------
+    request : DeliveryRequest
+        What was asked for.
+    made : Made
+        What was made.
+    survey : Survey
+        The raw files.
+    root : Path
+        The folder with the files of the delivery, all but the points of many files.
+    """
+    units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
+    content = request.content
+    parts = [
+        f"<p>{text(content.about)}</p>",
+        _figures(request, made, survey, units),
+        _warnings(made),
+        _pictures(request, made, units),
+        _files(made, root),
+        _settings(request, made, survey),
+    ]
+    name = survey.tiles[0].path.name
+    more = f" and {len(survey.tiles) - 1:,} more files" if survey.tiles[1:] else ""
+    return page_html(f"{content.label}: {name}{more}", "\n".join(parts), _STYLE)
+
+
+def _table(rows: Iterable[tuple[str, str]]) -> str:
+    cells = "".join(
+        f'<tr><th class="text">{text(name)}</th><td class="text">{value}</td></tr>'
+        for name, value in rows
+    )
+    return f"<table>{cells}</table>"
+
+
+def _figures(request: DeliveryRequest, made: Made, survey: Survey, units: Units) -> str:
+    found, rows = made.quality, [("CRS", text(survey.crs.name or "not stated"))]
+    rows.append(("Points", f"{made.point_count:,}"))
+    share = 100.0 * made.ground_count / max(made.point_count, 1)
+    rows.append(("Ground points", f"{made.ground_count:,} ({share:.1f} %)"))
+    for value, count in made.class_counts.items():
+        rows.append((named_class(value).capitalize(), f"{count:,}"))
+    if found is not None:
+        rows.append(("Area", f"{found.area / 10_000:,.2f} ha"))
+        densities = (found.pulse_density, found.ground_density)
+        for name, density in zip(("First returns", "Ground points"), densities):
+            shown = "none" if density is None else f"{density:.2f}"
+            rows.append((f"{name} in a square metre", shown))
+    model = request.terrain_with(made.cell_size)
+    size = model.cell_metres(units.horizontal)
+    rows.append(("Cell size of the terrain model", text(units.length(size))))
+    if made.interval is not None:
+        rows.append(("Contour interval", text(made.interval.text())))
+    if made.water is not None:
+        rows.append(("Water", text(made.water.text)))
+    rows += _accuracy(made)
+    return f"<h2>In figures</h2>\n{_table(rows)}\n{_comparison(made)}"
+
+
+def _accuracy(made: Made) -> list[tuple[str, str]]:
+    check = made.check
+    if check is None:
+        return []
+    rows: dict[str, Figures | None] = {
+        "Checkpoints, without vegetation (NVA)": check.nva,
+        "Checkpoints, with vegetation (VVA)": check.vva,
+        "Checkpoints, terrain model (NVA)": check.dtm_nva,
+    }
+    if check.hold_out is not None:
+        held = check.hold_out
+        rows |= {
+            "Ground points held out": held.all, "Held out, open land": held.open,
+            "Held out, under trees": held.under_trees, "Held out, steep": held.steep,
+        }  # fmt: skip
+    told = [
+        (name, f"RMSE {each.total_rmse:.3f} m, mean {each.mean:+.3f} m, of {each.count:,}")
+        for name, each in rows.items()
+        if each is not None
+    ]
+    return told + ([("Statement", text(check.statement))] if check.statement else [])
+
+
+def _comparison(made: Made) -> str:
+    if made.quality is None or not made.quality.lines:
+        return ""
+    lines = made.quality.lines
+    failed = [each for each in lines if each.state in (FAIL, LOOK)]
+    words = "No comparison fails." if made.quality.passes else "The survey does not meet it."
+    rows = "".join(
+        f'<tr><th class="text">{text(each.name)}</th><td class="text">{text(each.found)}</td>'
+        f'<td class="text">{text(each.asked)}</td>'
+        f'<td class="text">{"fail" if each.state == FAIL else "look at it"}</td></tr>'
+        for each in failed
+    )
+    table = (
+        '<table><tr><th class="text">What</th><th class="text">Found</th>'
+        f'<th class="text">Asked for</th><th class="text">Result</th></tr>{rows}</table>'
+        if failed
+        else ""
+    )
+    passed = len(lines) - len(failed)
+    return f"""<h2>Specification</h2>
+<p>{words} {passed} of {len(lines)} comparisons pass; <a href="quality.html">all of them</a>.</p>
+{table}"""
+
+
+def _warnings(made: Made) -> str:
+    said = [f"{Path(path).name} is left out. {why}" for path, why in made.failures.items()]
+    said += [each for each in made.warnings if each not in said]
+    if not said:
+        return ""
+    rows = "".join(f"<li>{text(each)}</li>" for each in said[:_MOST_ROWS])
+    return f"<h2>Look at this</h2>\n<ul>{rows}</ul>"
+
+
+def _pictures(request: DeliveryRequest, made: Made, units: Units) -> str:
+    figures = []
+    for name in request.content.pictures:
+        picture, legend = picture_of(made.layers[name], name, units)
+        label = label_of(name)
+        below = f"<br>{legend}" if legend else ""
+        figures.append(f"<figure>{map_figure(picture, label, label, units)}{below}</figure>")
+    return f'<h2>Maps</h2>\n<div class="maps">{"".join(figures)}</div>'
+
+
+def label_of(name: str) -> str:
+    """Return the label of a layer."""
+    labels = {WITH_BUILDINGS: "Terrain with buildings", "contours": "Contour lines"}
+    return RASTERS[name].label if name in RASTERS else labels.get(name, name.capitalize())
+
+
+def _about(path: Path) -> str:
+    """Return what a file holds."""
+    if path.stem in RASTERS:
+        return RASTERS[path.stem].help
+    if path.parent.name == "quality" and path.stem in QUALITY_RASTERS:
+        raster = QUALITY_RASTERS[path.stem]
+        return f"{raster.label}."
+    return _ABOUT.get(path.name, _ABOUT.get(path.stem, ""))
+
+
+def _files(made: Made, root: Path) -> str:
+    names = sorted(each.relative_to(root).as_posix() for each in root.rglob("*") if each.is_file())
+    rows = [
+        (name, _about(root / name))
+        for name in names
+        if not name.startswith("points/") and name != "index.html"
+    ]
+    points = sorted(each.name for each in made.files if each.suffix.lower() in (".las", ".laz"))
+    rows[:0] = [(f"points/{name}", "Classified points.") for name in points[:_MOST_ROWS]]
+    cells = "".join(
+        f'<tr><td class="text files"><a href="{quote(name)}">{text(name)}</a></td>'
+        f'<td class="text">{text(what)}</td></tr>'
+        for name, what in rows
+    )
+    left = len(points) - _MOST_ROWS
+    more = f"<p>{left:,} more files of points are not listed.</p>" if left > 0 else ""
+    return f"<h2>Files</h2>\n<table>{cells}</table>\n{more}"
+
+
+def _settings(request: DeliveryRequest, made: Made, survey: Survey) -> str:
+    sets = settings_of(request, made.cell_size)
+    rows = [
+        (title, text(", ".join(f"{name} {value}" for name, value in values.items()) or "defaults"))
+        for title, values in sets.items()
+    ]
+    rows.append(("Made on", date.today().isoformat()))
+    files = "".join(
+        f'<tr><td class="text files">{text(each.path.name)}</td><td>{each.count:,}</td></tr>'
+        for each in survey.tiles[:_MOST_ROWS]
+    )
+    return f"""<h2>How it was made</h2>
+{_table(rows)}
+<table><tr><th class="text">Input</th><th>Points</th></tr>{files}</table>"""
+
+
+def settings_of(request: DeliveryRequest, cell_size: float) -> dict[str, dict[str, str]]:
+    """Return what differs from the defaults, by the name of the step and of the parameter."""
+    how = request.classify(request.content.heights)
+    method = method_of(how.parameters).label
+    sets: dict[str, ParameterSet] = {
+        method: how.parameters,
+        "Classes": how.selection,
+        "Terrain model": request.terrain_with(cell_size),
+        "Surface model": request.surface_model,
+    }
+    if how.above_ground.wanted:
+        sets["Above the ground"] = how.above_ground
+    if request.water_wanted is not None:
+        sets["Water"] = request.water_wanted
+    if request.content.contours:
+        sets["Contour lines"] = request.contours
+    return {name: _changed(each) for name, each in sets.items()}
+
+
+def _changed(given: ParameterSet) -> dict[str, str]:
+    values = {}
+    for each in given.declarations():
+        value = getattr(given, each.name)
+        if value != each.default:
+            many = value if isinstance(value, tuple) else (value,)
+            values[each.name] = " ".join(map(_shown, many))
+    return values
+
+
+def _shown(value: object) -> str:
+    if value is None or isinstance(value, (bool, str)):
+        return {None: "none", True: "on", False: "off"}.get(value, str(value))  # type: ignore
+    return shown_value(value)  # type: ignore[arg-type]

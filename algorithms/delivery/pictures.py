@@ -1,0 +1,84 @@
+"""Small pictures of the rasters of a delivery."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from ..grids.hillshade import hillshade
+from ..products.page import Units, key
+from ..products.pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
+from ..rasters.geotiff import NO_CELLS, read_raster
+from .deliveries import WITH_BUILDINGS
+
+LONGEST_SIDE = 900
+# Cells that are read at a time.
+_CELLS = 4_000_000
+_CANOPY = ("#f4f1e4", "#c9d98f", "#7fb258", "#3c7d3c", "#0f4023")
+_OF_HEIGHTS = ("dtm", "dsm", WITH_BUILDINGS)
+# Heights are shaded up to so much.
+_DARKEST = 0.35
+
+
+def picture_of(raster: Path, name: str, units: Units = Units()) -> tuple[Picture, str]:
+    """Return a raster as a picture, and its legend as HTML; the legend is empty for reliefs.
+
+    Parameters
+    ----------
+    raster : Path
+        The raster, read some rows at a time.
+    name : str
+        Its name, as in `RASTERS`.
+    units : Units
+        For the legend.
+    """
+    values, cell = _small(raster)
+    known = values[~np.isnan(values)]
+    if not len(known):
+        return Picture(_filled(values, 255), cell), ""
+    if name in _OF_HEIGHTS:
+        return _heights(values, known, cell, units)
+    if name == "chm":
+        high = max(float(np.percentile(known, 99.5)), 1e-6)
+        legend = key(_CANOPY[0], units.height(0.0)) + key(
+            _CANOPY[-1], units.height(high * units.vertical)
+        )
+        return Picture(ramped(values, _CANOPY, 0.0, high), cell), legend
+    grey = np.where(np.isnan(values), 255.0, values)
+    return Picture(np.repeat(np.rint(grey).astype(np.uint8)[..., None], 3, axis=2), cell), ""
+
+
+def _filled(values: np.ndarray, grey: int) -> np.ndarray:
+    return np.full((*values.shape, 3), grey, dtype=np.uint8)
+
+
+def _small(raster: Path) -> tuple[np.ndarray, float]:
+    """Return the values of a raster in larger cells, and their side in metres."""
+    opened = read_raster(raster, window=NO_CELLS)
+    rows, columns = opened.whole
+    step = math.ceil(max(rows, columns) / LONGEST_SIDE)
+    some = max(_CELLS // columns // step, 1) * step
+    parts = [
+        reduced(
+            read_raster(raster, window=(0, first, columns, min(some, rows - first))).heights, step
+        )
+        for first in range(0, rows, some)
+    ]
+    return np.concatenate(parts).astype(np.float64), opened.cell_metres[0] * step
+
+
+def _heights(
+    values: np.ndarray, known: np.ndarray, cell: float, units: Units
+) -> tuple[Picture, str]:
+    """Return heights in colours with shades, and the legend."""
+    low, high = (float(np.percentile(known, each)) for each in (1.0, 99.0))
+    high = max(high, low + 1e-6)
+    shade = hillshade(values * units.vertical, cell)[..., None] / 255.0
+    light = _DARKEST + (1.0 - _DARKEST) * shade
+    pixels = ramped(values, HEIGHTS, low, high) * light
+    pixels[np.isnan(values)] = rgb(NOWHERE)
+    ends = (units.height(each * units.vertical) for each in (low, high))
+    legend = "".join(key(colour, end) for colour, end in zip((HEIGHTS[0], HEIGHTS[-1]), ends))
+    return Picture(np.rint(pixels).astype(np.uint8), cell), legend

@@ -1,0 +1,253 @@
+"""The request for a delivery, and the requests for the steps that follow from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any, TypeVar
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet, parameter, parameter_of
+from ..engine.output import Output
+from ..engine.requests import ClassifyRequest, Request
+from ..filters import DEFAULT_METHOD, METHODS
+from ..products.above_ground import ThenAboveGround
+from ..products.accuracy import Accuracy
+from ..products.constraints import NO_CONSTRAINTS, Constraints
+from ..products.contours import Contours
+from ..products.quality import QualityOptions
+from ..products.raster_grid import ANYWHERE, RasterTarget
+from ..products.specifications import SPECIFICATIONS
+from ..products.surface_model import SurfaceModel
+from ..products.terrain_model import MapTerrain
+from ..products.water import Water
+from ..survey.area import Area
+from ..survey.checkpoint_files import Checkpoints
+from ..survey.corrections import NO_CORRECTIONS, Corrections
+from ..survey.ground_classes import GroundClasses
+from ..survey.selection import Selection
+from .deliveries import DEFAULT_DELIVERY, DELIVERIES, Delivery
+
+_Set = TypeVar("_Set", bound=ParameterSet)
+# No delivery but outputs that the user chooses, and the specification that a delivery has.
+NO_DELIVERY, AS_DELIVERY = "own", "as-delivery"
+_BRIDGE_CLASS = 17
+# The specification whose limits of vegetation are not the usual ones, and the name of these.
+_IGN = "ign"
+
+
+@dataclass(frozen=True)
+class DeliveryChoice(ParameterSet):
+    """Which delivery is made, if any."""
+
+    # Optional, since it is newer than saved models of the step from a point cloud to maps.
+    delivery: str | None = parameter(
+        NO_DELIVERY,
+        label="Delivery",
+        optional=True,
+        choices={
+            NO_DELIVERY: "Own choice of outputs",
+            **{name: each.label for name, each in DELIVERIES.items()},
+        },
+        help="All outputs that a job hands over, in one folder, with a page that lists them. Only"
+        " with your own choice of outputs are the fields of single outputs used.",
+    )
+
+
+@dataclass(frozen=True)
+class DeliveryOptions(ParameterSet):
+    """What a delivery contains beside its outputs, and with what it is compared."""
+
+    specification: str = parameter(
+        AS_DELIVERY,
+        label="Specification",
+        choices={
+            AS_DELIVERY: "The usual one of the delivery",
+            **{name: each.label for name, each in SPECIFICATIONS.items()},
+        },
+        advanced=True,
+        help="The specification with which the survey is compared. It also sets the cell size of"
+        " the delivery for surveys, and the classes that it asks for.",
+    )
+    key_points: bool = parameter(
+        False,
+        label="Mark model key points",
+        advanced=True,
+        help="Marks the ground points that a terrain model needs, by the key-point flag of LAS.",
+    )
+    hold_out_share: float | None = parameter(
+        0.02,
+        kind="number",
+        label="Share of ground points to hold out",
+        minimum=0.0001,
+        maximum=0.5,
+        optional=True,
+        advanced=True,
+        help="Leaves out so large a share of the ground points, and states how well the others"
+        " predict them. Empty: this is not measured.",
+    )
+
+
+@dataclass(frozen=True)
+class DeliveryTerrain(MapTerrain):
+    """The same as for maps, with a cell size that can be left open."""
+
+    dtm_cell_size: float | None = parameter_of(  # type: ignore[assignment]
+        MapTerrain,
+        "dtm_cell_size",
+        label="Cell size",
+        default=None,
+        optional=True,
+        empty="by the density of the ground points",
+        help="Side of a cell of the terrain model and of its hillshade. Empty: 1 m, and for a"
+        " delivery as fine as the ground points allow, or as the specification states.",
+    )
+
+    def with_cells(self, size: float) -> MapTerrain:
+        """Return the parameters of maps, with a cell size in metres if it is left open."""
+        values = {each.name: getattr(self, each.name) for each in self.declarations()}
+        if values["dtm_cell_size"] is None:
+            values |= {"dtm_cell_size": size, "dtm_cell_unit": "m"}
+        return MapTerrain(**values)
+
+
+@dataclass(frozen=True)
+class DeliveryRequest(Request):
+    """A request for a delivery.
+
+    Attributes
+    ----------
+    delivery : str
+        "survey", "archaeology", "forestry", "flood" or "drone-site"; see `DELIVERIES`.
+    options : DeliveryOptions
+        Specification, key points, and points to hold out.
+    parameters : ParameterSet
+        The parameters of one method. Those that are left to the preset get the values of the
+        delivery.
+    selection : Selection
+        Which points take part. Noise and bridges get their classes in any case.
+    terrain, surface : DeliveryTerrain, SurfaceModel
+        Cell size, light and so on of the rasters. Defaults get the values of the delivery.
+    contours : Contours
+        How contour lines are drawn.
+    water : Water
+        Which water is found. Defaults get the values of the delivery.
+    accuracy : Accuracy
+        What the errors at checkpoints are compared with.
+    checkpoints : Checkpoints or None
+        Points that were surveyed on the ground.
+    area : Area or None
+        What is delivered; None for everything.
+    corrections : Corrections
+        Polygons in which the class is known.
+    constraints : Constraints
+        Breaklines, water, and areas without ground. If they have water, none is looked for.
+    raster_target : RasterTarget
+        A raster whose grid the rasters get, and their extent.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no such delivery.
+    """
+
+    delivery: str = DEFAULT_DELIVERY
+    options: DeliveryOptions = field(default_factory=DeliveryOptions)
+    parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
+    selection: Selection = field(default_factory=Selection)
+    terrain: DeliveryTerrain = field(default_factory=DeliveryTerrain)
+    surface: SurfaceModel = field(default_factory=SurfaceModel)
+    contours: Contours = field(default_factory=Contours)
+    water: Water = field(default_factory=Water)
+    accuracy: Accuracy = field(default_factory=Accuracy)
+    checkpoints: Checkpoints | None = None
+    area: Area | None = None
+    corrections: Corrections = NO_CORRECTIONS
+    constraints: Constraints = NO_CONSTRAINTS
+    raster_target: RasterTarget = ANYWHERE
+
+    def __post_init__(self) -> None:
+        if self.delivery not in DELIVERIES:
+            raise BareEarthError(
+                f"There is no delivery '{self.delivery}'. Choose one of {', '.join(DELIVERIES)}."
+            )
+
+    @property
+    def content(self) -> Delivery:
+        """What the delivery contains."""
+        return DELIVERIES[self.delivery]
+
+    @property
+    def specification(self) -> str:
+        """The name of the specification with which the survey is compared."""
+        given = self.options.specification
+        return self.content.specification if given == AS_DELIVERY else given
+
+    @property
+    def above_ground(self) -> ThenAboveGround:
+        """Whether the points above the ground get classes, and which."""
+        if not self.content.needs_classes(self.specification):
+            return ThenAboveGround()
+        return ThenAboveGround(above_ground=_IGN if self.specification == _IGN else "asprs")
+
+    @property
+    def ground(self) -> GroundClasses:
+        """Which points of the classified files are ground."""
+        known = self.selection.seed_classes or ()
+        classes = tuple(dict.fromkeys((self.selection.to_class, *known)))
+        return GroundClasses(classes, self.selection.overlap)
+
+    @property
+    def quality(self) -> QualityOptions:
+        """How the quality is measured."""
+        return QualityOptions(specification=self.specification)
+
+    def classify(self, with_heights: bool) -> ClassifyRequest:
+        """Return the request to classify; `with_heights`: in a run that also writes heights."""
+        return ClassifyRequest(
+            files=self.files,
+            tiles=self.tiles,
+            resources=self.resources,
+            crs=self.crs,
+            parameters=self._method(),
+            selection=replace(
+                self.selection,
+                low_noise_class=True,
+                high_noise_class=True,
+                bridge_class=self.selection.bridge_class or _BRIDGE_CLASS,
+            ),
+            area=self.area,
+            corrections=self.corrections,
+            above_ground=self.above_ground,
+            output=Output(area_only=self.area is not None, height_above_ground=with_heights),
+        )
+
+    def _method(self) -> ParameterSet:
+        """Return the parameters of the method, with values of the delivery for those left open."""
+        content, given = self.content, self.parameters
+        presets = {each.name: each for each in given.declarations()}["preset"].choices
+        chosen: dict[str, Any] = vars(given)
+        if chosen["preset"] == "automatic" and content.preset in presets:
+            given = replace(given, preset=content.preset)  # type: ignore[call-arg]
+        return given.filled(content.values)
+
+    def terrain_with(self, cell_size: float) -> MapTerrain:
+        """Return the parameters of the rasters, with a cell size in metres if none is given."""
+        return _or_else(self.terrain, self.content.terrain).with_cells(cell_size)
+
+    @property
+    def water_wanted(self) -> Water | None:
+        """Which water is found; None if none is looked for, as the user gives it."""
+        values = self.content.water
+        return None if values is None or self.constraints.water else _or_else(self.water, values)
+
+    @property
+    def surface_model(self) -> SurfaceModel:
+        """The parameters of the surface and canopy models."""
+        return _or_else(self.surface, self.content.surface)
+
+
+def _or_else(given: _Set, values: Any) -> _Set:
+    """Return parameters in which defaults are replaced by values, given by name."""
+    defaults = {each.name: each.default for each in given.declarations()}
+    left = {name: it for name, it in values.items() if getattr(given, name) == defaults[name]}
+    return replace(given, **left)

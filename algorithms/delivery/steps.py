@@ -1,0 +1,355 @@
+"""The steps of a delivery: each runs what the commands run, one after the other."""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+import time
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, Callable, Iterator
+
+from ..core.errors import BareEarthError
+from ..core.files import split_name
+from ..core.progress import PassingOn, Progress
+from ..engine.key_points import KeyPointMark
+from ..engine.manifest import folders_of
+from ..engine.one_file import Summary
+from ..engine.options import TileInput
+from ..engine.requests import HeightRequest, KeyPointRequest, TerrainRequest
+from ..engine.runs import classify, heights, key_points, terrain
+from ..engine.workers import Workers
+from ..products.checkpoint_outputs import CheckOutputs
+from ..products.checkpoint_results import Check
+from ..products.checkpoints import CheckOptions, CheckRequest, check_files
+from ..products.constraints import Constraints
+from ..products.contours import Interval, write_contours
+from ..products.line_files import feature_writer
+from ..products.quality import QualityRequest, survey_quality
+from ..products.quality_figures import Quality
+from ..products.raster_files import RasterFiles
+from ..products.surface_model import SurfaceModel
+from ..products.water_files import SurveyWater, WaterRequest, WaterSummary
+from ..survey.files import Survey
+from ..survey.overview import overview_of
+from .deliveries import WITH_BUILDINGS
+from .folder import QUALITY, DeliveryFolder
+from .request import DeliveryRequest
+
+_BUILDING = 6
+# Contour lines in a CRS whose heights are feet: so many feet are about half a metre.
+_FEET_A_METRE = 4.0
+
+
+class Heard(PassingOn):
+    """Passes on messages, each once, since several steps read the same files; keeps warnings.
+
+    Parameters
+    ----------
+    whole : Progress
+        Receives them.
+    working, folder : Path
+        Messages name the second folder in place of the first, which is temporary.
+    """
+
+    def __init__(self, whole: Progress, working: Path, folder: Path) -> None:
+        super().__init__(whole)
+        self.warnings: list[str] = []
+        self._said: set[str] = set()
+        self._names = str(working), str(folder)
+
+    def info(self, text: str) -> None:
+        """Pass on a message."""
+        for each in self._new(text):
+            super().info(each)
+
+    def choice(self, text: str) -> None:
+        """Pass on a choice."""
+        for each in self._new(text):
+            super().choice(each)
+
+    def warning(self, text: str) -> None:
+        """Pass on a warning, and keep it."""
+        for each in self._new(text):
+            self.warnings.append(each)
+            super().warning(each)
+
+    def _new(self, text: str) -> list[str]:
+        """Return a message as it is to be read, or nothing if it was passed on before."""
+        text = text.replace(*self._names)
+        is_new = text not in self._said
+        self._said.add(text)
+        return [text] if is_new else []
+
+
+@dataclass
+class Made:
+    """What the steps have made so far; `cloud` is None before the points are classified."""
+
+    cloud: Path | None = None
+    point_count: int = 0
+    ground_count: int = 0
+    class_counts: dict[int, int] = field(default_factory=dict)
+    failures: dict[str, str] = field(default_factory=dict)
+    files: list[Path] = field(default_factory=list)
+    layers: dict[str, Path] = field(default_factory=dict)
+    cell_size: float = 1.0
+    constraints: Constraints | None = None
+    quality: Quality | None = None
+    check: Check | None = None
+    water: WaterSummary | None = None
+    interval: Interval | None = None
+    seconds: dict[str, float] = field(default_factory=dict)
+    warnings: list[str] = field(default_factory=list)
+
+
+@dataclass
+class DeliverySteps:
+    """The steps of a delivery.
+
+    Attributes
+    ----------
+    request : DeliveryRequest
+        What to deliver.
+    survey : Survey
+        The raw files.
+    sources : list of Path
+        The files and folders as the user gave them.
+    is_one : bool
+        Whether they are one file.
+    work : DeliveryFolder
+        Where outputs are made that get their places at the end.
+    folder : DeliveryFolder
+        Where many files are classified at once, as finished ones stay after a cancel.
+    workers : Workers or None
+        The workers for many files.
+    """
+
+    request: DeliveryRequest
+    survey: Survey
+    sources: list[Path]
+    is_one: bool
+    work: DeliveryFolder
+    folder: DeliveryFolder
+    workers: Workers | None
+    made: Made = field(default_factory=Made)
+
+    def run(self, progress: Progress) -> Made:
+        """Run all steps."""
+        content, options = self.request.content, self.request.options
+        has_check = options.hold_out_share is not None or self.request.checkpoints is not None
+        named: list[tuple[str, float, Callable[[Progress], None]]] = [
+            ("classes", 6.0, self._classify),
+            ("quality", 2.0, self._measure),
+            ("water", 1.0 * (content.water is not None), self._find_water),
+            ("rasters", 2.0 + 0.4 * len(content.rasters), self._draw),
+            ("contour lines", 0.3 * content.contours, self._trace),
+            ("accuracy", 1.5 * has_check, self._check),
+        ]
+        parts = progress.shares(*(weight for _, weight, _ in named))
+        for (name, weight, step), part in zip(named, parts):
+            if weight:
+                begun = time.perf_counter()
+                step(part)
+                self.made.seconds[name] = time.perf_counter() - begun
+        return self.made
+
+    @property
+    def _cloud(self) -> Path:
+        if self.made.cloud is None:
+            raise BareEarthError("The points are not classified yet.")
+        return self.made.cloud
+
+    def _classify(self, progress: Progress) -> None:
+        """Classify the points, add their heights, and mark key points, as the delivery asks."""
+        request, wanted = self.request, self.request.content.heights
+        ways: list[Callable[..., Any]] = [self._classified]
+        if wanted and not self.is_one:
+            ways.append(self._with_heights)
+        if request.options.key_points:
+            ways.append(self._with_key_points)
+        sources, made = list(self.sources), self.made
+        with self._waiting() as waiting:
+            for number, (way, part) in enumerate(zip(ways, progress.shares(3.0, 1.0, 1.0)), 1):
+                is_last = number == len(ways)
+                place = self._points if is_last else waiting / str(number)
+                place.mkdir(parents=True, exist_ok=True)
+                done = way(sources, self._target(place, is_last), is_last, part)
+                if self.is_one:
+                    made.cloud = self._target(place, is_last)
+                    sources = [made.cloud]
+                else:
+                    made.cloud, sources = Path(done.vpc), [Path(done.vpc)]
+                    made.failures |= done.failures
+                made.point_count, made.ground_count = _counts_of(done)
+                made.class_counts = done.class_counts or made.class_counts
+        made.files = [self._cloud] if self.is_one else self._files_of(done)
+
+    def _files_of(self, done: Any) -> list[Path]:
+        """Return the files of points, their lists, and the records of what they were made of."""
+        names = {each.name for each in done.tiles}
+        names |= {self._cloud.name, overview_of(self._cloud).name}
+        records = folders_of(self._points)[1]
+        found = sorted(each for each in self._points.rglob("*") if each.is_file())
+        return [each for each in found if each.name in names or records in each.parents]
+
+    @property
+    def _points(self) -> Path:
+        """The folder of the classified points."""
+        return (self.work if self.is_one else self.folder).points
+
+    @contextlib.contextmanager
+    def _waiting(self) -> Iterator[Path]:
+        """Yield a folder of files for further steps; remove it when all of these are done."""
+        waiting = (self.work if self.is_one else self.folder).waiting
+        yield waiting
+        shutil.rmtree(waiting, ignore_errors=True)
+
+    def _target(self, place: Path, is_last: bool) -> Path:
+        """Return the output of a step: a file, or the folder of many."""
+        if not self.is_one:
+            return place
+        source, kind = self.sources[0], self.request.tiles.format
+        if kind == "same" or not is_last:
+            return place / source.name
+        return place / f"{split_name(source)[0]}.{kind}"
+
+    def _classified(
+        self, sources: list[Path], target: Path, is_last: bool, progress: Progress
+    ) -> Any:
+        how = self.request.classify(self.is_one and self.request.content.heights)
+        how = replace(how, tiles=self._tiles(is_last))
+        return classify(sources, target, how, progress, self.workers, as_survey=not self.is_one)
+
+    def _with_heights(
+        self, sources: list[Path], target: Path, is_last: bool, progress: Progress
+    ) -> Any:
+        how = HeightRequest(ground=self.request.ground, **self._further(is_last))
+        return heights(sources, target, how, progress, self.workers, not self.is_one)
+
+    def _with_key_points(
+        self, sources: list[Path], target: Path, is_last: bool, progress: Progress
+    ) -> Any:
+        mark = KeyPointMark(mark_as="flag")
+        how = KeyPointRequest(ground=self.request.ground, mark=mark, **self._further(is_last))
+        return key_points(sources, target, how, progress, self.workers, not self.is_one)
+
+    def _tiles(self, is_last: bool) -> Any:
+        tiles = self.request.tiles
+        return tiles if is_last else replace(tiles, format="same", overview=False)
+
+    def _further(self, is_last: bool) -> dict[str, Any]:
+        """Return the options of a step that reads the outputs of another."""
+        request = self.request
+        return {
+            "files": TileInput(), "tiles": self._tiles(is_last), "resources": request.resources,
+            "crs": request.crs,
+        }  # fmt: skip
+
+    def _measure(self, progress: Progress) -> None:
+        """Measure the quality, and choose the cell size by the density of the ground."""
+        request, made, kept = self.request, self.made, self.request.content.quality
+        folder = self.work.path / QUALITY
+        made.quality = survey_quality(
+            [self._cloud],
+            QualityRequest(
+                request.quality,
+                request.ground,
+                self.work.path / "quality.html",
+                folder if kept else None,
+                request.crs,
+            ),
+            progress,
+        )
+        for each in folder.glob("*.tif"):
+            if each.stem not in kept:
+                each.unlink()
+        made.cell_size = request.content.cell_size(
+            made.quality.ground_density, request.specification
+        )
+
+    def _find_water(self, progress: Progress) -> None:
+        """Find the water, unless the user has given some."""
+        request, wanted = self.request, self.request.water_wanted
+        if wanted is None:
+            return
+        how = WaterRequest(wanted, request.ground, request.crs)
+        found = SurveyWater.of([self._cloud], how, progress)
+        self.made.water = found.summary
+        progress.info(f"Water: {found.summary.text}.")
+        if found.bodies:
+            water, lines = (
+                self.work.path / f"{name}{vector_format()}" for name in ("water", "breaklines")
+            )
+            found.write(water, lines, progress)
+            self.made.layers |= {"water": water, "breaklines": lines}
+            known = found.constraints
+            rivers = (*request.constraints.rivers, *known.rivers)
+            self.made.constraints = replace(request.constraints, water=known.water, rivers=rivers)
+
+    def _draw(self, progress: Progress) -> None:
+        """Make the rasters."""
+        request, made, content = self.request, self.made, self.request.content
+        model = request.terrain_with(made.cell_size)
+        made.cell_size = model.dtm_cell_size
+        paths = {name: self.work.path / f"{name}.tif" for name in content.rasters}
+        how = TerrainRequest(
+            resources=request.resources, crs=request.crs, rasters=RasterFiles(**paths),
+            ground=request.ground, terrain=model, surface=request.surface_model,
+            constraints=made.constraints or request.constraints, area=request.area,
+            raster_target=request.raster_target, roads=request.selection.roads,
+        )  # fmt: skip
+        first, second = progress.shares(len(paths) + 2.0, 2.0 * content.with_buildings)
+        terrain([self._cloud], how, first, self.workers)
+        made.layers |= paths
+        if content.with_buildings:
+            path = self.work.path / f"{WITH_BUILDINGS}.tif"
+            classes = *request.ground.ground_classes, *request.selection.roads, _BUILDING
+            surface = SurfaceModel("all", classes, request.surface.max_edge)
+            how = replace(how, rasters=RasterFiles(dsm=path), surface=surface)
+            terrain([self._cloud], how, second, self.workers)
+            made.layers[WITH_BUILDINGS] = path
+
+    def _trace(self, progress: Progress) -> None:
+        """Draw contour lines."""
+        metres, how = self.request.content.contour_metres, self.request.contours
+        if metres is not None:
+            is_metric = self.survey.crs.vertical_unit == 1.0
+            how = how.filled({"contour_interval": metres * (1.0 if is_metric else _FEET_A_METRE)})
+        target = self.work.path / f"contours{vector_format()}"
+        self.made.interval = write_contours(self.made.layers["dtm"], target, how, progress)
+        self.made.layers["contours"] = target
+
+    def _check(self, progress: Progress) -> None:
+        """Compare the ground with checkpoints, and with points that are held out."""
+        request, folder, points = self.request, self.work.path, self.request.checkpoints
+        outputs = CheckOutputs(folder / "accuracy.html")
+        if points is not None:
+            residuals = folder / f"checkpoints{vector_format()}"
+            outputs = outputs._replace(table=folder / "checkpoints.csv", residuals=residuals)
+            self.made.layers["checkpoints"] = residuals
+        self.made.check = check_files(
+            [self._cloud],
+            CheckRequest(
+                points, CheckOptions(hold_out=request.options.hold_out_share), request.accuracy,
+                request.ground, dtm=None if points is None else str(self.made.layers["dtm"]),
+                outputs=outputs, crs=request.crs,
+            ),
+            progress,
+        )  # fmt: skip
+
+
+def _counts_of(done: Any) -> tuple[int, int]:
+    """Return the numbers of points and of ground points of a summary; those of the area."""
+    if isinstance(done, Summary):
+        return done.area_count, done.area_ground_count
+    return done.point_count, done.ground_count
+
+
+def vector_format() -> str:
+    """Return the ending of vector files: GeoPackage if it can be written, else GeoJSON."""
+    try:
+        feature_writer(Path("x.gpkg"), "lines")
+    except BareEarthError:
+        return ".geojson"
+    return ".gpkg"

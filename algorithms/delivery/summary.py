@@ -1,0 +1,89 @@
+"""What a delivery holds, in figures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..products.checkpoint_results import Check
+from ..products.contours import Interval
+from ..products.quality_figures import Quality
+from ..products.water_files import WaterSummary
+
+
+@dataclass(frozen=True)
+class DeliverySummary:
+    """What a delivery holds.
+
+    Attributes
+    ----------
+    folder : str
+        Where it is.
+    delivery : str
+        Its name.
+    page : str
+        The page that shows it.
+    cloud : str
+        The classified file, or the virtual point cloud of many.
+    layers : dict of str to str
+        The files that a map shows, by their names: those of `RASTERS`, "terrain_with_buildings",
+        "contours", "water", "breaklines" and "checkpoints".
+    point_count, ground_count : int
+        Numbers of points in the classified files, and of ground points.
+    class_counts : dict of int to int
+        Points of each class.
+    cell_size : float
+        Side of a cell of the terrain model, in metres or in the unit that was asked for.
+    failures : dict of str to str
+        Why some of many files are left out, by their paths.
+    warnings : list of str
+        What the run warned of.
+    seconds : dict of str to float
+        How long each step took.
+    quality : Quality
+        The figures of the survey.
+    check : Check or None
+        The errors at checkpoints and at points that were held out.
+    water : WaterSummary or None
+        The water that was found; None if none was looked for.
+    interval : Interval or None
+        The height between contour lines.
+    """
+
+    folder: str
+    delivery: str
+    page: str
+    cloud: str
+    layers: dict[str, str]
+    point_count: int
+    ground_count: int
+    class_counts: dict[int, int]
+    cell_size: float
+    failures: dict[str, str]
+    warnings: list[str]
+    seconds: dict[str, float]
+    quality: Quality = field(repr=False)
+    check: Check | None = field(default=None, repr=False)
+    water: WaterSummary | None = None
+    interval: Interval | None = None
+
+    @property
+    def text(self) -> str:
+        """The result in words."""
+        share = self.ground_count / max(self.point_count, 1)
+        return (
+            f"{self.ground_count:,} of {self.point_count:,} points are ground ({share:.1%}). Open"
+            f" {self.page}."
+        )
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return all figures as plain values."""
+        plain = {**vars(self), "quality": self.quality.as_dict()}
+        for name in ("check", "water", "interval"):
+            value = plain[name]
+            plain[name] = None if value is None else _plain(value)
+        return plain
+
+
+def _plain(value: Any) -> Any:
+    return value.as_dict() if hasattr(value, "as_dict") else dict(vars(value))

@@ -1,0 +1,138 @@
+"""The fields of a delivery, its run, and its layers."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
+
+from qgis.core import (
+    QgsProcessingContext,
+    QgsProcessingOutputHtml,
+    QgsProcessingParameterFolderDestination,
+)
+
+from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.delivery.deliveries import DELIVERIES
+from ...algorithms.delivery.folder import DeliveryFolder
+from ...algorithms.delivery.request import NO_DELIVERY, DeliveryChoice, DeliveryTerrain
+from ...algorithms.engine.options import TileOutput
+from .. import compat
+from ..i18n import mark
+from ..styles import layers
+from .area import area_options, given_options
+from .base import BareEarthAlgorithm, command_line
+from .classified import show_classified
+from .feedback import FeedbackProgress, Refusal
+from .outputs import given_path, point_cloud_formats
+
+if TYPE_CHECKING:
+    from ...algorithms.delivery.summary import DeliverySummary
+
+FOLDER, PAGE = "DELIVERY_FOLDER", "PAGE"
+# Cell size of rasters that are not a delivery, in metres.
+_USUAL_CELL = 1.0
+
+
+def add_delivery(algorithm: BareEarthAlgorithm) -> None:
+    """Add the field of the folder of a delivery, and its page."""
+    algorithm.addParameter(
+        QgsProcessingParameterFolderDestination(
+            FOLDER, "Folder of the delivery", None, True, False
+        ),
+        "The folder for all outputs of a delivery: an empty or new one, or that of an earlier"
+        " delivery, which is replaced.",
+    )
+    algorithm.addOutput(QgsProcessingOutputHtml(PAGE, "Page of the delivery"))
+
+
+def delivery_of(chosen: Sequence[ParameterSet]) -> str:
+    """Return the name of the delivery; empty for the user's own choice of outputs."""
+    name = DeliveryChoice.among(chosen).delivery
+    return "" if name in (None, NO_DELIVERY) else name
+
+
+def run_name_of(chosen: Sequence[ParameterSet]) -> str:
+    """Return what the group of layers is called, in English: the delivery, or the terrain."""
+    name = delivery_of(chosen)
+    return DELIVERIES[name].label if name else mark("terrain")
+
+
+def without_delivery(chosen: Sequence[ParameterSet]) -> list[ParameterSet]:
+    """Return the parameters of single outputs."""
+    return [
+        each.with_cells(_USUAL_CELL) if isinstance(each, DeliveryTerrain) else each
+        for each in chosen
+        if not isinstance(each, DeliveryChoice)
+    ]
+
+
+def check_folder(
+    algorithm: BareEarthAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+) -> None:
+    """Refuse a delivery without a folder, or into one that is unsuitable."""
+    if not delivery_of(algorithm.chosen(parameters, context)):
+        return
+    if compat.is_empty(parameters.get(FOLDER)):
+        raise Refusal(mark("Choose a folder for the delivery."))
+    path = given_path(parameters.get(FOLDER), context)
+    if path is not None:
+        DeliveryFolder(path).check(algorithm.inputs)
+
+
+def make_delivery(
+    algorithm: BareEarthAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    limits: Mapping[str, Any],
+    progress: FeedbackProgress,
+) -> dict[str, Any]:
+    """Make a delivery, and let QGIS load its layers; return the outputs of the algorithm."""
+    from ...algorithms.delivery.delivering import deliver
+    from ...algorithms.delivery.request import DeliveryRequest
+
+    chosen = algorithm.chosen(parameters, context)
+    name = delivery_of(chosen)
+    sets = [each for each in chosen if not isinstance(each, DeliveryChoice)]
+    sets.append(TileOutput(format=point_cloud_formats()[0], overview=True))
+    folder = algorithm.parameterAsString(parameters, FOLDER, context)
+    words = [name, *map(str, algorithm.inputs), folder]
+    command = command_line("deliver", words, sets, given_options(**limits))
+    area = area_options(limits["area"], progress)
+    progress.command(" ".join([command, *area]))
+    request = DeliveryRequest.of(sets, delivery=name, **limits)
+    done = deliver(algorithm.inputs, folder, request, progress)
+    progress.share(done.ground_count, done.point_count, bool(request.area))
+    _show(algorithm, done, request.content.pictures[0], context)
+    terrain = dataclasses.replace(request.terrain, dtm_cell_size=done.cell_size)
+    request = dataclasses.replace(request, terrain=terrain)
+    if not done.cloud.endswith(".vpc") and compat.can_load(done.cloud):
+        compat.load_point_cloud(done.cloud, context)
+    below = layers.BELOW_TERRAIN
+    show_classified(algorithm, done.cloud, done.class_counts, request, context, progress, below)
+    algorithm.class_counts = done.class_counts
+    return {
+        FOLDER: folder, PAGE: done.page,
+        "POINT_COUNT": done.point_count, "GROUND_COUNT": done.ground_count,
+    }  # fmt: skip
+
+
+def _show(
+    algorithm: BareEarthAlgorithm,
+    done: DeliverySummary,
+    first: str,
+    context: QgsProcessingContext,
+) -> None:
+    """Let QGIS load rasters, lines and polygons; `first` is visible at first."""
+    looks = {"water": layers.WATER, "breaklines": layers.BREAKLINES}
+    if done.interval is not None:
+        looks["contours"] = layers.contours(done.interval)
+    if done.check is not None:
+        looks["checkpoints"] = layers.residuals(done.check.scale)
+    for name, path in done.layers.items():
+        look = looks.get(name) or layers.RASTERS[name.upper()]
+        load: Callable[[str, QgsProcessingContext], None]
+        load = compat.load_vector if name in looks else compat.load_raster
+        load(path, context)
+        algorithm.show(path, layers.first(look) if name == first else look)

@@ -1,0 +1,386 @@
+"""Deliveries of a small scene whose ground, water, house and trees are known."""
+
+import dataclasses
+import json
+import os
+import shutil
+
+import laspy
+import numpy as np
+import pytest
+
+from bare_earth.algorithms import (
+    BareEarthError,
+    Cancelled,
+    Checkpoints,
+    ClassifyRequest,
+    Constraints,
+    DeliveryOptions,
+    DeliveryRequest,
+    DeliveryTerrain,
+    RasterFiles,
+    Selection,
+    TerrainModel,
+    TerrainRequest,
+    TileOutput,
+    TinDensification,
+    classify,
+    deliver,
+    read_boundary,
+    terrain,
+)
+from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import FinishedFilesStay
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.delivery.deliveries import DELIVERIES
+from bare_earth.algorithms.rasters.geotiff import read_raster
+
+pyproj = pytest.importorskip("pyproj")
+EAST, NORTH, WIDTH, DEPTH = 500_000.0, 5_600_000.0, 150.0, 90.0
+LAKE = (115.0, 45.0, 22.0)  # x, y and radius
+ALWAYS = {
+    "index.html",
+    "delivery.json",
+    "accuracy.html",
+    "quality.html",
+    "dtm.tif",
+    "hillshade.tif",
+}
+FILES = {
+    "survey": {
+        "dsm.tif", "quality/pulse_density.tif", "quality/ground_density.tif", "quality/voids.tif",
+        "quality/overlap.tif", "quality/strip_differences.tif", "quality/surface_height.tif",
+    },
+    "archaeology": {
+        "vat.tif", "sky_view.tif", "openness.tif", "negative_openness.tif", "local_dominance.tif",
+        "relief.tif", "red_relief.tif", "confidence.tif", "terrain_with_buildings.tif",
+        "quality/low_vegetation.tif",
+    },
+    "forestry": {"dsm.tif", "chm.tif", "quality/low_vegetation.tif"},
+    "flood": {
+        "dsm.tif", "confidence.tif", "contours.gpkg", "water.gpkg", "breaklines.gpkg",
+    },
+    "drone-site": {"dsm.tif", "contours.gpkg", "quality/ground_density.tif"},
+}  # fmt: skip
+
+
+def ground_at(x, y):
+    """Return the height of the ground: level land, with a basin round the lake."""
+    away = np.hypot(x - LAKE[0], y - LAKE[1]) - LAKE[2]
+    return 100.0 + np.clip(0.25 * away, 0.0, 4.0)
+
+
+def points():
+    """Return x, y, z, return numbers, numbers of returns, and the truth: 2, 5 or 6."""
+    random = np.random.default_rng(11)
+    count = 18_000
+    x, y = random.uniform(0, WIDTH, count), random.uniform(0, DEPTH, count)
+    dry = np.hypot(x - LAKE[0], y - LAKE[1]) > LAKE[2]
+    x, y = x[dry], y[dry]
+    z = ground_at(x, y) + random.normal(0, 0.02, len(x))
+    truth, number, several = (np.full(len(x), value) for value in (2, 1, 1))
+    house = (x > 20) & (x < 34) & (y > 60) & (y < 80)
+    z[house], truth[house] = 108.0 + random.normal(0, 0.02, house.sum()), 6
+    # Each pulse into the wood has a return of a crown, and one of the ground.
+    wood = (x > 15) & (x < 55) & (y > 8) & (y < 40)
+    several[wood], number[wood] = 2, 2
+    crowns = z[wood] + random.uniform(3.0, 12.0, wood.sum())
+    columns = [
+        np.concatenate((each, more))
+        for each, more in zip(
+            (x, y, z, number, several, truth),
+            (x[wood], y[wood], crowns, *(np.full(wood.sum(), value) for value in (1, 2, 5))),
+        )
+    ]
+    return np.column_stack(columns)
+
+
+def write(path, rows):
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0)
+    header.add_crs(pyproj.CRS("EPSG:25832"))
+    las = laspy.LasData(header)
+    las.x, las.y, las.z = rows[:, 0] + EAST, rows[:, 1] + NORTH, rows[:, 2]
+    las.return_number[:], las.number_of_returns[:] = rows[:, 3:5].T.astype(int)
+    las.classification[:] = 1
+    las.write(str(path))
+    return path
+
+
+@pytest.fixture(scope="module")
+def scene(tmp_path_factory):
+    """Return the points, a file of them, and a folder in which they are two files."""
+    folder, rows = tmp_path_factory.mktemp("scene"), points()
+    tiles = folder / "tiles"
+    tiles.mkdir()
+    west = rows[:, 0] < 70.0
+    write(tiles / "west.laz", rows[west])
+    write(tiles / "east.laz", rows[~west])
+    return rows, write(folder / "whole.laz", rows), tiles
+
+
+@pytest.fixture(scope="module")
+def made(scene, tmp_path_factory):
+    """Return what makes a delivery of one file or of two, each only once."""
+    known, folder = {}, tmp_path_factory.mktemp("made")
+
+    def make(name, is_one=True):
+        if (name, is_one) not in known:
+            target = folder / f"{name}-{is_one}"
+            source = scene[1 if is_one else 2]
+            known[name, is_one] = deliver(source, target, DeliveryRequest(delivery=name)), target
+        return known[name, is_one]
+
+    return make
+
+
+def files_of(folder):
+    found = (each.relative_to(folder).as_posix() for each in folder.rglob("*") if each.is_file())
+    return {each for each in found if not each.startswith("points/")}
+
+
+def heights(path):
+    return read_raster(path).heights
+
+
+class Stops(Progress):
+    """Cancels when so much is done."""
+
+    def __init__(self, at):
+        self._at = at
+
+    def report(self, fraction):
+        if fraction >= self._at:
+            raise Cancelled
+
+
+def test_the_table_of_files_is_complete():
+    assert FILES.keys() == DELIVERIES.keys()
+
+
+@pytest.mark.parametrize("name", list(FILES))
+def test_a_delivery_of_one_file_has_all_its_files(made, scene, name):
+    summary, folder = made(name)
+    assert files_of(folder) == ALWAYS | FILES[name]
+    assert [each.name for each in (folder / "points").iterdir()] == ["whole.laz"]
+    record = json.loads((folder / "delivery.json").read_text())
+    assert record["is_finished"] and set(record["files"]) | {"delivery.json"} == {
+        *files_of(folder), "points/whole.laz"
+    }  # fmt: skip
+    page = (folder / "index.html").read_text(encoding="utf-8")
+    for each in files_of(folder) - {"index.html", "delivery.json"}:
+        assert f'href="{each}"' in page
+    assert f"{summary.ground_count:,}" in page and summary.point_count == len(scene[0])
+    # Nothing is left of the folder in which it was made, and no page names it.
+    assert not [each for each in os.listdir(folder.parent) if each.startswith(".")]
+    pages = [each.read_text(encoding="utf-8") for each in folder.glob("*.html")]
+    assert not any(".part." in each or str(folder.parent) in each for each in pages)
+
+
+@pytest.mark.parametrize("name", list(FILES))
+def test_two_files_get_the_same_as_one(made, scene, name):
+    (one, folder), (many, other) = made(name), made(name, is_one=False)
+    assert files_of(folder) == files_of(other)
+    assert one.class_counts == many.class_counts and one.cell_size == many.cell_size
+    for each in ("dtm.tif", "dsm.tif", "terrain_with_buildings.tif"):
+        if (folder / each).exists():
+            assert np.array_equal(heights(folder / each), heights(other / each), equal_nan=True)
+    written = {each.name for each in (other / "points").glob("*.laz")}
+    assert written == {"east.laz", "west.laz"} and os.path.exists(many.cloud)
+
+
+def test_classes_are_those_of_the_command(made, scene, tmp_path):
+    summary, folder = made("survey")
+    chosen = Selection(low_noise_class=True, high_noise_class=True, bridge_class=17)
+    classify(scene[1], tmp_path / "own.laz", ClassifyRequest(selection=chosen))
+    own = laspy.read(tmp_path / "own.laz").classification
+    assert np.array_equal(laspy.read(folder / "points" / "whole.laz").classification, own)
+    truth = scene[0][:, 5]
+    assert np.mean((own == 2) == (truth == 2)) > 0.99 and summary.ground_count == (own == 2).sum()
+
+
+def test_water_is_flat_in_the_terrain_model_and_it_is_that_of_the_commands(made, tmp_path):
+    summary, folder = made("flood")
+    assert summary.water.lakes == 1 and summary.water.area == pytest.approx(1520.0, rel=0.15)
+    cloud = folder / "points" / "whole.laz"
+    water = read_boundary(folder / "water.gpkg")
+    how = TerrainRequest(
+        rasters=RasterFiles(dtm=tmp_path / "own.tif"),
+        terrain=TerrainModel(dtm_cell_size=summary.cell_size),
+        constraints=Constraints(water=tuple(water)),
+    )
+    terrain(cloud, how)
+    dtm = heights(folder / "dtm.tif")
+    assert np.array_equal(heights(tmp_path / "own.tif"), dtm, equal_nan=True)
+    # The lake reaches from x = 93 to 137 m, its middle is 45 m north of the lower edge.
+    cell = summary.cell_size
+    lake = dtm[
+        int((DEPTH - 53) / cell) : int((DEPTH - 37) / cell), int(105 / cell) : int(125 / cell)
+    ]
+    assert np.ptp(lake) < 0.01 and lake.mean() == pytest.approx(100.0, abs=0.2)
+
+
+def test_a_survey_is_as_the_base_specification_asks(made):
+    summary, folder = made("survey")
+    import rasterio
+
+    with rasterio.open(folder / "dtm.tif") as dtm:
+        assert dtm.nodata == -999999.0 and dtm.res == (1.0, 1.0)
+    assert summary.quality.specification == "lbs-ql2" and summary.quality.lines
+    assert summary.check.hold_out.all.rmse < 0.06
+
+
+def test_a_specification_brings_the_classes_that_it_asks_for(scene, tmp_path):
+    how = DeliveryRequest(delivery="survey", options=DeliveryOptions("ign", hold_out_share=None))
+    summary = deliver(scene[1], tmp_path / "out", how)
+    truth = scene[0][:, 5]
+    classes = np.asarray(laspy.read(summary.cloud).classification)
+    assert np.mean(classes[truth == 6] == 6) > 0.9 and np.mean(classes[truth == 5] == 5) > 0.9
+    assert summary.cell_size == 0.5
+
+
+def test_forestry_has_heights_and_classes_of_vegetation(made, scene):
+    _, folder = made("forestry")
+    las = laspy.read(folder / "points" / "whole.laz")
+    crowns = scene[0][:, 5] == 5
+    true = scene[0][:, 2] - ground_at(*scene[0].T[:2])
+    found = np.asarray(las.HeightAboveGround)[crowns]
+    assert np.median(np.abs(found - true[crowns])) < 0.05
+    assert np.mean(np.asarray(las.classification)[crowns] == 5) > 0.95
+
+
+def test_archaeology_has_a_terrain_with_the_house_on_it(made):
+    summary, folder = made("archaeology")
+    dtm, with_house = heights(folder / "dtm.tif"), heights(folder / "terrain_with_buildings.tif")
+    cell = summary.cell_size
+    house = np.s_[
+        int((DEPTH - 76) / cell) : int((DEPTH - 64) / cell), int(24 / cell) : int(30 / cell)
+    ]
+    wood = np.s_[
+        int((DEPTH - 35) / cell) : int((DEPTH - 12) / cell), int(20 / cell) : int(50 / cell)
+    ]
+    assert np.median((with_house - dtm)[house]) > 2.5
+    assert np.percentile((with_house - dtm)[wood], 95) < 0.3
+
+
+def test_options_of_the_user_replace_those_of_the_delivery(scene, tmp_path):
+    how = DeliveryRequest(
+        delivery="archaeology",
+        parameters=TinDensification(preset="flat", ground_tolerance=0.3),
+        terrain=DeliveryTerrain(dtm_cell_size=2.0),
+        options=DeliveryOptions(key_points=True, hold_out_share=None),
+    )
+    summary = deliver(scene[1], tmp_path / "out", how)
+    assert summary.cell_size == 2.0 and summary.check is None
+    settings = json.loads((tmp_path / "out" / "delivery.json").read_text())["settings"]
+    assert settings["TIN densification"] == {"preset": "flat", "ground_tolerance": "0.3"}
+    marked = np.asarray(laspy.read(summary.cloud).key_point)
+    assert 0 < marked.sum() < summary.ground_count / 4
+
+
+def test_checkpoints_are_compared_with_points_and_terrain_model(scene, tmp_path):
+    x, y = np.meshgrid([60.0, 66.0, 72.0], [10.0, 45.0, 80.0])
+    places = np.column_stack((x.ravel(), y.ravel(), ground_at(x, y).ravel() - 0.1))
+    known = Checkpoints.of(places + np.array((EAST, NORTH, 0.0)))
+    how = DeliveryRequest(delivery="drone-site", checkpoints=known)
+    summary = deliver(scene[1], tmp_path / "out", how)
+    assert summary.check.counted == 9 and summary.check.shift == pytest.approx(0.1, abs=0.03)
+    assert {"checkpoints.csv", "checkpoints.gpkg"} <= files_of(tmp_path / "out")
+    far = Checkpoints.of(places)
+    with pytest.raises(BareEarthError, match="checkpoints"):
+        deliver(scene[1], tmp_path / "far", DeliveryRequest(checkpoints=far))
+    assert not (tmp_path / "far").exists()
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.8, 1.0])
+def test_a_cancel_leaves_nothing_of_one_file(scene, tmp_path, share):
+    how = DeliveryRequest(delivery="drone-site", options=DeliveryOptions(hold_out_share=None))
+    with pytest.raises(Cancelled):
+        deliver(scene[1], tmp_path / "out", how, Stops(share))
+    assert os.listdir(tmp_path) == []
+
+
+def test_many_files_can_be_continued_after_a_cancel(scene, tmp_path):
+    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="drone-site", options=small)
+    with pytest.raises(FinishedFilesStay):
+        deliver(scene[2], target, how, Stops(0.95))
+    assert files_of(target) == {"delivery.json"}
+    assert not json.loads((target / "delivery.json").read_text())["is_finished"]
+    before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
+    assert len(before) == 2
+    deliver(scene[2], target, dataclasses.replace(how, tiles=TileOutput(resume=True)))
+    assert {each: each.stat().st_mtime_ns for each in before} == before
+    assert files_of(target) == (ALWAYS | FILES["drone-site"]) - {"accuracy.html"}
+
+
+def test_a_cancel_before_any_file_is_done_leaves_nothing_of_many(scene, tmp_path):
+    with pytest.raises(Cancelled) as stopped:
+        deliver(scene[2], tmp_path / "out", DeliveryRequest(), Stops(0.02))
+    assert not isinstance(stopped.value, FinishedFilesStay) and os.listdir(tmp_path) == []
+
+
+def test_a_file_that_cannot_be_read_is_named_on_the_page(scene, tmp_path):
+    tiles = tmp_path / "tiles"
+    shutil.copytree(scene[2], tiles)
+    (tiles / "broken.laz").write_bytes(b"LASF")
+    small = DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="drone-site", options=small)
+    summary = deliver(tiles, tmp_path / "out", how)
+    assert [os.path.basename(each) for each in summary.failures] == ["broken.laz"]
+    assert "<li>broken.laz is left out." in (tmp_path / "out" / "index.html").read_text("utf-8")
+
+
+def test_an_error_names_the_folder_of_the_user(scene, tmp_path):
+    # All points keep a class that is not decided anew, so that there is no ground.
+    las = laspy.read(scene[1])
+    las.classification[:] = 9
+    las.write(str(tmp_path / "water.laz"))
+    with pytest.raises(BareEarthError) as error:
+        deliver(tmp_path / "water.laz", tmp_path / "out")
+    assert ".part." not in str(error.value) and os.listdir(tmp_path) == ["water.laz"]
+
+
+def test_a_delivery_replaces_an_earlier_one_and_nothing_else(scene, tmp_path):
+    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
+    deliver(scene[1], target, DeliveryRequest(delivery="flood", options=small))
+    (target / "notes.txt").write_text("mine")
+    deliver(scene[1], target, DeliveryRequest(delivery="drone-site", options=small))
+    expected = ALWAYS | FILES["drone-site"] | {"notes.txt"}
+    assert files_of(target) == expected - {"accuracy.html"}
+
+
+def test_what_cannot_be_delivered_is_said_before_any_work(scene, tmp_path):
+    source = scene[1]
+    with pytest.raises(
+        BareEarthError, match=r"no delivery 'x'\. Choose one of survey, archaeology"
+    ):
+        DeliveryRequest(delivery="x")
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "dtm.tif").write_text("mine")
+    with pytest.raises(BareEarthError, match=r"holds other files, such as dtm\.tif"):
+        deliver(source, tmp_path / "mine")
+    with pytest.raises(BareEarthError, match="is in the folder of the delivery"):
+        deliver(source, source.parent)
+    with pytest.raises(BareEarthError, match=r"it is a file\. Give a folder"):
+        deliver(source, source)
+    with pytest.raises(BareEarthError, match=r"does not exist\. Create it first"):
+        deliver(source, tmp_path / "no" / "where")
+    assert (tmp_path / "mine" / "dtm.tif").read_text() == "mine"
+
+
+def test_cells_follow_the_density_of_the_ground():
+    sizes = [DELIVERIES["archaeology"].cell_size(each, "none") for each in (40, 5, 1, 0.1, 0.01)]
+    assert sizes == [0.25, 0.5, 1.0, 2.0, 5.0]
+    assert DELIVERIES["drone-site"].cell_size(150.0, "none") == 0.1
+    assert DELIVERIES["survey"].cell_size(0.1, "lbs-ql1") == 0.5
+    assert DELIVERIES["forestry"].cell_size(None, "none") == 1.0
+
+
+def test_the_command_delivers_and_prints_the_figures(scene, tmp_path, capsys):
+    words = ["deliver", "drone-site", str(scene[1]), str(tmp_path / "out"), "--json"]
+    assert main([*words, "--dtm-cell-size", "2", "--hold-out-share", "none"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["cell_size"] == 2.0 and told["check"] is None and told["quality"]["points"]
+    assert set(told["layers"]) == {"dtm", "dsm", "hillshade", "contours"}
+    assert all(os.path.exists(each) for each in told["layers"].values())

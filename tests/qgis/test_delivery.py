@@ -1,0 +1,150 @@
+"""Deliveries: all outputs of a job, in the dialog of the step from a point cloud to maps."""
+
+import json
+import os
+import shlex
+import shutil
+
+import laspy
+import numpy as np
+import pytest
+from osgeo import gdal
+from qgis.core import (
+    QgsProcessingException,
+    QgsProcessingOutputLayerDefinition,
+    QgsProject,
+    QgsRasterLayer,
+    QgsVectorLayer,
+)
+from support import Log
+
+from bare_earth.algorithms.delivery.deliveries import DELIVERIES
+
+ALL_IN_ONE = "bareearth:pointcloudtoterrain"
+
+
+@pytest.fixture
+def deliver(scene, tmp_path, context):
+    """Run the algorithm as the toolbox does; return the results, the layers and the log."""
+    import processing
+
+    def run(name, **others):
+        project, log = QgsProject.instance(), Log()
+        project.clear()
+        given = {"INPUT": str(scene.path), "DELIVERY": name, **others}
+        given.setdefault("DELIVERY_FOLDER", str(tmp_path / "delivery"))
+        results = processing.runAndLoadResults(ALL_IN_ONE, given, feedback=log)
+        return results, project.layerTreeRoot(), log
+
+    return run
+
+
+def shown(root):
+    """Return the layers of the project from the top, and whether they are visible."""
+    return {each.name(): each.itemVisibilityChecked() for each in root.findLayers()}
+
+
+def test_the_dialog_offers_all_deliveries(registry):
+    algorithm = registry.createAlgorithmById(ALL_IN_ONE)
+    field = algorithm.parameterDefinition("DELIVERY")
+    assert field.options() == ["own", *DELIVERIES] and field.defaultValue() == "own"
+
+
+def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
+    results, root, log = deliver("flood", DTM_CELL_SIZE=1)
+    folder = tmp_path / "delivery"
+    assert results["DELIVERY_FOLDER"] == str(folder) and results["PAGE"] == str(
+        folder / "index.html"
+    )
+    assert results["POINT_COUNT"] == scene.count and "DTM" not in results
+    (group,) = root.findGroups()
+    assert group.name() == "scene: Flood model"
+    names = [each.name() for each in group.findLayers()]
+    expected = [
+        "Contour lines",
+        "Classes",
+        "Confidence",
+        "Surface model",
+        "Terrain model",
+        "Hillshade",
+    ]
+    assert names == [each for each in expected if each in names] and len(names) >= 5
+    assert shown(root)["Terrain model"] and not shown(root)["Surface model"]
+    layers = QgsProject.instance().mapLayers().values()
+    assert {type(each) for each in layers} >= {QgsRasterLayer, QgsVectorLayer}
+    assert f"{scene.ground_count:,} of {scene.count:,} points are ground" in log.text
+
+
+def test_the_command_in_the_log_does_the_same(deliver, tmp_path):
+    from bare_earth.algorithms.cli import main
+
+    _, _, log = deliver("drone-site", PRESET="town", CONTOUR_INTERVAL=1)
+    folder = tmp_path / "delivery"
+    before = gdal.Open(str(folder / "dtm.tif")).ReadAsArray()
+    files = sorted(os.listdir(folder))
+    (command,) = [shlex.split(each) for each in log.said if each.startswith("bare-earth ")]
+    shutil.rmtree(folder)
+    QgsProject.instance().clear()
+    assert main(command[1:]) == 0
+    assert np.array_equal(gdal.Open(str(folder / "dtm.tif")).ReadAsArray(), before)
+    assert sorted(os.listdir(folder)) == files
+    settings = json.loads((folder / "delivery.json").read_text())["settings"]
+    assert settings["TIN densification"] == {"preset": "town"}
+
+
+def test_the_picture_that_matters_is_on_top(deliver):
+    _, root, _ = deliver("archaeology", DTM_CELL_SIZE=1)
+    visible = shown(root)
+    assert visible["Archaeological topography (VAT)"] and not visible["Terrain model"]
+    assert "Terrain with buildings" in visible
+
+
+def test_a_folder_of_files_is_delivered_as_one_survey(deliver, scene, tmp_path):
+    tiles = tmp_path / "tiles"
+    tiles.mkdir()
+    shutil.copy(scene.path, tiles)
+    results, _, _ = deliver("forestry", INPUT=None, INPUT_FOLDER=str(tiles))
+    (cloud,) = (tmp_path / "delivery" / "points").glob("*.la[sz]")
+    assert "HeightAboveGround" in list(laspy.read(str(cloud)).point_format.dimension_names)
+    assert results["GROUND_COUNT"] == scene.ground_count
+
+
+def test_what_cannot_be_delivered_is_refused(deliver, tmp_path):
+    with pytest.raises(QgsProcessingException, match="Choose a folder for the delivery"):
+        deliver("survey", DELIVERY_FOLDER=None)
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "notes.txt").write_text("mine")
+    with pytest.raises(QgsProcessingException, match=r"holds other files, such as notes\.txt"):
+        deliver("survey", DELIVERY_FOLDER=str(tmp_path / "mine"))
+
+
+def test_outputs_of_ones_own_are_not_made_beside_a_delivery(deliver, tmp_path):
+    own = QgsProcessingOutputLayerDefinition(str(tmp_path / "own.tif"), QgsProject.instance())
+    results, _, _ = deliver("drone-site", DTM=own)
+    assert "DTM" not in results and not (tmp_path / "own.tif").exists()
+
+
+def test_a_cancel_leaves_nothing(scene, tmp_path):
+    import processing
+
+    log = Log(cancel_at=60)
+    given = {"INPUT": str(scene.path), "DELIVERY": "drone-site"}
+    processing.run(
+        ALL_IN_ONE, {**given, "DELIVERY_FOLDER": str(tmp_path / "delivery")}, feedback=log
+    )
+    assert os.listdir(tmp_path) == ["scene.laz"]
+
+
+def test_a_second_run_reloads_the_layers(deliver):
+    deliver("drone-site", DTM_CELL_SIZE=1)
+    project = QgsProject.instance()
+    import processing
+
+    count = len(project.mapLayers())
+    folder = os.path.dirname(next(iter(project.mapLayersByName("Terrain model"))).source())
+    given = {"DELIVERY": "drone-site", "DELIVERY_FOLDER": folder, "DTM_CELL_SIZE": 2}
+    source = os.path.join(os.path.dirname(folder), "scene.laz")
+    processing.runAndLoadResults(ALL_IN_ONE, {"INPUT": source, **given}, feedback=Log())
+    assert len(project.mapLayers()) == count
+    (dtm,) = project.mapLayersByName("Terrain model")
+    assert dtm.rasterUnitsPerPixelX() == 2.0
