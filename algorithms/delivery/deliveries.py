@@ -54,6 +54,8 @@ class Delivery(NamedTuple):
     water : mapping of str to float, or None
         Which water is found, flattened and delivered, where the user leaves the default; None for
         no water.
+    water_classes : bool
+        Whether ground in the water and beside its shore gets the classes 9 and 20.
     terrain : mapping of str to object
         Values of the terrain model, where the user leaves the default.
     surface : mapping of str to object
@@ -82,6 +84,7 @@ class Delivery(NamedTuple):
     above_ground: bool = False
     heights: bool = False
     water: Mapping[str, float] | None = None
+    water_classes: bool = False
     terrain: Mapping[str, Any] = MappingProxyType({})
     surface: Mapping[str, Any] = MappingProxyType({})
     with_buildings: bool = False
@@ -124,12 +127,14 @@ class Delivery(NamedTuple):
 DELIVERIES = {
     "survey": Delivery(
         "Survey",
-        "What a survey hands over: points with classes for ground, noise and bridges, a terrain"
-        " model with flat water and its breaklines, and the quality compared with a specification.",
+        "What a survey hands over: points with classes for ground, water, noise and bridges, a"
+        " terrain model with flat water and its breaklines, and the quality compared with a"
+        " specification.",
         rasters=("dtm", "hillshade", "dsm"),
         pictures=("hillshade", "dtm"),
         finest=0.5,
         water={},
+        water_classes=True,
         terrain={"raster_nodata": -999999.0},
         quality=(
             "pulse_density", "ground_density", "voids", "overlap", "strip_differences",
@@ -175,6 +180,7 @@ DELIVERIES = {
         above_ground=True,
         # Canals and ponds too: on three real tiles this finds five of them, the usual limits none.
         water={"min_area": 1000.0, "min_width": 5.0},
+        water_classes=True,
         contours=True,
     ),
     "drone-site": Delivery(

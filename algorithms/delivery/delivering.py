@@ -73,7 +73,7 @@ def deliver(
     # On the disk of the folder, so that outputs can be moved there.
     beside = place.path.parent if is_one else place.path
     with _left_in_order(place, is_one), temporary_folder(beside) as working:
-        heard = Heard(progress, working, place.path)
+        heard = Heard(progress, {working: place.path, place.changed: place.points})
         work = DeliveryFolder(working)
         steps = DeliverySteps(request, survey, paths, is_one, work, place, workers)
         try:
@@ -85,6 +85,7 @@ def deliver(
         (working / PAGE).write_text(page, encoding="utf-8")
         summary = _summary(request, made, working, place.path)
         heard(1.0)  # the last moment to cancel
+        place.settle(made.waiting)
         place.take(working, _record(request, made, place.path))
     return summary
 

@@ -16,7 +16,7 @@ from ..survey.files import is_cloud
 POINTS, QUALITY = "points", "quality"
 PAGE, RECORD = "index.html", "delivery.json"
 # Folder of files that further steps will read.
-_WAITING = ".waiting"
+_WAITING, _CHANGED = ".waiting", "water"
 
 
 class DeliveryFolder:
@@ -40,6 +40,11 @@ class DeliveryFolder:
     def waiting(self) -> Path:
         """The folder of files that further steps will read."""
         return self.path / _WAITING
+
+    @property
+    def changed(self) -> Path:
+        """The folder of classified files with classes of water, until all outputs are done."""
+        return self.waiting / _CHANGED
 
     @property
     def record(self) -> dict[str, Any] | None:
@@ -87,6 +92,29 @@ class DeliveryFolder:
         except OSError as error:
             raise describe_write_error(self.path, error) from error
         self._write({"delivery": delivery, "is_finished": False, "files": files})
+
+    def settle(self, made: Sequence[Path]) -> None:
+        """Move files that wait to the classified files, and remove what else waits.
+
+        Parameters
+        ----------
+        made : sequence of Path
+            Files in `changed`, which replace those of the same names in `points`.
+
+        Raises
+        ------
+        BareEarthError
+            If the operating system refuses to write.
+        """
+        names = [each.relative_to(self.changed) for each in made]
+        try:
+            # The records first: after a crash, no file has a record that is not its own.
+            for name in sorted(names, key=lambda each: len(each.parts), reverse=True):
+                (self.points / name).parent.mkdir(parents=True, exist_ok=True)
+                os.replace(self.changed / name, self.points / name)
+        except OSError as error:
+            raise describe_write_error(self.points, error) from error
+        shutil.rmtree(self.waiting, ignore_errors=True)
 
     def leave(self) -> bool:
         """Remove what is not finished; return whether finished files stay."""

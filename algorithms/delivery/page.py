@@ -233,6 +233,8 @@ def settings_of(request: DeliveryRequest, cell_size: float) -> dict[str, dict[st
         sets["Above the ground"] = how.above_ground
     if request.water_wanted is not None:
         sets["Water"] = request.water_wanted
+    if request.water_classes is not None:
+        sets["Classes of water"] = request.water_classes
     if request.content.contours:
         sets["Contour lines"] = request.contours
     return {name: _changed(each) for name, each in sets.items()}

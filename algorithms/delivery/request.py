@@ -20,6 +20,7 @@ from ..products.specifications import SPECIFICATIONS
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
 from ..products.water import Water
+from ..products.water_classes import WaterClasses
 from ..survey.area import Area
 from ..survey.checkpoint_files import Checkpoints
 from ..survey.corrections import NO_CORRECTIONS, Corrections
@@ -239,6 +240,16 @@ class DeliveryRequest(Request):
         """Which water is found; None if none is looked for, as the user gives it."""
         values = self.content.water
         return None if values is None or self.constraints.water else _or_else(self.water, values)
+
+    @property
+    def water_classes(self) -> WaterClasses | None:
+        """The classes of ground in water and beside its shore; None if they are not wanted."""
+        if not self.content.water_classes:
+            return None
+        how, asked = WaterClasses(), SPECIFICATIONS[self.specification]
+        if asked.classes is not None and how.ignored_class not in asked.classes:
+            return replace(how, shore_distance=0.0)
+        return how if asked.spacing is None else replace(how, shore_distance=asked.spacing)
 
     @property
     def surface_model(self) -> SurfaceModel:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
+import os
 import shutil
 import time
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Callable, Iterator
+from typing import Any, Callable, Mapping
 
 from ..core.errors import BareEarthError
 from ..core.files import split_name
@@ -16,8 +16,8 @@ from ..engine.key_points import KeyPointMark
 from ..engine.manifest import folders_of
 from ..engine.one_file import Summary
 from ..engine.options import TileInput
-from ..engine.requests import HeightRequest, KeyPointRequest, TerrainRequest
-from ..engine.runs import classify, heights, key_points, terrain
+from ..engine.requests import HeightRequest, KeyPointRequest, TerrainRequest, WaterClassRequest
+from ..engine.runs import classify, heights, key_points, terrain, write
 from ..engine.workers import Workers
 from ..products.checkpoint_outputs import CheckOutputs
 from ..products.checkpoint_results import Check
@@ -29,6 +29,7 @@ from ..products.quality import QualityRequest, survey_quality
 from ..products.quality_figures import Quality
 from ..products.raster_files import RasterFiles
 from ..products.surface_model import SurfaceModel
+from ..products.water_classes import WaterPolygons
 from ..products.water_files import SurveyWater, WaterRequest, WaterSummary
 from ..survey.files import Survey
 from ..survey.overview import overview_of
@@ -48,15 +49,15 @@ class Heard(PassingOn):
     ----------
     whole : Progress
         Receives them.
-    working, folder : Path
-        Messages name the second folder in place of the first, which is temporary.
+    folders : mapping of Path to Path
+        Messages name these folders in place of those that are temporary.
     """
 
-    def __init__(self, whole: Progress, working: Path, folder: Path) -> None:
+    def __init__(self, whole: Progress, folders: Mapping[Path, Path]) -> None:
         super().__init__(whole)
         self.warnings: list[str] = []
         self._said: set[str] = set()
-        self._names = str(working), str(folder)
+        self._folders = folders
 
     def info(self, text: str) -> None:
         """Pass on a message."""
@@ -76,7 +77,8 @@ class Heard(PassingOn):
 
     def _new(self, text: str) -> list[str]:
         """Return a message as it is to be read, or nothing if it was passed on before."""
-        text = text.replace(*self._names)
+        for temporary, folder in self._folders.items():
+            text = text.replace(str(temporary), str(folder))
         is_new = text not in self._said
         self._said.add(text)
         return [text] if is_new else []
@@ -92,6 +94,7 @@ class Made:
     class_counts: dict[int, int] = field(default_factory=dict)
     failures: dict[str, str] = field(default_factory=dict)
     files: list[Path] = field(default_factory=list)
+    waiting: list[Path] = field(default_factory=list)
     layers: dict[str, Path] = field(default_factory=dict)
     cell_size: float = 1.0
     constraints: Constraints | None = None
@@ -140,8 +143,8 @@ class DeliverySteps:
         has_check = options.hold_out_share is not None or self.request.checkpoints is not None
         named: list[tuple[str, float, Callable[[Progress], None]]] = [
             ("classes", 6.0, self._classify),
+            ("water", 2.0 * (content.water is not None), self._flood),
             ("quality", 2.0, self._measure),
-            ("water", 1.0 * (content.water is not None), self._find_water),
             ("rasters", 2.0 + 0.4 * len(content.rasters), self._draw),
             ("contour lines", 0.3 * content.contours, self._trace),
             ("accuracy", 1.5 * has_check, self._check),
@@ -152,13 +155,16 @@ class DeliverySteps:
                 begun = time.perf_counter()
                 step(part)
                 self.made.seconds[name] = time.perf_counter() - begun
+        shutil.rmtree(self.work.waiting, ignore_errors=True)
         return self.made
 
     @property
     def _cloud(self) -> Path:
+        """The points that further steps read."""
         if self.made.cloud is None:
             raise BareEarthError("The points are not classified yet.")
-        return self.made.cloud
+        waits = self.folder.changed / self.made.cloud.name
+        return waits if waits in self.made.waiting else self.made.cloud
 
     def _classify(self, progress: Progress) -> None:
         """Classify the points, add their heights, and mark key points, as the delivery asks."""
@@ -169,41 +175,30 @@ class DeliverySteps:
         if request.options.key_points:
             ways.append(self._with_key_points)
         sources, made = list(self.sources), self.made
-        with self._waiting() as waiting:
-            for number, (way, part) in enumerate(zip(ways, progress.shares(3.0, 1.0, 1.0)), 1):
-                is_last = number == len(ways)
-                place = self._points if is_last else waiting / str(number)
-                place.mkdir(parents=True, exist_ok=True)
-                done = way(sources, self._target(place, is_last), is_last, part)
-                if self.is_one:
-                    made.cloud = self._target(place, is_last)
-                    sources = [made.cloud]
-                else:
-                    made.cloud, sources = Path(done.vpc), [Path(done.vpc)]
-                    made.failures |= done.failures
-                made.point_count, made.ground_count = _counts_of(done)
-                made.class_counts = done.class_counts or made.class_counts
-        made.files = [self._cloud] if self.is_one else self._files_of(done)
-
-    def _files_of(self, done: Any) -> list[Path]:
-        """Return the files of points, their lists, and the records of what they were made of."""
-        names = {each.name for each in done.tiles}
-        names |= {self._cloud.name, overview_of(self._cloud).name}
-        records = folders_of(self._points)[1]
-        found = sorted(each for each in self._points.rglob("*") if each.is_file())
-        return [each for each in found if each.name in names or records in each.parents]
+        for number, (way, part) in enumerate(zip(ways, progress.shares(3.0, 1.0, 1.0)), 1):
+            is_last = number == len(ways)
+            place = self._points if is_last else self._waiting / str(number)
+            place.mkdir(parents=True, exist_ok=True)
+            done = way(sources, self._target(place, is_last), is_last, part)
+            if self.is_one:
+                made.cloud = self._target(place, is_last)
+                sources = [made.cloud]
+            else:
+                made.cloud, sources = Path(done.vpc), [Path(done.vpc)]
+                made.failures |= done.failures
+            made.point_count, made.ground_count = _counts_of(done)
+            made.class_counts = done.class_counts or made.class_counts
+        made.files = [self._cloud] if self.is_one else _files_of(done)
 
     @property
     def _points(self) -> Path:
         """The folder of the classified points."""
         return (self.work if self.is_one else self.folder).points
 
-    @contextlib.contextmanager
-    def _waiting(self) -> Iterator[Path]:
-        """Yield a folder of files for further steps; remove it when all of these are done."""
-        waiting = (self.work if self.is_one else self.folder).waiting
-        yield waiting
-        shutil.rmtree(waiting, ignore_errors=True)
+    @property
+    def _waiting(self) -> Path:
+        """The folder of files for further steps, which is removed at the end."""
+        return (self.work if self.is_one else self.folder).waiting
 
     def _target(self, place: Path, is_last: bool) -> Path:
         """Return the output of a step: a file, or the folder of many."""
@@ -267,6 +262,45 @@ class DeliverySteps:
         made.cell_size = request.content.cell_size(
             made.quality.ground_density, request.specification
         )
+
+    def _flood(self, progress: Progress) -> None:
+        """Find the water, and give classes to the ground in it and beside its shore."""
+        first, second = progress.shares(1.0, 1.0)
+        self._find_water(first)
+        how, known = self.request.water_classes, self.made.constraints or self.request.constraints
+        if how is None or not known.water:
+            return
+        asked = WaterClassRequest(
+            parameters=how, ground=self.request.ground, water=WaterPolygons(known.water),
+            **self._further(True),
+        )  # fmt: skip
+        if self.is_one:
+            target = self.work.waiting / self._cloud.name
+            target.parent.mkdir(exist_ok=True)
+            done = write([self._cloud], target, asked, second)
+            os.replace(target, self._cloud)
+        else:
+            done = self._write_changed(asked, second)
+        self.made.class_counts = done.class_counts
+        self.made.ground_count = done.class_counts.get(self.request.selection.to_class, 0)
+
+    def _write_changed(self, how: WaterClassRequest, progress: Progress) -> Any:
+        """Write many files with classes of water; they take their places at the end.
+
+        Until then the classified ones stay, so that a run can be continued.
+        """
+        target, source = self.folder.changed, self._cloud
+        if not how.tiles.resume:
+            shutil.rmtree(target, ignore_errors=True)
+        target.parent.mkdir(exist_ok=True)
+        vpc = target / source.name
+        done = write([source], target, how, progress, self.workers, True, vpc)
+        for path, why in done.failures.items():
+            raise BareEarthError(f"{path} got no classes of water. {why}")
+        self.made.waiting = _files_of(done)
+        moved = (self._points / each.relative_to(target) for each in self.made.waiting)
+        self.made.files = sorted({*self.made.files, *moved})
+        return done
 
     def _find_water(self, progress: Progress) -> None:
         """Find the water, unless the user has given some."""
@@ -337,6 +371,15 @@ class DeliverySteps:
             ),
             progress,
         )  # fmt: skip
+
+
+def _files_of(done: Any) -> list[Path]:
+    """Return the files of points, their lists, and the records of what they were made of."""
+    vpc = Path(done.vpc)
+    names = {vpc.name, overview_of(vpc).name, *(each.name for each in done.tiles)}
+    records = folders_of(vpc.parent)[1]
+    found = sorted(each for each in vpc.parent.rglob("*") if each.is_file())
+    return [each for each in found if each.name in names or records in each.parents]
 
 
 def _counts_of(done: Any) -> tuple[int, int]:

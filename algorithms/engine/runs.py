@@ -258,12 +258,16 @@ def write(
     progress: Progress = SILENT,
     workers: Workers | None = None,
     as_survey: bool | None = None,
+    vpc: Path | None = None,
 ) -> Any:
-    """Do what `heights`, `key_points` and such do, as the type of the request says."""
+    """Do what `heights`, `key_points` and such do, as the type of the request says.
+
+    For `vpc`, see `classify`.
+    """
     paths, target = _paths(sources), Path(output)
     if _is_one(paths, as_survey):
         return write_points(paths[0], target, request, progress)
-    return write_files(paths, target, [request.step], request, progress, workers)
+    return write_files(paths, target, [request.step], request, progress, workers, vpc)
 
 
 def _is_one(paths: list[Path], as_survey: bool | None = None) -> bool:

@@ -8,7 +8,7 @@ CLASSES = {
     4: "medium vegetation", 5: "high vegetation", 6: "building", 7: "low noise",
     8: "model key point", 9: "water", 10: "rail", 11: "road surface", 12: "overlap",
     13: "wire guard", 14: "wire conductor", 15: "transmission tower", 16: "wire connector",
-    17: "bridge deck", 18: "high noise",
+    17: "bridge deck", 18: "high noise", 20: "ignored ground",
 }  # fmt: skip
 
 
