@@ -16,6 +16,7 @@ from ..las.lasfile import LasFile
 from ..las.reading import read_parts
 from ..survey.area import Area, Polygon
 from ..survey.ground_classes import GroundClasses, GroundCounts
+from ..survey.kept_classes import IGNORED_GROUND
 from ..survey.shapes import Geometry, Place, located
 
 # Ground points up to so many metres from a line or border give its height.
@@ -220,13 +221,16 @@ def fixed_terrain(
         along((line - (*origin, 0.0)) * (unit, unit, 1.0), _STATION)[:, :2]
         for line in constraints.rivers
     ]
-    near = _ground_near([*lines, *borders], clouds, ground, frame)
+    near, is_ground = _ground_near([*lines, *borders], clouds, ground, frame)
     if waters:
         # Points in the water are not on its banks.
         water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in waters))
-        near = near[~water.contains(*near[:, :2].T)]
-    heights, none = NearestHeights(near, _NEAR), np.zeros((0, 3))
-    flat = list(_flattened(waters, borders, rivers, heights, progress))
+        dry = ~water.contains(*near[:, :2].T)
+        near, is_ground = near[dry], is_ground[dry]
+    heights, none = NearestHeights(near[is_ground], _NEAR), np.zeros((0, 3))
+    # The level is that of the foot of the bank, where ground is ignored by the surface.
+    shore = heights if is_ground.all() else NearestHeights(near, _NEAR)
+    flat = list(_flattened(waters, borders, rivers, shore, progress))
     borders, insides = zip(*flat) if flat else ((), ())
     edges = np.concatenate([none, *_along_breaklines(lines, heights, progress), *borders])
     return FixedTerrain(edges, np.concatenate([none, *insides]), cell)
@@ -295,15 +299,15 @@ def _ground_near(
     clouds: Iterable[PointCloud],
     ground: GroundClasses,
     frame: Frame,
-) -> np.ndarray:
-    """Return the ground points in and round the cells that lines cross, shape (n, 3)."""
-    if not lines:
-        return np.zeros((0, 3))
-    wanted = NearPlaces(*np.concatenate(lines)[:, :2].T, _NEAR)
-    found, counts = [np.zeros((0, 3))], GroundCounts()
-    for some in clouds:
-        which = np.flatnonzero(ground.of(some, counts))
-        places = some.places(which, frame)
-        near = which[wanted.of(*places)]
-        found.append(np.column_stack(some.points(near, frame)))
-    return np.concatenate(found)
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return ground and ignored ground round lines, shape (n, 3), and which is ground."""
+    found, are_ground = [np.zeros((0, 3))], [np.zeros(0, dtype=bool)]
+    if lines:
+        wanted = NearPlaces(*np.concatenate(lines)[:, :2].T, _NEAR)
+        for some in clouds:
+            is_ground = ground.of(some, GroundCounts())
+            which = np.flatnonzero(is_ground | ground.points_of(some, (IGNORED_GROUND,)))
+            near = which[wanted.of(*some.places(which, frame))]
+            found.append(np.column_stack(some.points(near, frame)))
+            are_ground.append(is_ground[near])
+    return np.concatenate(found), np.concatenate(are_ground)

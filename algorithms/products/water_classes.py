@@ -10,6 +10,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.lines import near_rings
 from ..survey.area import Area, Polygon
+from ..survey.kept_classes import IGNORED_GROUND
 from ..survey.shapes import Geometry, Place, located
 
 
@@ -37,7 +38,7 @@ class WaterClasses(ParameterSet):
         " to 31.",
     )
     ignored_class: int = parameter(
-        20,
+        IGNORED_GROUND,
         label="Class of ignored ground",
         minimum=0,
         maximum=255,

@@ -22,6 +22,8 @@ DECIDED = (0, 1, 2, 3, 4, 5, 6, 8, 12)
 ROADS = (10, 11)
 # In point formats 0 to 5 overlap is a class; the others have a flag for it.
 OVERLAP = 12
+# Ground beside a shore or breakline, which terrain models leave out there.
+IGNORED_GROUND = 20
 ALL_CLASSES = "all"
 
 

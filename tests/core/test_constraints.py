@@ -110,6 +110,27 @@ def test_a_lake_is_flat_at_the_level_of_its_banks(lake, tmp_path):
     assert np.allclose(found[outside], plain[outside], atol=0.03, equal_nan=True)
 
 
+def test_ignored_ground_along_the_shore_gives_the_level_but_no_terrain(tmp_path):
+    # Banks rise by one half, so that ground 2 m away is 1 m too high for the level.
+    x, y = scatter(SIZE, 4.0, seed=5)
+    away = np.maximum(np.abs(x - 60.0), np.abs(y - 60.0)) - 30.0
+    dry = away > 0.0
+    x, y, away = x[dry], y[dry], away[dry]
+    source = _write(tmp_path / "banks.laz", x, y, 20.0 + 0.5 * away)
+    las = laspy.read(source)
+    las.classification[away < 2.0] = 20
+    las.write(str(source))
+    shore = _square(30.0, 30.0, 90.0, 90.0)
+    found, x, y = _raster(source, tmp_path / "dtm.tif", water=(shore,))
+    away = np.maximum(np.abs(x - 60.0), np.abs(y - 60.0)) - 30.0
+    assert np.ptp(found[away < -1.0]) < 0.001 and abs(found[away < -1.0][0] - 20.0) < 0.2
+    # A line gets its height from ground alone, of which there is none here within 2 m of it.
+    line = np.insert(_line((40.0, 29.0, 0.0), (80.0, 29.0, 0.0))[:, :2], 2, np.nan, axis=1)
+    found, x, y = _raster(source, tmp_path / "line.tif", breaklines=(line,))
+    along = found[(np.abs(y - 29.0) < 0.6) & (x > 45.0) & (x < 75.0)]
+    assert np.all(along > 20.9)
+
+
 def test_an_island_stays(lake, tmp_path):
     shore = (*_square(30.0, 30.0, 90.0, 90.0), *_square(50.0, 50.0, 70.0, 70.0))
     found, x, y = _raster(lake, tmp_path / "dtm.tif", water=(shore,))

@@ -1,13 +1,16 @@
 """Deliveries of a small scene whose ground, water, house and trees are known."""
 
-import dataclasses
 import json
 import os
+import re
 import shutil
+from dataclasses import replace
+from pathlib import Path
 
 import laspy
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from bare_earth.algorithms import (
     BareEarthError,
@@ -33,7 +36,10 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import FinishedFilesStay
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.delivery.deliveries import DELIVERIES
+from bare_earth.algorithms.grids.lines import along
 from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.survey.area import Area
+from bare_earth.algorithms.survey.vpc import read_vpc
 
 pyproj = pytest.importorskip("pyproj")
 EAST, NORTH, WIDTH, DEPTH = 500_000.0, 5_600_000.0, 150.0, 90.0
@@ -143,6 +149,17 @@ def heights(path):
     return read_raster(path).heights
 
 
+class Said(Progress):
+    """Keeps the messages."""
+
+    def __init__(self):
+        self.texts = []
+
+    def info(self, text):
+        """Keep a message."""
+        self.texts.append(text)
+
+
 class Stops(Progress):
     """Cancels when so much is done."""
 
@@ -218,6 +235,104 @@ def test_water_is_flat_in_the_terrain_model_and_it_is_that_of_the_commands(made,
         int((DEPTH - 53) / cell) : int((DEPTH - 37) / cell), int(105 / cell) : int(125 / cell)
     ]
     assert np.ptp(lake) < 0.01 and lake.mean() == pytest.approx(100.0, abs=0.2)
+
+
+def given_water(distance):
+    """Return water that a user draws over both tiles and the lake, and the class of each point.
+
+    Classes are those of ground points: 9 in the water, 20 up to a distance in metres from it, 2.
+    """
+    west, south, east, north = 62.0, 15.0, 125.0, 75.0
+    corners = np.array([(west, south), (east, south), (east, north), (west, north)])
+    area = (corners + (EAST, NORTH),)
+
+    def truth(x, y):
+        away = np.column_stack((x - east, west - x, y - north, south - y))
+        beyond = np.hypot(np.maximum(away[:, :2], 0).max(1), np.maximum(away[:, 2:], 0).max(1))
+        return np.where(away.max(1) < 0, 9, np.where(beyond <= distance, 20, 2))
+
+    return Constraints(water=(area,)), truth
+
+
+def rows_of_classes(page):
+    """Return the numbers of points of each class that a page tells."""
+    found = re.findall(r">Class (\d+)[^<]*</th><td[^>]*>([\d,]+)<", page.read_text("utf-8"))
+    return {int(value): int(count.replace(",", "")) for value, count in found}
+
+
+@pytest.mark.parametrize("is_one", [True, False])
+@pytest.mark.parametrize(("specification", "distance"), [("lbs-ql1", 0.35), ("lbs-ql2", 0.71)])
+def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
+    scene, tmp_path, specification, distance, is_one
+):
+    water, truth = given_water(distance)
+    options = DeliveryOptions(specification, hold_out_share=None)
+    how = DeliveryRequest(options=options, constraints=water, tiles=TileOutput(overview=True))
+    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", how)
+    clouds = [laspy.read(each) for each in (tmp_path / "out" / "points").glob("*st.laz")]
+    clouds = [laspy.read(summary.cloud)] if is_one else clouds
+    assert len(clouds) == 2 - is_one
+    x, y = (np.concatenate([np.asarray(each[name]) for each in clouds]) for name in "xy")
+    classes = np.concatenate([np.asarray(each.classification) for each in clouds])
+    ground = np.isin(classes, (2, 9, 20))
+    expected = truth(x[ground] - EAST, y[ground] - NORTH)
+    assert np.array_equal(classes[ground], expected) and ground.sum() > 10_000
+    counts = dict(zip(*(each.tolist() for each in np.unique(classes, return_counts=True))))
+    assert min(counts[9], counts[20]) > 50 and counts[2] == summary.ground_count
+    page = rows_of_classes(tmp_path / "out" / "index.html")
+    assert page == summary.class_counts == summary.quality.classes == counts
+    record = json.loads((tmp_path / "out" / "delivery.json").read_text())
+    assert record["classes"] == {str(value): count for value, count in counts.items()}
+    assert {f"points/{Path(summary.cloud).name}"} <= set(record["files"])
+
+
+def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scene, tmp_path):
+    water, _ = given_water(0.71)
+    how = DeliveryRequest(
+        options=DeliveryOptions(hold_out_share=None), constraints=water,
+        tiles=TileOutput(format="copc.laz", overview=True),
+    )  # fmt: skip
+    summary = deliver(scene[2], tmp_path / "out", how)
+    points = tmp_path / "out" / "points"
+    tiles = {"east.copc.laz", "west.copc.laz"}
+    lists = {"classified.vpc", "classified-overview.copc.laz"}
+    assert {each.name for each in points.iterdir()} == tiles | lists | {".bare-earth"}
+    assert {each for each in read_vpc(summary.cloud)} == {points / each for each in tiles}
+    assert (
+        np.asarray(laspy.read(points / "classified-overview.copc.laz").classification) == 9
+    ).any()
+    files = json.loads((tmp_path / "out" / "delivery.json").read_text())["files"]
+    assert {each for each in files if not (tmp_path / "out" / each).is_file()} == set()
+    assert {each for each in os.listdir(tmp_path / "out") if each.startswith(".")} == set()
+
+
+def test_water_that_was_found_gives_classes_in_one_file_and_in_two(made):
+    (one, folder), (many, _) = made("flood"), made("flood", is_one=False)
+    (water,) = read_boundary(folder / "water.gpkg")
+    las = laspy.read(one.cloud)
+    x, y, classes = (np.asarray(las[each]) for each in ("x", "y", "classification"))
+    inside = Area(None, (water,)).contains(x, y)
+    shore = np.concatenate([along(ring, 0.01, is_closed=True)[:, :2] for ring in water])
+    beside = cKDTree(shore).query(np.column_stack((x, y)))[0]
+    assert (classes[inside] == 9).all() and (classes[~inside] != 9).all()
+    ground = np.isin(classes, (2, 20)) & (np.abs(beside - 0.7) > 0.01)
+    assert np.array_equal(classes[ground] == 20, beside[ground] < 0.7)
+    assert one.class_counts == many.class_counts and one.class_counts[20] > 20
+    assert one.ground_count == many.ground_count == one.class_counts[2]
+    assert one.quality.classes == one.class_counts
+
+
+def test_classes_of_water_are_those_that_the_specification_knows():
+    def of(name, specification="as-delivery"):
+        options = DeliveryOptions(specification)
+        return DeliveryRequest(delivery=name, options=options).water_classes
+
+    distances = {
+        "as-delivery": 0.7, "none": 0.7, "linz": 0.7, "lbs-ql1": 0.35, "lbs-ql2": 0.71, "ign": 0.0,
+    }  # fmt: skip
+    assert {each: of("flood", each).shore_distance for each in distances} == distances
+    assert of("survey").shore_distance == 0.71 and of("survey").water_class == 9
+    assert {of(each) for each in ("archaeology", "forestry", "drone-site")} == {None}
 
 
 def test_a_survey_is_as_the_base_specification_asks(made):
@@ -309,9 +424,89 @@ def test_many_files_can_be_continued_after_a_cancel(scene, tmp_path):
     assert not json.loads((target / "delivery.json").read_text())["is_finished"]
     before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
     assert len(before) == 2
-    deliver(scene[2], target, dataclasses.replace(how, tiles=TileOutput(resume=True)))
+    deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)))
     assert {each: each.stat().st_mtime_ns for each in before} == before
     assert files_of(target) == (ALWAYS | FILES["drone-site"]) - {"accuracy.html"}
+
+
+class StopsAfter(Progress):
+    """Cancels when there are so many classified files with classes of water."""
+
+    def __init__(self, folder, count):
+        self._folder, self._count = folder, count
+
+    def report(self, fraction):
+        if len(list(self._folder.rglob(".waiting/water/*.laz"))) >= self._count:
+            raise Cancelled
+
+
+def classes_of(folder):
+    files = sorted((folder / "points").glob("*.laz"))
+    return {each.name: np.asarray(laspy.read(each).classification) for each in files}
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_files_with_classes_of_water_can_be_continued_after_a_cancel(scene, tmp_path, count):
+    target = tmp_path / "out"
+    how = DeliveryRequest(
+        options=DeliveryOptions(hold_out_share=None), constraints=given_water(0.71)[0]
+    )
+    with pytest.raises(FinishedFilesStay):
+        deliver(scene[2], target, how, StopsAfter(target, count))
+    ready = {each for each in files_of(target) if not each.startswith(".waiting/")}
+    assert ready == {"delivery.json"}
+    # The classified files stay as they were, until all is done.
+    before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
+    assert len(before) == 2 and not any((each == 9).any() for each in classes_of(target).values())
+    said = Said()
+    summary = deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)), said)
+    assert "2 files are done already." in said.texts and not (target / ".waiting").exists()
+    found = classes_of(target)
+    whole = deliver(scene[2], tmp_path / "whole", how)
+    expected = classes_of(tmp_path / "whole")
+    assert all(np.array_equal(found[each], expected[each]) for each in expected)
+    assert summary.class_counts == whole.class_counts and (found["west.laz"] == 9).any()
+    assert files_of(target) == files_of(tmp_path / "whole")
+
+
+@pytest.mark.parametrize("resume", [True, False])
+def test_a_second_run_classifies_files_with_classes_of_water_again(scene, tmp_path, resume):
+    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(options=small, constraints=given_water(0.71)[0])
+    first, said = deliver(scene[2], target, how), Said()
+    before = classes_of(target)
+    second = deliver(scene[2], target, replace(how, tiles=TileOutput(resume=resume)), said)
+    assert second.class_counts == first.class_counts
+    assert all(np.array_equal(before[name], each) for name, each in classes_of(target).items())
+    assert any("2 finished files are made again" in each for each in said.texts) == resume
+    # Without water, nothing is left of the classes of water.
+    third = deliver(scene[2], target, DeliveryRequest(options=small, tiles=TileOutput(resume=True)))
+    assert not {9, 20} & third.class_counts.keys()
+    assert not any((each == 9).any() for each in classes_of(target).values())
+
+
+def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
+    scene, tmp_path, monkeypatch
+):
+    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(options=small, constraints=given_water(0.71)[0])
+    move = os.replace
+
+    def refuse(source, place):
+        is_last = Path(source).parent == target / ".waiting" / "water"
+        if is_last and Path(place) == target / "points" / "west.laz":
+            raise OSError(28, "No space left on device")
+        move(source, place)
+
+    with monkeypatch.context() as patched:
+        patched.setattr("bare_earth.algorithms.delivery.folder.os.replace", refuse)
+        with pytest.raises(BareEarthError, match="the disk is full"):
+            deliver(scene[2], target, how)
+    assert not json.loads((target / "delivery.json").read_text())["is_finished"]
+    deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)))
+    deliver(scene[2], tmp_path / "whole", how)
+    expected = classes_of(tmp_path / "whole")
+    assert all(np.array_equal(each, expected[name]) for name, each in classes_of(target).items())
 
 
 def test_a_cancel_before_any_file_is_done_leaves_nothing_of_many(scene, tmp_path):
