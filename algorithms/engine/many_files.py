@@ -119,16 +119,13 @@ def classify_files(
     if request.explain is not None:
         raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
     steps: list[PointStep] = [replace(request.step, cut=blocks)]
-    if request.output.height_above_ground:
-        heights = replace(request.height_step, ground_only=request.output.ground_only)
-        steps = [replace(steps[0], output=Output(area_only=request.output.area_only)), heights]
     if request.above_ground.wanted:
-        if len(steps) > 1:
-            raise BareEarthError(
-                "Of many files, one run makes classes above the ground or heights above ground."
-                " Make the classes, and add the heights to them afterwards."
-            )
-        steps = [steps[0], request.above_ground_step]
+        steps.append(request.above_ground_step)
+    if request.output.height_above_ground:
+        steps[0] = replace(
+            request.step, cut=blocks, output=Output(area_only=request.output.area_only)
+        )
+        steps.append(replace(request.height_step, ground_only=request.output.ground_only))
     rasters = request.raster_step if request.rasters.wanted else None
     if request.output.ground_only and rasters is not None and not rasters.covers_ground:
         raise BareEarthError(
@@ -160,7 +157,7 @@ def write_files(
     folder : Path
         The folder for the outputs, which get the names of the inputs. It is made if it is missing.
     steps : sequence of PointStep
-        One step, or two of which the second reads the outputs of the first.
+        Each reads the outputs of the one before.
     request : Request
         Options for files, format, resuming, threads and memory.
     progress : Progress
@@ -272,7 +269,7 @@ class _SurveyRun:
                 made = [place / each.name for each in run.done]
                 survey = open_survey(made, progress=SILENT, stated=self._request.stated)
             elif tasks[-1].kept:  # all that was left to do has failed
-                tasks[-1] = replace(tasks[-1], only=frozenset())
+                tasks = [replace(each, only=frozenset()) for each in tasks]
             else:
                 return
 

@@ -252,17 +252,17 @@ def tasks_of(
     targets: Sequence[dict[Path, Path]],
     resume: bool,
 ) -> list[Task]:
-    """Return what each of one or two steps has to do. The second reads the outputs of the first.
+    """Return what each of several steps has to do. Each reads the outputs of the one before.
 
     These are removed at the end. So the record of a final output names the inputs of the first
-    step, which is repeated only for the files that the second step still needs.
+    step, and a step is repeated only for the files that the steps after it still need.
 
     Parameters
     ----------
     survey : Survey
         The inputs of the first step.
     steps : sequence of PointStep
-        One or two steps.
+        The steps.
     targets : sequence of dict of Path to Path
         The outputs of each step, by the inputs of the first.
     resume : bool
@@ -270,27 +270,44 @@ def tasks_of(
     """
     if len(steps) == 1:
         return [Task()]
-    first, second = (
+    runs = [
         TileRun(survey, next(iter(where.values())).parent, where, step, SILENT)
         for step, where in zip(steps, targets)
-    )
-    of_first, of_second = first.sources, second.sources
+    ]
+    sources = [run.sources for run in runs]
     records, kept, todo = {}, [], []
-    for path in of_first.keys() & of_second.keys():
-        files = sorted({file for each in of_second[path] for file in of_first.get(each, ())})
-        record = {**second.fingerprint(path, files), "before": first.fingerprint(path, ())}
-        before = read_record(targets[1][path]) if resume else None
+    for path in set.intersection(*(set(of_step) for of_step in sources)):
+        record = _record_of(path, runs, sources)
+        before = read_record(targets[-1][path]) if resume else None
         if before is not None and before[0] == record:
-            kept.append(steps[1].summary_type(**before[1]))
+            kept.append(steps[-1].summary_type(**before[1]))
         else:
             todo.append(path)
         records[path.name] = record
     if not kept:
-        return [Task(), Task(fingerprints=records)]
-    needed = {each.name for path in todo for each in of_second[path]}
-    refused = {path.name for path in of_first.keys() - of_second.keys()}
-    names = frozenset(each.name for each in todo)
-    return [Task(frozenset(needed | refused)), Task(names, records, kept)]
+        return [*(Task() for _ in steps[1:]), Task(fingerprints=records)]
+    tasks = [Task(frozenset(path.name for path in todo), records, kept)]
+    needed = set(todo)
+    for of_step, of_next in zip(sources[-2::-1], sources[:0:-1]):
+        needed = {path for each in needed for path in of_next[each] if path in of_step}
+        refused = of_step.keys() - of_next.keys()
+        tasks.insert(0, Task(frozenset(path.name for path in needed | refused)))
+    return tasks
+
+
+def _record_of(
+    path: Path, runs: Sequence[TileRun], sources: Sequence[dict[Path, list[Path]]]
+) -> Fingerprint:
+    """Return the record of a final output: of all steps, and of the files of the first one."""
+    files = {path}
+    for of_step in reversed(sources):
+        files = {file for each in files for file in of_step.get(each, ())}
+    record = runs[-1].fingerprint(path, sorted(files))
+    within = record
+    for run in runs[-2::-1]:
+        within["before"] = run.fingerprint(path, ())
+        within = within["before"]
+    return record
 
 
 def _make(folder: Path, *within: Path) -> None:

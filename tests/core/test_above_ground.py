@@ -422,8 +422,36 @@ def test_one_run_on_many_files_does_the_same(file, village, tmp_path):
     assert np.array_equal(_rows(made), _rows([tmp_path / "one.laz"]))
     again = _run(tiles=TileOutput(resume=True))
     assert classify([folder], tmp_path / "out", again).kept_count == 2
-    with pytest.raises(BareEarthError, match="add the heights to them afterwards"):
-        classify([folder], tmp_path / "no", _run(output=Output(height_above_ground=True)))
+
+
+def test_one_run_on_many_files_also_makes_heights_and_goes_on(file, village, tmp_path):
+    heights = Output(height_above_ground=True)
+    classify(file, tmp_path / "one.laz", _run(output=heights))
+    points, folder, out = village.points, tmp_path / "in", tmp_path / "out"
+    folder.mkdir()
+    returns = village.return_number, village.number_of_returns
+    # So far apart that the first file does not affect the last one.
+    cuts = np.quantile(points.x, (0.2, 0.8))
+    for number in range(3):
+        which = np.flatnonzero(np.searchsorted(cuts, points.x) == number)
+        _write(folder / f"{number}.laz", points, _only_ground(village), returns, which)
+    summary = classify([folder], out, _run(output=heights))
+    made = sorted(out.glob("*.laz"))
+    assert summary.done_count == 3 and len(made) == 3 and not list(tmp_path.glob("out/.*/waiting*"))
+
+    def all_of(paths):
+        clouds = [laspy.read(path) for path in paths]
+        names = "X", "Y", "Z", "classification", "HeightAboveGround"
+        columns = [np.concatenate([np.asarray(each[name]) for each in clouds]) for name in names]
+        return np.column_stack(columns)[np.lexsort(columns)]
+
+    np.testing.assert_array_equal(all_of(made), all_of([tmp_path / "one.laz"]))
+    again = _run(output=heights, tiles=TileOutput(resume=True))
+    assert classify([folder], out, again).kept_count == 3
+    before = [path.read_bytes() for path in made]
+    made[0].unlink()
+    assert classify([folder], out, again).kept_count == 2
+    assert [path.read_bytes() for path in made] == before
 
 
 def test_one_run_also_makes_heights_and_rasters(file, tmp_path):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from runs import CancelAt
 
-from bare_earth.algorithms.core.errors import Cancelled
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS, method_of
@@ -16,7 +16,7 @@ from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.products.comparison import compare
 from benchmarks import data
 from benchmarks.scenes import make as make_scene
-from benchmarks.scenes.simple import scatter, surveyed, village
+from benchmarks.scenes.simple import error, scatter, surveyed, village
 
 # Of the same scene each method is asked, one after the other.
 make = functools.lru_cache(maxsize=4)(make_scene)
@@ -38,6 +38,44 @@ def test_a_handful_of_points_is_classified_without_an_error(parameters, count):
     line = np.arange(count, dtype=float)
     points = Points(3.0 * line, 2.0 * line, 0.1 * line)
     assert method_of(parameters).classify(points, parameters).all()
+
+
+@pytest.mark.parametrize("parameters", [*PARAMETERS, *CLASSIC])
+@pytest.mark.parametrize("count", [1, 2, 5, 10])
+def test_points_at_one_place_are_classified_without_an_error(parameters, count):
+    together = Points(*np.ones((3, count)))
+    assert method_of(parameters).classify(together, parameters).all()
+
+
+@pytest.mark.parametrize("method", METHODS.values(), ids=list(METHODS))
+@pytest.mark.parametrize("density", [1.0, 4.0, 8.0, 20.0])
+@pytest.mark.parametrize("slope", [0.0, 0.3])
+def test_houses_trees_and_low_noise_are_told_from_the_slope_they_stand_on(method, density, slope):
+    points, truth = village(slope, density=density)
+    found = method.classify(points, method.parameters())
+    assert error(found, truth) < 3.0
+    assert not found[points.z > 112.0 + 80.0 * slope].any()
+    assert not found[points.z < 95.0].any()
+
+
+@pytest.mark.parametrize("parameters", PARAMETERS)
+def test_the_order_and_the_place_of_the_points_do_not_matter(parameters):
+    classify, (points, _) = method_of(parameters).classify, village()
+    mixed = np.random.default_rng(2).permutation(points.count)
+    found = classify(points, parameters)
+    assert np.array_equal(classify(points.take(mixed), parameters), found[mixed])
+    moved = Points(points.x + 128.0, points.y - 64.0, points.z + 256.0)
+    assert np.mean(classify(moved, parameters) != found) < 1e-3
+
+
+@pytest.mark.parametrize("parameters", [*PARAMETERS, GridMinimum(cell_size=0.01)])
+def test_stray_coordinates_are_refused_with_a_sentence(parameters):
+    ends = Points(np.array([0.0, 1e9]), np.array([0.0, 1e9]), np.zeros(2))
+    # Cells grow with the distance of few points.
+    many = Points(*(np.concatenate((each, np.zeros(50_000))) for each in ends))
+    points = many if isinstance(parameters, GridMinimum) else ends
+    with pytest.raises(BareEarthError, match="stray coordinates"):
+        method_of(parameters).classify(points, parameters)
 
 
 @pytest.mark.parametrize("parameters", PARAMETERS)

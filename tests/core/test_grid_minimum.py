@@ -28,16 +28,6 @@ def flat(density: float = 8.0, size: float = 80.0) -> Points:
     return Points(x, y, surveyed(x, y, np.full(len(x), 20.0)))
 
 
-@pytest.mark.parametrize("density", [1.0, 4.0, 8.0, 20.0])
-@pytest.mark.parametrize("slope", [0.0, 0.3])
-def test_houses_trees_and_low_noise_are_told_from_the_slope_they_stand_on(density, slope):
-    points, truth = village(slope, density=density)
-    found = classify(points, GridMinimum())
-    assert error(found, truth) < 3.0
-    assert not found[points.z > 112.0 + 80.0 * slope].any()
-    assert not found[points.z < 95.0].any()
-
-
 @pytest.mark.parametrize("width", [4.0, 12.0, 30.0])
 def test_a_roof_goes_with_the_rim_that_bounds_it(width):
     points = flat()
@@ -174,21 +164,6 @@ def test_the_preset_says_how_large_a_hall_may_be():
         assert not found[hall].any() and found[~hall].mean() > 0.97
 
 
-def test_the_order_and_the_place_of_the_points_do_not_matter():
-    points, _ = village()
-    mixed = np.random.default_rng(2).permutation(points.count)
-    found = classify(points, GridMinimum())
-    assert np.array_equal(classify(points.take(mixed), GridMinimum()), found[mixed])
-    moved = Points(points.x + 128.0, points.y - 64.0, points.z + 256.0)
-    assert np.mean(classify(moved, GridMinimum()) != found) < 1e-3
-
-
-@pytest.mark.parametrize("count", [1, 2, 3, 10])
-def test_points_at_one_place_are_classified_without_an_error(count):
-    together = Points(np.ones(count), np.ones(count), np.ones(count))
-    assert classify(together, GridMinimum()).all()
-
-
 @pytest.mark.parametrize("heights", [(), (2.0, 5.0), (5.0, -1.0), ("five",), 5.0])
 def test_height_thresholds_must_be_a_descending_list_of_heights(heights):
     with pytest.raises(BareEarthError, match="Height thresholds must be"):
@@ -199,10 +174,3 @@ def test_one_height_threshold_is_a_list_too():
     points, truth = village()
     assert GridMinimum(height_thresholds=[3]).height_thresholds == (3.0,)
     assert error(classify(points, GridMinimum(height_thresholds=[3])), truth) < 4.0
-
-
-def test_stray_coordinates_are_refused_with_a_sentence():
-    points = Points(np.array([0.0, 1e9]), np.array([0.0, 1e9]), np.zeros(2))
-    many = Points(*(np.concatenate((each, np.zeros(50000))) for each in points))
-    with pytest.raises(BareEarthError, match="stray coordinates"):
-        classify(many, GridMinimum(cell_size=0.01))
