@@ -80,7 +80,7 @@ def tutorial_figures(job: str) -> None:
 
 def _run(job: str, folder: Path) -> Tutorial:
     page = (_PAGES / f"{job}.md").read_text(encoding="utf-8")
-    kept = []
+    kept: list[Path] = []
     for block, _ in steps(page, folder):
         if block.kind == "sh" and any("deliver" in words for words in commands_of(block)):
             kept.append(folder / f"delivery-{len(kept)}")
