@@ -9,14 +9,14 @@ import traceback
 from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
-from . import checking, classifying, comparing, delivering, products
+from . import checking, classifying, comparing, delivering, odm, products
 from .command import FAILED, USAGE
 from .options import UsageError
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (
     *classifying.COMMANDS, *delivering.COMMANDS, *comparing.COMMANDS, *checking.COMMANDS,
-    *products.COMMANDS,
+    *products.COMMANDS, *odm.COMMANDS,
 )  # fmt: skip
 
 

@@ -66,16 +66,20 @@ def deliver(
     given = [sources] if isinstance(sources, (str, Path)) else list(sources)
     paths, place = [Path(each) for each in given], DeliveryFolder(Path(folder))
     place.check(paths)
-    heard, is_one = Heard(progress), is_one_file(paths)
-    survey = _opened(paths, request, heard)
+    is_one = is_one_file(paths)
+    survey = _opened(paths, request, progress)
     if not is_one:
         place.begin(request.delivery)
     # On the disk of the folder, so that outputs can be moved there.
     beside = place.path.parent if is_one else place.path
-    with _finished_files_stay(not is_one), temporary_folder(beside) as working:
+    with _left_in_order(place, is_one), temporary_folder(beside) as working:
+        heard = Heard(progress, working, place.path)
         work = DeliveryFolder(working)
         steps = DeliverySteps(request, survey, paths, is_one, work, place, workers)
-        made = steps.run(heard.part(0.0, 0.97))
+        try:
+            made = steps.run(heard.part(0.01, 0.97))
+        except BareEarthError as error:
+            raise BareEarthError(str(error).replace(str(working), str(place.path))) from error
         made.warnings = heard.warnings
         page = delivery_html(request, made, survey, working)
         (working / PAGE).write_text(page, encoding="utf-8")
@@ -95,13 +99,18 @@ def _opened(paths: list[Path], request: DeliveryRequest, progress: Progress) -> 
 
 
 @contextlib.contextmanager
-def _finished_files_stay(is_many: bool) -> Iterator[None]:
-    """Say after a cancel of many files that the run can be continued."""
+def _left_in_order(place: DeliveryFolder, is_one: bool) -> Iterator[None]:
+    """After a cancel or an error, leave no empty folder; say if the run can be continued."""
     try:
         yield
-    except (Cancelled, KeyboardInterrupt) as error:
-        if is_many and not isinstance(error, FinishedFilesStay):
+    except (BareEarthError, Cancelled, KeyboardInterrupt) as error:
+        if is_one:
+            raise
+        stays = place.leave()
+        if stays and not isinstance(error, (BareEarthError, FinishedFilesStay)):
             raise FinishedFilesStay from error
+        if not stays and isinstance(error, FinishedFilesStay):
+            raise Cancelled from error
         raise
 
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+import shutil
 from pathlib import Path
 from typing import Any, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import check_output, describe_write_error, replacing
+from ..survey.files import is_cloud
 
 POINTS, QUALITY = "points", "quality"
 PAGE, RECORD = "index.html", "delivery.json"
@@ -84,6 +87,19 @@ class DeliveryFolder:
         except OSError as error:
             raise describe_write_error(self.path, error) from error
         self._write({"delivery": delivery, "is_finished": False, "files": files})
+
+    def leave(self) -> bool:
+        """Remove what is not finished; return whether finished files stay."""
+        folders = [each for each in (self.points, self.waiting) if each.is_dir()]
+        if any(is_cloud(each) for folder in folders for each in folder.rglob("*")):
+            return True
+        for each in folders:
+            shutil.rmtree(each, ignore_errors=True)
+        with contextlib.suppress(OSError):  # it may hold files of the user
+            if not self._files:
+                (self.path / RECORD).unlink(missing_ok=True)
+            self.path.rmdir()
+        return False
 
     def take(self, made: Path, record: dict[str, Any]) -> None:
         """Move a finished delivery here, and remove what is left of an earlier one.

@@ -88,8 +88,9 @@ def _figures(request: DeliveryRequest, made: Made, survey: Survey, units: Units)
     if found is not None:
         rows.append(("Area", f"{found.area / 10_000:,.2f} ha"))
         densities = (found.pulse_density, found.ground_density)
-        for name, value in zip(("First returns", "Ground points"), densities):
-            rows.append((f"{name} in a square metre", "none" if value is None else f"{value:.2f}"))
+        for name, density in zip(("First returns", "Ground points"), densities):
+            shown = "none" if density is None else f"{density:.2f}"
+            rows.append((f"{name} in a square metre", shown))
     model = request.terrain_with(made.cell_size)
     size = model.cell_metres(units.horizontal)
     rows.append(("Cell size of the terrain model", text(units.length(size))))
@@ -149,7 +150,7 @@ def _comparison(made: Made) -> str:
 
 
 def _warnings(made: Made) -> str:
-    said = [f"{path} is left out. {why}" for path, why in made.failures.items()]
+    said = [f"{Path(path).name} is left out. {why}" for path, why in made.failures.items()]
     said += [each for each in made.warnings if each not in said]
     if not said:
         return ""
@@ -210,7 +211,7 @@ def _settings(request: DeliveryRequest, made: Made, survey: Survey) -> str:
     ]
     rows.append(("Made on", date.today().isoformat()))
     files = "".join(
-        f'<tr><td class="text files">{text(each.path)}</td><td>{each.count:,}</td></tr>'
+        f'<tr><td class="text files">{text(each.path.name)}</td><td>{each.count:,}</td></tr>'
         for each in survey.tiles[:_MOST_ROWS]
     )
     return f"""<h2>How it was made</h2>
@@ -225,10 +226,11 @@ def settings_of(request: DeliveryRequest, cell_size: float) -> dict[str, dict[st
     sets: dict[str, ParameterSet] = {
         method: how.parameters,
         "Classes": how.selection,
-        "Above the ground": how.above_ground,
         "Terrain model": request.terrain_with(cell_size),
         "Surface model": request.surface_model,
     }
+    if how.above_ground.wanted:
+        sets["Above the ground"] = how.above_ground
     if request.water_wanted is not None:
         sets["Water"] = request.water_wanted
     if request.content.contours:

@@ -94,6 +94,7 @@ class DeliveryTerrain(MapTerrain):
     dtm_cell_size: float | None = parameter_of(  # type: ignore[assignment]
         MapTerrain,
         "dtm_cell_size",
+        label="Cell size",
         default=None,
         optional=True,
         empty="by the density of the ground points",

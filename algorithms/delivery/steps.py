@@ -13,6 +13,7 @@ from ..core.errors import BareEarthError
 from ..core.files import split_name
 from ..core.progress import PassingOn, Progress
 from ..engine.key_points import KeyPointMark
+from ..engine.manifest import folders_of
 from ..engine.one_file import Summary
 from ..engine.options import TileInput
 from ..engine.requests import HeightRequest, KeyPointRequest, TerrainRequest
@@ -30,6 +31,7 @@ from ..products.raster_files import RasterFiles
 from ..products.surface_model import SurfaceModel
 from ..products.water_files import SurveyWater, WaterRequest, WaterSummary
 from ..survey.files import Survey
+from ..survey.overview import overview_of
 from .deliveries import WITH_BUILDINGS
 from .folder import QUALITY, DeliveryFolder
 from .request import DeliveryRequest
@@ -40,33 +42,44 @@ _FEET_A_METRE = 4.0
 
 
 class Heard(PassingOn):
-    """Passes on messages, each once, since several steps read the same files; keeps warnings."""
+    """Passes on messages, each once, since several steps read the same files; keeps warnings.
 
-    def __init__(self, whole: Progress) -> None:
+    Parameters
+    ----------
+    whole : Progress
+        Receives them.
+    working, folder : Path
+        Messages name the second folder in place of the first, which is temporary.
+    """
+
+    def __init__(self, whole: Progress, working: Path, folder: Path) -> None:
         super().__init__(whole)
         self.warnings: list[str] = []
         self._said: set[str] = set()
+        self._names = str(working), str(folder)
 
     def info(self, text: str) -> None:
         """Pass on a message."""
-        if self._is_new(text):
-            super().info(text)
+        for each in self._new(text):
+            super().info(each)
 
     def choice(self, text: str) -> None:
         """Pass on a choice."""
-        if self._is_new(text):
-            super().choice(text)
+        for each in self._new(text):
+            super().choice(each)
 
     def warning(self, text: str) -> None:
         """Pass on a warning, and keep it."""
-        if self._is_new(text):
-            self.warnings.append(text)
-            super().warning(text)
+        for each in self._new(text):
+            self.warnings.append(each)
+            super().warning(each)
 
-    def _is_new(self, text: str) -> bool:
+    def _new(self, text: str) -> list[str]:
+        """Return a message as it is to be read, or nothing if it was passed on before."""
+        text = text.replace(*self._names)
         is_new = text not in self._said
         self._said.add(text)
-        return is_new
+        return [text] if is_new else []
 
 
 @dataclass
@@ -170,7 +183,15 @@ class DeliverySteps:
                     made.failures |= done.failures
                 made.point_count, made.ground_count = _counts_of(done)
                 made.class_counts = done.class_counts or made.class_counts
-        made.files = [self._cloud] if self.is_one else sorted(self._points.rglob("*"))
+        made.files = [self._cloud] if self.is_one else self._files_of(done)
+
+    def _files_of(self, done: Any) -> list[Path]:
+        """Return the files of points, their lists, and the records of what they were made of."""
+        names = {each.name for each in done.tiles}
+        names |= {self._cloud.name, overview_of(self._cloud).name}
+        records = folders_of(self._points)[1]
+        found = sorted(each for each in self._points.rglob("*") if each.is_file())
+        return [each for each in found if each.name in names or records in each.parents]
 
     @property
     def _points(self) -> Path:
@@ -257,10 +278,11 @@ class DeliverySteps:
         self.made.water = found.summary
         progress.info(f"Water: {found.summary.text}.")
         if found.bodies:
-            names = "water", "breaklines"
-            paths = [self.work.path / f"{name}{vector_format()}" for name in names]
-            found.write(*paths, progress)
-            self.made.layers |= dict(zip(names, paths))
+            water, lines = (
+                self.work.path / f"{name}{vector_format()}" for name in ("water", "breaklines")
+            )
+            found.write(water, lines, progress)
+            self.made.layers |= {"water": water, "breaklines": lines}
             known = found.constraints
             rivers = (*request.constraints.rivers, *known.rivers)
             self.made.constraints = replace(request.constraints, water=known.water, rivers=rivers)

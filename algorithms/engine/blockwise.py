@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import contextlib
 import threading
-import time
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
 from typing import Any, Callable, Iterator, Sequence
 
 import numpy as np
 
 from ..core.errors import Cancelled
-from ..core.progress import Notes, PassingOn, Progress
+from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads, shared_threads
 from .blocks import Block, Blocks
-from .memory import GIGABYTE, Resources, give_back
+from .memory import GIGABYTE, GivingBack, Resources, give_back
+from .polling import ended
 from .store import BlockPoints, Corner, Store
 
-# Blocks that take so many bytes give their memory back to the system when they are done, and all
-# do every so many seconds if memory is short.
-_MUCH, _SECONDS = 100_000_000, 0.3
+# Blocks that take so many bytes give their memory back to the system when they are done.
+_MUCH = 100_000_000
 
 
 def over_blocks(
@@ -66,25 +65,11 @@ def over_blocks(
         )
     is_tight = sum(memory) > resources.bytes
     if is_tight:
-        progress = _GivingBack(progress)
+        progress = GivingBack(progress)
     for number, result in run_jobs(jobs, counts, at_once, resources.thread_count, progress):
         if is_tight and memory[number] > _MUCH:
             give_back()
         yield number, result
-
-
-class _GivingBack(PassingOn):
-    """Passes on progress, and gives freed memory back to the system now and then."""
-
-    def __init__(self, whole: Progress) -> None:
-        super().__init__(whole)
-        self._given = time.monotonic()
-
-    def report(self, fraction: float) -> None:
-        super().report(fraction)
-        if time.monotonic() - self._given > _SECONDS:
-            give_back()
-            self._given = time.monotonic()
 
 
 def fill(
@@ -120,8 +105,6 @@ def _at_once(number: int, largest: int, resources: Resources) -> int:
     fitting = resources.bytes // max(largest, 1)
     return int(max(1, min(number, resources.thread_count, fitting)))
 
-
-_POLL = 0.1
 
 Job = Callable[[Progress], Any]
 
@@ -176,37 +159,39 @@ def _run(
     shared: SharedThreads,
     progress: Progress,
 ) -> Iterator[tuple[int, Any]]:
-    stop, ended, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
+    stop, done, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
     talks: dict[int, JobProgress] = {}
+    running: dict[Future[Any], int] = {}
+    waiting = iter(range(len(jobs)))
+    pool = ThreadPoolExecutor(max(1, at_once), thread_name_prefix="block")
 
     def run(number: int) -> Any:
         with shared.used():
             return jobs[number](talks[number])
 
-    pool = ThreadPoolExecutor(max(1, at_once), thread_name_prefix="block")
-    try:
-        waiting = iter(range(len(jobs)))
-        running: dict[Future[Any], int] = {}
+    def start() -> list[Future[Any]]:
         # Not all at once, since results that were not fetched yet would fill the memory.
-        while True:
-            for number in waiting:
-                talks[number] = JobProgress(stop)
-                running[pool.submit(run, number)] = number
-                if len(running) >= max(1, at_once):
-                    break
-            if not running:
-                return
-            done, _ = wait(running, _POLL, FIRST_COMPLETED)
-            for talk in talks.values():
-                talk.tell(progress)
-            under_way = sum(talk.fraction * weights[number] for number, talk in talks.items())
-            progress((ended + under_way) / total)
-            for future in sorted(done, key=running.__getitem__):
-                number = running.pop(future)
-                result = future.result()
-                del talks[number]
-                ended += weights[number]
-                yield number, result
+        while len(running) < max(1, at_once):
+            number = next(waiting, None)
+            if number is None:
+                break
+            talks[number] = JobProgress(stop)
+            running[pool.submit(run, number)] = number
+        return list(running)
+
+    def look() -> None:
+        for talk in talks.values():
+            talk.tell(progress)
+        under_way = sum(talk.fraction * weights[number] for number, talk in talks.items())
+        progress((done + under_way) / total)
+
+    try:
+        for future in ended(start, look):
+            number = running.pop(future)
+            result = future.result()
+            del talks[number]
+            done += weights[number]
+            yield number, result
     finally:
         stop.set()
         pool.shutdown(wait=False, cancel_futures=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bisect
 import contextlib
 import dataclasses
+import mmap
 import os
 import threading
 from pathlib import Path
@@ -193,8 +194,8 @@ def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
     return np.frombuffer(file.read((end - start) * kind.itemsize), dtype=kind)
 
 
-def allocated_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
-    """Return room for values of points in a temporary file without a name.
+class ValuesOnDisk:
+    """Values of points in a temporary file without a name, which is mapped into memory.
 
     Parameters
     ----------
@@ -205,23 +206,37 @@ def allocated_on_disk(target: Path, kind: type, count: int) -> np.ndarray:
     count : int
         Number of values.
 
+    Attributes
+    ----------
+    values : numpy.ndarray, shape (count,)
+        The values.
+
     Raises
     ------
     BareEarthError
         If the disk is full. Without this check, writing to the mapped file would end the process.
     """
-    try:
-        with unnamed_file(target.parent) as file:
-            size = max(count, 1) * np.dtype(kind).itemsize
-            if hasattr(os, "posix_fallocate"):
-                os.posix_fallocate(file.fileno(), 0, size)
-            else:
-                for start in range(0, size, _STEP):
-                    file.write(bytes(min(_STEP, size - start)))
-                file.flush()
-            return np.memmap(file, kind, "r+", shape=(count,))
-    except OSError as error:
-        raise describe_write_error(target, error) from error
+
+    def __init__(self, target: Path, kind: type, count: int) -> None:
+        size = max(count, 1) * np.dtype(kind).itemsize
+        try:
+            with unnamed_file(target.parent) as file:
+                if hasattr(os, "posix_fallocate"):
+                    os.posix_fallocate(file.fileno(), 0, size)
+                else:
+                    for start in range(0, size, _STEP):
+                        file.write(bytes(min(_STEP, size - start)))
+                    file.flush()
+                self._map = mmap.mmap(file.fileno(), size)
+        except OSError as error:
+            raise describe_write_error(target, error) from error
+        self.values: np.ndarray = np.frombuffer(self._map, kind, count)
+
+    def leave_memory(self) -> None:
+        """Let the values be on disk only, until they are used again."""
+        # The file keeps them, also those that have not reached the disk yet.
+        if hasattr(mmap, "MADV_DONTNEED"):
+            self._map.madvise(mmap.MADV_DONTNEED)
 
 
 def _joined(

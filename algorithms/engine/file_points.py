@@ -15,8 +15,8 @@ from ..las.lasfile import LasFile
 from ..las.reading import read_cloud, read_parts
 from ..survey.point_counts import PointCounts
 from ..survey.shapes import Place
-from .disk_store import DiskStore, allocated_on_disk
-from .memory import GIGABYTE, Resources
+from .disk_store import DiskStore, ValuesOnDisk
+from .memory import GIGABYTE, GivingBack, Resources
 from .memory_store import MemoryStore
 from .parts_on_disk import PartsOnDisk, may_keep
 from .steps import PointResult, PointStep, Step
@@ -91,6 +91,7 @@ class FilePoints:
         self._source, self._target = cloud, target
         self._files, self._is_told = contextlib.ExitStack(), False
         self._kept: PartsOnDisk | None = None
+        self._mapped: list[ValuesOnDisk] = []
         if not self.is_in_memory:
             left = max(self.memory_left, resources.bytes // 2)
             self.resources = Resources.of(resources.threads, min(left, _MOST_FOR_BLOCKS))
@@ -188,11 +189,23 @@ class FilePoints:
         if self._kept is not None:
             self._kept.finish()
 
+    def sparing(self, progress: Progress) -> Progress:
+        """Return a progress that keeps memory small while it is called, if points are on disk."""
+        if self.is_in_memory:
+            return progress
+
+        def leave_memory() -> None:
+            for values in self._mapped:
+                values.leave_memory()
+
+        return GivingBack(progress, leave_memory)
+
     def allocate(self, kind: type) -> np.ndarray:
         """Return an array of one value for each point, on disk if the values are large."""
         if self.is_in_memory or np.dtype(kind).itemsize == 1:
             return np.empty(self.count, dtype=kind)
-        return allocated_on_disk(self._target, kind, self.count)
+        self._mapped.append(ValuesOnDisk(self._target, kind, self.count))
+        return self._mapped[-1].values
 
     def gathered(
         self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress = SILENT
@@ -257,7 +270,7 @@ class FilePoints:
         self, store: Store, progress: Progress = SILENT
     ) -> Iterator[tuple[slice, PointCloud, np.ndarray]]:
         """Yield the points part by part with their indices and their values in a store."""
-        for number, (where, part) in enumerate(self.parts(progress)):
+        for number, (where, part) in enumerate(self.parts(self.sparing(progress))):
             yield where, part, store.values(0)[where] if self.is_in_memory else store.values(number)
 
     def find(
@@ -290,7 +303,7 @@ class FilePoints:
         Cancelled
             If the user asked to stop.
         """
-        parts = self.parts(progress.part(0.0, 0.08))
+        parts = self.parts(self.sparing(progress.part(0.0, 0.08)))
         (store,) = self.gathered([(step, counts)], parts, progress.part(0.08, 0.12))
         step.work(store, self.resources, progress.part(0.12, 0.94))
         result = step.result(self.path, self.allocate)

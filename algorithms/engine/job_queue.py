@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import collections
 import re
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, wait
+from concurrent.futures import BrokenExecutor, CancelledError, Future
 from pathlib import Path
 from typing import Any, Mapping, Sequence
 
@@ -14,9 +14,9 @@ from ..survey.files import Survey
 from .block_grid import BlockGrid, BlockIndex, grouped, least_memory, points_in
 from .jobs import BlockJob, JobResult, Taken, TileJob
 from .memory import GIGABYTE
+from .polling import ended
 from .workers import SCHEDULER_GONE, Job, Running, Workers
 
-_POLL = 0.1
 # A point takes so many times as long in a block as for reading and writing.
 _BLOCK_WEIGHT = 2.0
 # A message names at most so many files.
@@ -96,21 +96,21 @@ class JobQueue:
 
     def _run(self) -> None:
         self._find_ready()
-        while self._fill():
-            futures = {each.future: each for each in self._running}
-            ended, _ = wait(futures, _POLL, FIRST_COMPLETED)
-            self._workers.check()
-            running = sum(
-                each.progress.fraction * _weight(job) for each, job in self._running.items()
-            )
-            self._progress((self._finished + running) / self._total)
-            for future in ended:
-                self._end(futures[future])
+        for future in ended(self._start, self._look):
+            running = next((each for each in self._running if each.future is future), None)
+            if running is not None:  # otherwise it is suspected meanwhile
+                self._end(running)
         self._tell()
         self._tell_of_memory()
 
-    def _fill(self) -> bool:
-        """Start as many jobs as may run at once; return whether any is running."""
+    def _look(self) -> None:
+        """Check the workers, and report progress."""
+        self._workers.check()
+        running = sum(each.progress.fraction * _weight(job) for each, job in self._running.items())
+        self._progress((self._finished + running) / self._total)
+
+    def _start(self) -> list[Future[JobResult]]:
+        """Start as many jobs as may run at once; return those that are running."""
         while len(self._running) < (1 if self._suspects else self._workers.at_once):
             queues = (self._suspects, self._ready, self._blocks)
             queue = next((each for each in queues if each), None)
@@ -122,7 +122,7 @@ class JobQueue:
                 self._repeated = job if queue is self._suspects else self._repeated
             except BrokenExecutor:  # a worker died between two jobs
                 self._suspect_all()
-        return bool(self._running)
+        return [each.future for each in self._running]
 
     def _suspect_all(self) -> None:
         """Repeat all running jobs one by one, since one of them may have killed its worker."""
@@ -130,13 +130,11 @@ class JobQueue:
         self._running.clear()
         self._workers.restart()
 
-    def _end(self, ended: Running) -> None:
+    def _end(self, running: Running) -> None:
         """Record the result of a job."""
-        if ended not in self._running:  # it is suspected meanwhile
-            return
-        job = self._running[ended]
+        job = self._running[running]
         try:
-            outcome = ended.future.result()
+            outcome = running.future.result()
         except BrokenExecutor:
             # Something else may have killed it the first time, even if it ran alone.
             is_guilty = job is self._repeated and len(self._running) == 1
@@ -151,7 +149,7 @@ class JobQueue:
             # The cluster gave up the job.
             failure = f"It could not be done: {error or type(error).__name__}."
             outcome = JobResult(None, failure=failure)
-        self._running.pop(ended, None)
+        self._running.pop(running, None)
         self._finished += _weight(job)
         if outcome.taken is not None:
             self.taken.append(outcome.taken)

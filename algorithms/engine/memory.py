@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Callable, NamedTuple
 
 from ..core.parameters import ParameterSet, parameter
+from ..core.progress import PassingOn, Progress
 from ..core.threads import available_cpus
 
 GIGABYTE = 1 << 30
 _UNKNOWN = 4 * GIGABYTE
 _SHARE = 0.5
+# Freed memory is given back after so many seconds if memory is short.
+_SECONDS = 0.3
 _MEMINFO = Path("/proc/meminfo")
 _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 _CGROUP = Path("/sys/fs/cgroup")
@@ -95,6 +99,31 @@ def give_back() -> None:
     trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
     if trim is not None:
         trim(0)
+
+
+class GivingBack(PassingOn):
+    """Passes on progress, and gives freed memory back to the system now and then.
+
+    Parameters
+    ----------
+    whole : Progress
+        Receives progress and messages.
+    also : callable, optional
+        Called then as well; it gives up other memory.
+    """
+
+    def __init__(self, whole: Progress, also: Callable[[], None] | None = None) -> None:
+        super().__init__(whole)
+        self._also, self._given = also, time.monotonic()
+
+    def report(self, fraction: float) -> None:
+        """Pass on how much is done."""
+        super().report(fraction)
+        if time.monotonic() - self._given > _SECONDS:
+            give_back()
+            if self._also is not None:
+                self._also()
+            self._given = time.monotonic()
 
 
 class PeakMemory:

@@ -186,6 +186,7 @@ def classify_file(
             for each in points.values(waiting["above"]):
                 result.refine(*each)
         edits = result.edits(points.cloud, progress, heights)
+        last = points.sparing(last)
         write_changed(las, target, edits, last, points.cloud, points.memory_left)
     return _summary(result, counts, request)
 
@@ -267,7 +268,7 @@ def write_points(
         with FilePoints.opened(las, target, resources, progress=first) as points:
             result, _ = points.find(step, step.counts(), progress.part(0.1, 0.9))
             edits = result.edits(points.cloud, progress)
-            last = progress.part(0.9, 1.0)
+            last = points.sparing(progress.part(0.9, 1.0))
             write_changed(las, target, edits, last, points.cloud, points.memory_left)
     return result.summary(target.name)
 

@@ -6,7 +6,7 @@ import contextlib
 import dataclasses
 import shutil
 from pathlib import Path
-from typing import Iterator, NamedTuple
+from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
@@ -79,7 +79,7 @@ class PartsOnDisk:
     def __iter__(self) -> Iterator[PointCloud]:
         """Yield the parts in their order."""
         for part, count, columns in self._parts:
-            values = {}
+            values: dict[str, Any] = {}
             for name, kind, start in columns:
                 self._file.seek(start)
                 values[name] = np.frombuffer(self._file.read(count * kind.itemsize), kind)
@@ -95,7 +95,7 @@ def may_keep(las: LasFile, folder: Path) -> bool:
 
 def without_points(part: PointCloud) -> PointCloud:
     """Return a cloud with all but its points."""
-    columns = {
+    columns: dict[str, Any] = {
         # Copies, because a view would keep the points.
         name: value[:0].copy()
         for name, value in vars(part).items()

@@ -74,7 +74,7 @@ MANY_SCALES = {
     "steep": ManyScales(12.0, 20.0, 0.5, 24.0),
     "town": ManyScales(24.0, 15.0, 0.5, 100.0),
     "city": ManyScales(50.0, 15.0, 0.5, 150.0),
-    "site": ManyScales(12.0, 20.0, 0.5, 25.0, 0.5),
+    "site": ManyScales(12.0, 30.0, 0.5, 25.0, 0.5),
 }
 
 

@@ -228,15 +228,21 @@ def _by_tile(
     thinned: LatticeSample, x: np.ndarray, y: np.ndarray
 ) -> list[tuple[tuple[int, int], np.ndarray]]:
     """Return row and column of each tile that holds queries, with the indices of its queries."""
+    if not len(x):
+        return []
     row, column = (
-        np.floor(thinned.cells(each, axis)).astype(np.int64) // TILE
-        for axis, each in ((1, y), (0, x))
+        (thinned.cells(each, axis) // TILE).astype(np.int32) for axis, each in ((1, y), (0, x))
     )
-    codes = (row << 32) + column
+    (south, north), (west, east) = ((int(each.min()), int(each.max())) for each in (row, column))
+    width = east - west + 1
+    # Small integers, since there are many queries; two bytes are sorted fastest.
+    codes = (row - south).astype(np.min_scalar_type((north - south + 1) * width))
+    codes *= width
+    codes += (column - west).astype(codes.dtype)
     order = np.argsort(codes, kind="stable")
-    starts = np.flatnonzero(np.diff(codes[order], prepend=codes[order[:1]] - 1))
-    groups = np.split(order, starts[1:])
-    return [((int(row[each[0]]), int(column[each[0]])), each) for each in groups if len(each)]
+    codes = codes[order]
+    groups = np.split(order, np.flatnonzero(codes[1:] != codes[:-1]) + 1)
+    return [((int(row[each[0]]), int(column[each[0]])), each) for each in groups]
 
 
 def _marked(

@@ -151,6 +151,7 @@ class ThenAboveGround(AboveGround):
         default=NONE,
         label="Classes above the ground",
         choices={NONE: "None: what is not ground has no further class", **_SCHEMES},
+        advanced=True,
         help="Classifies the points above the ground as well: low, medium and high vegetation (3,"
         " 4, 5) by height above ground, buildings (6), bridges (17) and high noise (18).",
     )

@@ -34,7 +34,7 @@ def checkpoint_html(check: Check, found: Residuals | None, survey: Survey) -> st
     """
     files = [each.path for each in survey.tiles]
     more = f" and {len(files) - 1:,} more" if files[1:] else ""
-    parts = [f'<p class="files">Points: {text(files[0])}{more}</p>']
+    parts = [f'<p class="files">Points: {text(files[0].name)}{more}</p>']
     if found is not None:
         parts += [_summary(check), _histogram(check, found), _map(check, found, survey)]
         parts += [_others(check), _largest(check), _table(found, survey)]

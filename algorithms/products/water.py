@@ -79,7 +79,7 @@ class Water(ParameterSet):
         advanced=True,
         empty="automatic",
         help="Side of the cells in which points are counted. Empty: twice the distance between"
-        " points, and at least 1 m.",
+        " points, at least 1 m, and up to 5 m if a large survey would have too many cells.",
     )
 
 

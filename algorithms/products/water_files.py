@@ -130,8 +130,9 @@ class SurveyWater:
         unit, tiles = survey.frame.horizontal_unit, survey.survey.tiles
         boxes = np.array([each.outer_box for each in tiles]) * unit
         area = float((boxes[:, 2:] - boxes[:, :2]).prod(axis=1).sum())
-        cell = cell_for(area, survey.survey.count, request.water.water_cell)
         west, south, east, north = (float(each) * unit for each in survey.survey.box)
+        extent = (east - west) * (north - south)
+        cell = cell_for(area, survey.survey.count, request.water.water_cell, extent)
         grid = WaterGrid((west, south, east, north), cell)
         for cloud, ground in survey.parts(progress.part(0.05, 0.9)):
             used = request.ground.used(cloud) & ~is_one_of(cloud.classification, NOISE)

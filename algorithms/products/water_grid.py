@@ -10,8 +10,13 @@ from ..core.errors import BareEarthError
 from ..core.points import Box, Points
 from ..grids.cells import lower_at
 
-# Most cells of a survey, at 12 bytes each, and as much again while water is found.
+# Most cells of a survey, at 12 bytes each; up to 2 GB while water is found.
 _MOST_CELLS = 60_000_000
+# The rest is for cells that only touch the extent.
+_SHARE_FOR_BORDERS = 0.99
+# Cells that become larger in a large survey stay so small that the narrowest river of the Lidar
+# Base Specification, 30 m, is six cells wide.
+_LARGEST_CELL = 5.0
 _MOST_COUNT = np.iinfo(np.uint16).max
 # A cell has about so many last returns on open land: an empty one is then hardly chance.
 _CELL_IN_SPACINGS, _LEAST_CELL, _STEP = 2.0, 1.0, 0.5
@@ -27,8 +32,10 @@ _SPARSE, _SPARSE_ROUND = 0.25, 0.6
 _CLASS_SHARE = 0.5
 
 
-def cell_for(area: float, count: int, size: float | None = None) -> float:
+def cell_for(area: float, count: int, size: float | None = None, extent: float = 0.0) -> float:
     """Return the side in metres of the cells for a survey.
+
+    A large survey gets larger cells, so that they fit into memory.
 
     Parameters
     ----------
@@ -38,16 +45,24 @@ def cell_for(area: float, count: int, size: float | None = None) -> float:
         Number of their points.
     size : float, optional
         The side that the user wants.
+    extent : float
+        Area of the box round all files in square metres.
 
     Examples
     --------
-    >>> cell_for(1e6, 8_000_000), cell_for(1e6, 250_000)
-    (1.0, 4.0)
+    >>> cell_for(1e6, 8_000_000), cell_for(1e6, 250_000), cell_for(5e8, 4_000_000_000, extent=5e8)
+    (1.0, 4.0, 3.0)
     """
     if size is not None:
         return size
     spacing = math.sqrt(area / max(count, 1))
-    return max(_LEAST_CELL, math.ceil(_CELL_IN_SPACINGS * spacing / _STEP) * _STEP)
+    fine = max(_LEAST_CELL, math.ceil(_CELL_IN_SPACINGS * spacing / _STEP) * _STEP)
+    return max(fine, min(_smallest_cell(extent), _LARGEST_CELL))
+
+
+def _smallest_cell(extent: float) -> float:
+    """Return the smallest side of cells that are not too many in so many square metres."""
+    return math.ceil(math.sqrt(extent / (_SHARE_FOR_BORDERS * _MOST_CELLS)) / _STEP) * _STEP
 
 
 class WaterGrid:
@@ -80,7 +95,7 @@ class WaterGrid:
         self.shape = north - south + 1, east - west + 1
         count = self.shape[0] * self.shape[1]
         if count > _MOST_CELLS:
-            least = math.ceil(cell * math.sqrt(count / _MOST_CELLS) / _STEP) * _STEP
+            least = _smallest_cell(count * cell**2)
             raise BareEarthError(
                 f"Cells of {cell:g} m would be {count:,} in this survey, and"
                 f" {_MOST_CELLS:,} is the most. Choose cells of {least:g} m, or give fewer files."

@@ -1730,8 +1730,8 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Seite einer Zelle des Geländemodells und seiner Schummerung. Leer: 1 m, und bei einer Lieferung so fein, wie es die Bodenpunkte erlauben, oder wie es die Spezifikation vorgibt.</translation>
     </message>
     <message>
-        <source>Side of the cells in which points are counted. Empty: twice the distance between points, and at least 1 m.</source>
-        <translation>Seite der Zellen, in denen Punkte gezählt werden. Leer: das Doppelte des Punktabstands und mindestens 1 m.</translation>
+        <source>Side of the cells in which points are counted. Empty: twice the distance between points, at least 1 m, and up to 5 m if a large survey would have too many cells.</source>
+        <translation>Seite der Zellen, in denen Punkte gezählt werden. Leer: das Doppelte des Punktabstands, mindestens 1 m, und bis zu 5 m, wenn ein großes Projekt zu viele Zellen hätte.</translation>
     </message>
     <message>
         <source>Side of the cells of densities and voids. Strips and maximum heights have cells of twice this size.</source>
@@ -2356,6 +2356,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>degrees</source>
         <translation>Grad</translation>
+    </message>
+    <message>
+        <source>deliverables,archaeology,forestry,flood,drone</source>
+        <translation>Lieferung,Archäologie,Forst,Hochwasser,Drohne</translation>
     </message>
     <message>
         <source>densification</source>

@@ -1730,8 +1730,8 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Côté d'une maille du modèle de terrain et de son ombrage. Vide : 1 m et, pour une livraison, aussi fin que les points du sol le permettent, ou comme la spécification l'indique.</translation>
     </message>
     <message>
-        <source>Side of the cells in which points are counted. Empty: twice the distance between points, and at least 1 m.</source>
-        <translation>Côté des cellules dans lesquelles les points sont comptés. Vide : deux fois la distance entre les points, et au moins 1 m.</translation>
+        <source>Side of the cells in which points are counted. Empty: twice the distance between points, at least 1 m, and up to 5 m if a large survey would have too many cells.</source>
+        <translation>Côté des cellules dans lesquelles les points sont comptés. Vide : deux fois la distance entre les points, au moins 1 m, et jusqu'à 5 m si un grand levé avait trop de cellules.</translation>
     </message>
     <message>
         <source>Side of the cells of densities and voids. Strips and maximum heights have cells of twice this size.</source>
@@ -2356,6 +2356,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>degrees</source>
         <translation>degrés</translation>
+    </message>
+    <message>
+        <source>deliverables,archaeology,forestry,flood,drone</source>
+        <translation>livrables,archéologie,forêt,inondation,drone</translation>
     </message>
     <message>
         <source>densification</source>

@@ -17,6 +17,7 @@ from .feedback import FeedbackProgress
 from .outputs import class_raster_of
 
 if TYPE_CHECKING:
+    from ...algorithms.delivery.request import DeliveryRequest
     from ...algorithms.engine.requests import ClassifyRequest
     from ...algorithms.engine.terrain_maps import MapRequest
 
@@ -25,7 +26,7 @@ def show_classified(
     algorithm: BareEarthAlgorithm,
     cloud: str,
     classes: Iterable[int],
-    request: ClassifyRequest | MapRequest,
+    request: ClassifyRequest | MapRequest | DeliveryRequest,
     context: QgsProcessingContext,
     progress: FeedbackProgress,
     hides: int = layers.CLOUD,
@@ -40,7 +41,7 @@ def show_classified(
         The file, or a virtual point cloud of many files.
     classes : iterable of int
         Its classes; the usual classes if empty.
-    request : ClassifyRequest or MapRequest
+    request : ClassifyRequest, MapRequest or DeliveryRequest
         Holds the class of the ground, and the cell size of the raster.
     context : QgsProcessingContext
         The raster is made only if QGIS will load other layers.
@@ -66,7 +67,9 @@ def show_classified(
     from ...algorithms.products.class_raster import write_class_raster
 
     path = _place_of_raster(cloud)
-    cell_size, in_units = request.terrain.dtm_cell_size, request.terrain.dtm_cell_unit == "crs"
+    # Only that of a delivery can be open.
+    cell_size = request.terrain.dtm_cell_size or 1.0
+    in_units = request.terrain.dtm_cell_unit == "crs"
     try:
         files = Path(cloud), Path(path)
         found = write_class_raster(

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from ...algorithms.engine import memory, options
-from ...algorithms.engine.output import Output
+from ...algorithms.engine import memory, options, output
 from ...algorithms.products.above_ground import ThenAboveGround
 from ...algorithms.products.surface_model import Gaps
 from ...algorithms.products.terrain_model import TerrainModel
@@ -33,7 +32,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def parameter_sets(self):
         """Return method, points and classes, files, outputs, and resources."""
-        first = options.TileMethod, Selection, options.TileInput, options.ShownTiles, Output
+        first = options.TileMethod, Selection, options.TileInput, options.ShownTiles, output.Output
         return *first, ThenAboveGround, TerrainModel, Gaps, options.RasterOutput, memory.Resources
 
     def initAlgorithm(self, configuration=None):

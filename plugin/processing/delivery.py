@@ -12,6 +12,7 @@ from qgis.core import (
 )
 
 from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.delivery.deliveries import DELIVERIES
 from ...algorithms.delivery.folder import DeliveryFolder
 from ...algorithms.delivery.request import NO_DELIVERY, DeliveryChoice, DeliveryTerrain
 from ...algorithms.engine.options import TileOutput
@@ -48,6 +49,12 @@ def delivery_of(chosen: Sequence[ParameterSet]) -> str:
     """Return the name of the delivery; empty for the user's own choice of outputs."""
     name = DeliveryChoice.among(chosen).delivery
     return "" if name in (None, NO_DELIVERY) else name
+
+
+def run_name_of(chosen: Sequence[ParameterSet]) -> str:
+    """Return what the group of layers is called, in English: the delivery, or the terrain."""
+    name = delivery_of(chosen)
+    return DELIVERIES[name].label if name else mark("terrain")
 
 
 def without_delivery(chosen: Sequence[ParameterSet]) -> list[ParameterSet]:

@@ -8,7 +8,6 @@ from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.contours import Contours
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.survey.selection import Selection
-from ..i18n import mark
 from . import delivery, outputs
 from .area import MAPPED, add_area, add_limits, limits_of
 from .base import BareEarthAlgorithm
@@ -20,7 +19,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
     """Point cloud to terrain."""
 
     identifier, page = "pointcloudtoterrain", "point-cloud-to-terrain"
-    title, section, run_name = "Point cloud to terrain", "All in one", mark("terrain")
+    title, section = "Point cloud to terrain", "All in one"
     summary = "Makes a map of the terrain of a raw point cloud: classes, models, contours."
     about = (
         "Finds the ground of a raw lidar point cloud and makes maps of it. Each output is"
@@ -50,6 +49,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         """Find the input files."""
         self.inputs = sources = survey_of(self, parameters, context)
         self.subject, self.cancelled = names_of(sources), outputs.after_cancel(sources)
+        self.run_name = delivery.run_name_of(self.chosen(parameters, context))
 
     def check(self, parameters, context):
         """Check the values, and the folder of a delivery."""

@@ -20,6 +20,7 @@ _RASTER = mark("grid,raster,rasterize,interpolate")
 _WORDS = {
     "pointcloudtoterrain": (
         _CLOUD, _GROUND, _TERRAIN, _CANOPY, _TILES, mark("contours,workflow"),
+        mark("deliverables,archaeology,forestry,flood,drone"),
     ),
     **{
         each.toolbox.identifier: (_CLOUD, _GROUND, _TERRAIN, *each.toolbox.words)

@@ -258,10 +258,8 @@ def test_an_empty_parameter_is_automatic_as_its_help_says(capsys):
         for each in method.parameters.declarations():
             if each.default is None:
                 assert each.empty == "automatic", each.name
-    assert (
-        "Empty: the usual distance between points, at least 1 m. (default: automatic)"
-        in help_of(capsys, "--method", "slope")
-    )
+    empty = "at least 1 m (0.5 m in the preset for sites). (default: automatic)"
+    assert empty in help_of(capsys, "--method", "slope")
     text = help_of(capsys)
     assert "(default: 0 to 6, 8 and 12)" in text and "(default: none)" in text
     assert "(default: 1.0 m)" in text and "(default: off)" in text

@@ -1,7 +1,9 @@
 """Deliveries of a small scene whose ground, water, house and trees are known."""
 
+import dataclasses
 import json
 import os
+import shutil
 
 import laspy
 import numpy as np
@@ -171,7 +173,10 @@ def test_a_delivery_of_one_file_has_all_its_files(made, scene, name):
     for each in files_of(folder) - {"index.html", "delivery.json"}:
         assert f'href="{each}"' in page
     assert f"{summary.ground_count:,}" in page and summary.point_count == len(scene[0])
+    # Nothing is left of the folder in which it was made, and no page names it.
     assert not [each for each in os.listdir(folder.parent) if each.startswith(".")]
+    pages = [each.read_text(encoding="utf-8") for each in folder.glob("*.html")]
+    assert not any(".part." in each or str(folder.parent) in each for each in pages)
 
 
 @pytest.mark.parametrize("name", list(FILES))
@@ -228,7 +233,7 @@ def test_a_survey_is_as_the_base_specification_asks(made):
 
 
 def test_a_specification_brings_the_classes_that_it_asks_for(scene, tmp_path):
-    how = DeliveryRequest(delivery="survey", options=DeliveryOptions(specification="ign"))
+    how = DeliveryRequest(delivery="survey", options=DeliveryOptions("ign", hold_out_share=None))
     summary = deliver(scene[1], tmp_path / "out", how)
     truth = scene[0][:, 5]
     classes = np.asarray(laspy.read(summary.cloud).classification)
@@ -298,17 +303,44 @@ def test_a_cancel_leaves_nothing_of_one_file(scene, tmp_path, share):
 
 
 def test_many_files_can_be_continued_after_a_cancel(scene, tmp_path):
-    target, how = tmp_path / "out", DeliveryRequest(delivery="drone-site")
+    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="drone-site", options=small)
     with pytest.raises(FinishedFilesStay):
         deliver(scene[2], target, how, Stops(0.95))
     assert files_of(target) == {"delivery.json"}
     assert not json.loads((target / "delivery.json").read_text())["is_finished"]
     before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
     assert len(before) == 2
-    again = DeliveryRequest(delivery="drone-site", tiles=TileOutput(resume=True))
-    deliver(scene[2], target, again)
+    deliver(scene[2], target, dataclasses.replace(how, tiles=TileOutput(resume=True)))
     assert {each: each.stat().st_mtime_ns for each in before} == before
-    assert files_of(target) == ALWAYS | FILES["drone-site"]
+    assert files_of(target) == (ALWAYS | FILES["drone-site"]) - {"accuracy.html"}
+
+
+def test_a_cancel_before_any_file_is_done_leaves_nothing_of_many(scene, tmp_path):
+    with pytest.raises(Cancelled) as stopped:
+        deliver(scene[2], tmp_path / "out", DeliveryRequest(), Stops(0.02))
+    assert not isinstance(stopped.value, FinishedFilesStay) and os.listdir(tmp_path) == []
+
+
+def test_a_file_that_cannot_be_read_is_named_on_the_page(scene, tmp_path):
+    tiles = tmp_path / "tiles"
+    shutil.copytree(scene[2], tiles)
+    (tiles / "broken.laz").write_bytes(b"LASF")
+    small = DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="drone-site", options=small)
+    summary = deliver(tiles, tmp_path / "out", how)
+    assert [os.path.basename(each) for each in summary.failures] == ["broken.laz"]
+    assert "<li>broken.laz is left out." in (tmp_path / "out" / "index.html").read_text("utf-8")
+
+
+def test_an_error_names_the_folder_of_the_user(scene, tmp_path):
+    # All points keep a class that is not decided anew, so that there is no ground.
+    las = laspy.read(scene[1])
+    las.classification[:] = 9
+    las.write(str(tmp_path / "water.laz"))
+    with pytest.raises(BareEarthError) as error:
+        deliver(tmp_path / "water.laz", tmp_path / "out")
+    assert ".part." not in str(error.value) and os.listdir(tmp_path) == ["water.laz"]
 
 
 def test_a_delivery_replaces_an_earlier_one_and_nothing_else(scene, tmp_path):

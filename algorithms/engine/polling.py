@@ -1,0 +1,30 @@
+"""The loop of a thread that starts jobs, looks at them ten times a second, and takes results."""
+
+from __future__ import annotations
+
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from typing import Any, Callable, Collection, Iterator
+
+# Seconds between two looks.
+_POLL = 0.1
+
+
+def ended(
+    start: Callable[[], Collection[Future[Any]]], look: Callable[[], None]
+) -> Iterator[Future[Any]]:
+    """Yield jobs as they end, until none is running.
+
+    Threads, processes and the workers of a cluster all have such futures. What `look` raises, such
+    as `Cancelled`, ends the loop.
+
+    Parameters
+    ----------
+    start : callable
+        Starts as many jobs as may run at once, and returns those that are running, in their order.
+    look : callable
+        Called in the calling thread ten times a second, and when a job ends, before it is yielded.
+    """
+    while running := start():
+        done, _ = wait(running, _POLL, FIRST_COMPLETED)
+        look()
+        yield from (future for future in running if future in done)
