@@ -33,11 +33,13 @@ if TYPE_CHECKING:
     from .engine.requests import HeightRequest as HeightRequest
     from .engine.requests import KeyPointRequest as KeyPointRequest
     from .engine.requests import TerrainRequest as TerrainRequest
+    from .engine.requests import WaterClassRequest as WaterClassRequest
     from .engine.runs import above_ground as above_ground
     from .engine.runs import classify as classify
     from .engine.runs import heights as heights
     from .engine.runs import key_points as key_points
     from .engine.runs import terrain as terrain
+    from .engine.runs import water_classes as water_classes
     from .filters.grid_minimum import GridMinimum as GridMinimum
     from .filters.slope import SlopeFilter as SlopeFilter
     from .filters.tin import TinDensification as TinDensification
@@ -62,6 +64,8 @@ if TYPE_CHECKING:
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
     from .products.water import Water as Water
+    from .products.water_classes import WaterClasses as WaterClasses
+    from .products.water_classes import WaterPolygons as WaterPolygons
     from .products.water_files import WaterRequest as WaterRequest
     from .products.water_files import write_water as find_water  # noqa: F401
     from .rasters.sampling import HeightRaster as HeightRaster
@@ -105,11 +109,13 @@ _MODULES = {
     "HeightRequest": "engine.requests",
     "KeyPointRequest": "engine.requests",
     "TerrainRequest": "engine.requests",
+    "WaterClassRequest": "engine.requests",
     "above_ground": "engine.runs",
     "classify": "engine.runs",
     "heights": "engine.runs",
     "key_points": "engine.runs",
     "terrain": "engine.runs",
+    "water_classes": "engine.runs",
     "compare_settings": "trial.comparing",
     "TrialOptions": "trial.options",
     "GridMinimum": "filters.grid_minimum",
@@ -130,6 +136,8 @@ _MODULES = {
     "SurfaceModel": "products.surface_model",
     "TerrainModel": "products.terrain_model",
     "Water": "products.water",
+    "WaterClasses": "products.water_classes",
+    "WaterPolygons": "products.water_classes",
     "WaterRequest": "products.water_files",
     "find_water": "products.water_files:write_water",
     "HeightRaster": "rasters.sampling",

@@ -20,6 +20,7 @@ from .surveys import (
     contours_after,
     raster_target_of,
     tell_of_survey,
+    water_polygons_of,
     with_found_water,
     workers_of,
 )
@@ -121,8 +122,20 @@ def _add_above_ground(parser: argparse.ArgumentParser, arguments: Sequence[str])
     add_area(parser, "change only points in", "; points outside keep their class")
 
 
+def _add_water_classes(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    from ..products.water_classes import WaterClasses
+    from ..survey.vector_files import FORMATS
+
+    _add_files(parser, WaterClasses)
+    parser.add_argument(
+        "--water", metavar="FILE", required=True,
+        help=f"polygons of water ({FORMATS}); with the word automatic, the water is found first, as"
+        " the command 'water' does",
+    )  # fmt: skip
+
+
 def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> None:
-    """Add the options of `height`, `key-points` and `above-ground`."""
+    """Add the options of the commands that write classified files anew."""
     from ..engine.memory import Resources
     from ..engine.options import TileInput, TileOutput
     from ..survey.ground_classes import GroundClasses
@@ -141,16 +154,25 @@ def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> No
 def _write(options: argparse.Namespace) -> int:
     """Write classified files with the heights, key points or further classes."""
     from ..engine.many_files import SurveySummary
-    from ..engine.requests import AboveGroundRequest, HeightRequest, KeyPointRequest
+    from ..engine.requests import (
+        AboveGroundRequest,
+        HeightRequest,
+        KeyPointRequest,
+        WaterClassRequest,
+    )
     from ..engine.runs import write
     from ..rasters.sampling import HeightRaster
 
-    request: HeightRequest | KeyPointRequest | AboveGroundRequest
+    request: HeightRequest | KeyPointRequest | AboveGroundRequest | WaterClassRequest
     if options.command == "height":
         dtm = None if options.dtm is None else HeightRaster.of(options.dtm)
         request = HeightRequest.of(chosen(options), dtm=dtm, crs=options.crs)
     elif options.command == "above-ground":
         request = AboveGroundRequest.of(chosen(options), area=area_of(options), crs=options.crs)
+    elif options.command == "water-classes":
+        sets = chosen(options)
+        water = water_polygons_of(options, sets)
+        request = WaterClassRequest.of(sets, water=water, crs=options.crs)
     else:
         request = KeyPointRequest.of(chosen(options), crs=options.crs)
     workers, as_survey = workers_of(options, request.resources), bool(options.scheduler) or None
@@ -301,5 +323,14 @@ COMMANDS = (
         " breaklines with heights.",
         _add_water,
         _water,
+    ),
+    Command(
+        "water-classes",
+        "give classes to ground points in water and beside its shore",
+        "Gives class 9 (water) to the ground points of a classified file, or of many as one survey,"
+        " that lie in polygons of water, and class 20 (ignored ground) to those beside the shore,"
+        " as the Lidar Base Specification asks for. Nothing else changes.",
+        _add_water_classes,
+        _write,
     ),
 )

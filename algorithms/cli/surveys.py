@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ..products.constraints import Constraints
     from ..products.raster_files import RasterFiles
     from ..products.raster_grid import RasterTarget
+    from ..products.water_classes import WaterPolygons
     from ..survey.area import Area
 
 
@@ -176,6 +177,22 @@ def with_found_water(
     return dataclasses.replace(
         known, water=found.constraints.water, rivers=(*known.rivers, *found.constraints.rivers)
     )
+
+
+def water_polygons_of(options: argparse.Namespace, sets: Sequence[ParameterSet]) -> WaterPolygons:
+    """Return the polygons of water of the options, read or found."""
+    from ..las.writing import check_cloud
+    from ..products.constraints import NO_CONSTRAINTS
+    from ..products.water_classes import WaterPolygons
+    from ..survey.files import is_one_file
+    from ..survey.vector_files import read_boundary
+
+    if water_is_automatic(options):
+        # To find the water can take minutes.
+        if is_one_file(options.input):
+            check_cloud(options.input[0], options.output)
+        return WaterPolygons(with_found_water(options, NO_CONSTRAINTS, sets).water)
+    return WaterPolygons(read_boundary(Path(options.water)))
 
 
 def constraints_of(options: argparse.Namespace, finds_water: bool = False) -> Constraints:

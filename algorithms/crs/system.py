@@ -67,6 +67,20 @@ def unit_symbol(metres: float) -> str:
     return _SYMBOLS.get(name, f"units of {name}")
 
 
+def unit_size(symbol: str) -> float:
+    """Return the metres in a unit, given what `unit_symbol` returned.
+
+    Examples
+    --------
+    >>> unit_size("ft"), unit_size("units of 0.5 m")
+    (0.3048, 0.5)
+    """
+    for metres in _UNIT_NAMES:
+        if unit_symbol(metres) == symbol:
+            return metres
+    return float(symbol.split()[-2])
+
+
 def crs_of_wkt(text: str, progress: Progress = SILENT) -> Crs | None:
     """Return the CRS that well-known text describes; None if it describes none.
 

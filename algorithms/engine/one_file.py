@@ -34,6 +34,7 @@ from .requests import (
     HeightRequest,
     KeyPointRequest,
     TerrainRequest,
+    WaterClassRequest,
 )
 from .steps import PointStep, Step, located
 
@@ -235,7 +236,7 @@ def _summary(result: ClassifiedPoints, counts: Any, request: ClassifyRequest) ->
 def write_points(
     source: Path,
     target: Path,
-    request: HeightRequest | KeyPointRequest | AboveGroundRequest,
+    request: HeightRequest | KeyPointRequest | AboveGroundRequest | WaterClassRequest,
     progress: Progress = SILENT,
 ) -> Any:
     """Write a file with the values that a step finds for its points, such as heights.
@@ -244,7 +245,7 @@ def write_points(
     ----------
     source, target : Path
         The input, and the output (.las, .laz or .copc.laz).
-    request : HeightRequest, KeyPointRequest or AboveGroundRequest
+    request : HeightRequest, KeyPointRequest, AboveGroundRequest or WaterClassRequest
         What to find.
     progress : Progress
         Receives progress and messages.
@@ -262,10 +263,10 @@ def write_points(
         If the user asked to stop; no output is left behind.
     """
     las, resources = _checked(source, target, request.resources, request.stated)
-    step = request.step
     with may_use(resources.thread_count):
         first = progress.part(0.0, 0.1)
         with FilePoints.opened(las, target, resources, progress=first) as points:
+            (step,) = located([request.step], points.place, progress)
             result, _ = points.find(step, step.counts(), progress.part(0.1, 0.9))
             edits = result.edits(points.cloud, progress)
             last = points.sparing(progress.part(0.9, 1.0))

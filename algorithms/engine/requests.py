@@ -18,6 +18,7 @@ from ..products.raster_files import RasterFiles
 from ..products.raster_grid import ANYWHERE, RasterTarget
 from ..products.surface_model import Gaps, SurfaceModel
 from ..products.terrain_model import TerrainModel
+from ..products.water_classes import NO_WATER, WaterClasses, WaterPolygons
 from ..rasters.sampling import HeightRaster
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
@@ -32,6 +33,7 @@ from .memory import Resources
 from .options import RasterOutput, TileInput, TileMethod, TileOutput
 from .output import Output
 from .rasters import MakeRasters
+from .water_classes import ClassifyWater
 
 _Request = TypeVar("_Request", bound="Request")
 
@@ -259,6 +261,30 @@ class AboveGroundRequest(Request):
     def step(self) -> ClassifyAboveGround:
         """The step that classifies them."""
         return ClassifyAboveGround(self.parameters, self.ground, self.area)
+
+
+@dataclass(frozen=True)
+class WaterClassRequest(Request):
+    """A request to give classes to ground points in water and beside its shore.
+
+    Attributes
+    ----------
+    parameters : WaterClasses
+        The classes, and the distance from the shore.
+    ground : GroundClasses
+        Which points are ground.
+    water : WaterPolygons
+        The water.
+    """
+
+    parameters: WaterClasses = field(default_factory=WaterClasses)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    water: WaterPolygons = NO_WATER
+
+    @property
+    def step(self) -> ClassifyWater:
+        """The step that gives the classes."""
+        return ClassifyWater(self.parameters, self.ground, self.water)
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from .requests import (
     HeightRequest,
     KeyPointRequest,
     TerrainRequest,
+    WaterClassRequest,
 )
 from .workers import Workers
 
@@ -171,6 +172,46 @@ def above_ground(
     return write(sources, output, request, progress, workers, as_survey)
 
 
+def water_classes(
+    sources: Sources,
+    output: str | Path,
+    request: WaterClassRequest,
+    progress: Progress = SILENT,
+    workers: Workers | None = None,
+    as_survey: bool | None = None,
+) -> Any:
+    """Write classified files with classes for ground points in water and beside its shore.
+
+    Parameters
+    ----------
+    request : WaterClassRequest
+        The polygons of water, which points are ground, and the classes that they get.
+    sources, output, progress, workers, as_survey
+        As for `classify`.
+
+    Returns
+    -------
+    WaterClassSummary or SurveySummary
+        What was done, of one file or of many.
+
+    Raises
+    ------
+    BareEarthError, Cancelled
+        As for `classify`, and if the input has no ground, or no polygon lies where points are.
+
+    Examples
+    --------
+    >>> from bare_earth.algorithms import (
+    ...     WaterClassRequest, WaterPolygons, read_boundary, water_classes
+    ... )
+    >>> water = WaterPolygons(read_boundary("water.gpkg"))  # doctest: +SKIP
+    >>> request = WaterClassRequest(water=water)  # doctest: +SKIP
+    >>> water_classes("ground.laz", "water.laz", request).water_count  # doctest: +SKIP
+    1234
+    """
+    return write(sources, output, request, progress, workers, as_survey)
+
+
 def terrain(
     sources: Sources,
     request: TerrainRequest,
@@ -213,12 +254,12 @@ def terrain(
 def write(
     sources: Sources,
     output: str | Path,
-    request: HeightRequest | KeyPointRequest | AboveGroundRequest,
+    request: HeightRequest | KeyPointRequest | AboveGroundRequest | WaterClassRequest,
     progress: Progress = SILENT,
     workers: Workers | None = None,
     as_survey: bool | None = None,
 ) -> Any:
-    """Do what `heights`, `key_points` or `above_ground` does, as the type of the request says."""
+    """Do what `heights`, `key_points` and such do, as the type of the request says."""
     paths, target = _paths(sources), Path(output)
     if _is_one(paths, as_survey):
         return write_points(paths[0], target, request, progress)

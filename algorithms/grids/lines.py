@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Iterable
+
 import numpy as np
 
 from ..core.points import Box
@@ -76,6 +78,59 @@ def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
     share = numbered(counts) / counts[segment]
     start, end = line[segment], line[segment + 1]
     return np.concatenate((start + share[:, None] * (end - start), line[-1:]))
+
+
+def near_rings(
+    x: np.ndarray, y: np.ndarray, rings: Iterable[np.ndarray], distance: float
+) -> np.ndarray:
+    """Return which places lie within a distance of closed lines.
+
+    Parameters
+    ----------
+    x, y : numpy.ndarray of float64, shape (n,)
+        The places.
+    rings : iterable of numpy.ndarray of float64, shape (m, 2)
+        Corners; each ring goes back from its end to its beginning.
+    distance : float
+        In the unit of x and y.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (n,)
+
+    Examples
+    --------
+    >>> ring = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])
+    >>> near_rings(np.array([2.0, 5.0, 5.0]), np.array([2.0, 4.5, 5.5]), [ring], 1.5).tolist()
+    [False, True, False]
+    """
+    result = np.zeros(len(x), dtype=bool)
+    # When sorted by y, the places beside an edge are a slice.
+    order = np.argsort(y, kind="stable")
+    x, y, near = x[order], y[order], result.copy()
+    west, east = (x.min(), x.max()) if len(x) else (np.inf, -np.inf)
+    for ring in rings:
+        following = np.roll(ring, -1, axis=0)
+        low, high = np.minimum(ring, following) - distance, np.maximum(ring, following) + distance
+        firsts = np.searchsorted(y, low[:, 1])
+        lasts = np.searchsorted(y, high[:, 1], side="right")
+        touches = (firsts < lasts) & (low[:, 0] <= east) & (high[:, 0] >= west)
+        for edge in np.flatnonzero(touches):
+            beside = x[firsts[edge] : lasts[edge]]
+            which = firsts[edge] + np.flatnonzero(
+                (beside >= low[edge, 0]) & (beside <= high[edge, 0])
+            )
+            near[which] |= _from_edge(x[which], y[which], ring[edge], following[edge]) <= distance
+    result[order] = near
+    return result
+
+
+def _from_edge(x: np.ndarray, y: np.ndarray, start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Return the distances of places from a straight line between two corners."""
+    (run, rise), east, north = end - start, x - start[0], y - start[1]
+    length = float(run * run + rise * rise)
+    share = np.clip((east * run + north * rise) / length, 0.0, 1.0) if length else 0.0
+    return np.hypot(east - share * run, north - share * rise)
 
 
 class NearestHeights:

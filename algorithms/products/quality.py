@@ -117,7 +117,7 @@ def survey_quality(
     BareEarthError
         If an input cannot be read or an output cannot be written, or there are too many cells.
     Cancelled
-        If the user asked to stop; no page is left behind.
+        If the user asked to stop; no output is left behind.
 
     Examples
     --------
@@ -163,13 +163,15 @@ def _measured(survey: Survey, request: QualityRequest, work: Path, progress: Pro
         specification=options.specification, files=_files(survey),
     )  # fmt: skip
     found = replace(found, lines=lines_of(found, survey, asked))
-    if request.folder:
-        write_rasters(request.folder, cells, extent.inside, void, frame, progress.part(0.8, 0.98))
-    if request.page:
-        html = quality_html(found, cells, extent, asked, void, survey)
-        with replacing(request.page) as temporary:
-            temporary.write_text(html, encoding="utf-8")
-    progress(1.0)
+    with contextlib.ExitStack() as outputs:
+        if request.folder:
+            drawn, part = (cells, extent.inside, void, frame), progress.part(0.8, 0.98)
+            write_rasters(request.folder, *drawn, outputs, part)
+        if request.page:
+            html = quality_html(found, cells, extent, asked, void, survey)
+            page = outputs.enter_context(replacing(request.page))
+            page.write_text(html, encoding="utf-8")
+        progress(1.0)  # the last moment to cancel
     return found
 
 

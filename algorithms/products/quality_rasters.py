@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from pathlib import Path
 from typing import Callable, Iterator, NamedTuple
@@ -12,7 +13,7 @@ from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..rasters.geotiff import NODATA, RasterGrid
-from ..rasters.writing import Rows, check_raster_output, write_geotiff
+from ..rasters.writing import Rows, check_raster_output, replacing_raster, write_geotiff
 from .quality_cells import STRIPS, QualityCells
 
 # Value of bytes without data, and least number of points of a strip in a cell that is compared.
@@ -149,9 +150,10 @@ def write_rasters(
     inside: np.ndarray,
     void: float,
     frame: Frame,
+    outputs: contextlib.ExitStack,
     progress: Progress = SILENT,
 ) -> None:
-    """Write all rasters.
+    """Write all rasters; they get their names when `outputs` is closed.
 
     Parameters
     ----------
@@ -165,6 +167,8 @@ def write_rasters(
         Distance in metres from which on ground is missing.
     frame : Frame
         The frame of the survey.
+    outputs : contextlib.ExitStack
+        Receives the files.
     progress : Progress
         Receives progress and messages.
 
@@ -183,7 +187,8 @@ def write_rasters(
         nodata = NO_BYTE if raster.kind == "uint8" else NODATA
         strips = _strips(raster, window, cells, inside, void, frame, nodata)
         rows = Rows(window.shape, raster.kind, strips)
-        write_geotiff(path, rows, grid, nodata, progress, raster.shows)
+        waiting = outputs.enter_context(replacing_raster(path))
+        write_geotiff(waiting, rows, grid, nodata, progress, raster.shows)
         progress(number / len(paths))
 
 

@@ -20,6 +20,10 @@
         <translation>1 bis 255</translation>
     </message>
     <message>
+        <source>1 where ground points are far away</source>
+        <translation>1, wo Bodenpunkte weit entfernt sind</translation>
+    </message>
+    <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt;</source>
         <translation>&lt;b&gt;Werte der Voreinstellungen&lt;/b&gt;</translation>
     </message>
@@ -350,6 +354,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Klasse der Brücken</translation>
     </message>
     <message>
+        <source>Class of ignored ground</source>
+        <translation>Klasse des ignorierten Bodens</translation>
+    </message>
+    <message>
         <source>Class of key points</source>
         <translation>Klasse der Schlüsselpunkte</translation>
     </message>
@@ -364,6 +372,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Class of the ground</source>
         <translation>Klasse des Bodens</translation>
+    </message>
+    <message>
+        <source>Class of water</source>
+        <translation>Klasse des Wassers</translation>
     </message>
     <message>
         <source>Classes</source>
@@ -450,6 +462,10 @@ Nur Punkte der Klassen 0 und 1 ändern sich, wenn Sie nicht mehr verlangen. Sons
     <message>
         <source>Classify vegetation and buildings anew</source>
         <translation>Vegetation und Gebäude neu klassifizieren</translation>
+    </message>
+    <message>
+        <source>Classify water</source>
+        <translation>Gewässer klassifizieren</translation>
     </message>
     <message>
         <source>Closed lines that are shorter are left out: they show single plants and noise.</source>
@@ -542,8 +558,28 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Lieferung</translation>
     </message>
     <message>
+        <source>Density of first returns</source>
+        <translation>Dichte der ersten Echos</translation>
+    </message>
+    <message>
+        <source>Density of ground points</source>
+        <translation>Dichte der Bodenpunkte</translation>
+    </message>
+    <message>
+        <source>Density of low vegetation</source>
+        <translation>Dichte der niedrigen Vegetation</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Tiefe tiefer Ausreißer</translation>
+    </message>
+    <message>
+        <source>Difference between strips</source>
+        <translation>Unterschied zwischen Flugstreifen</translation>
+    </message>
+    <message>
+        <source>Differences between strips</source>
+        <translation>Unterschiede zwischen Flugstreifen</translation>
     </message>
     <message>
         <source>Differences between strips [m]</source>
@@ -722,6 +758,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Erste und einzige Echos</translation>
     </message>
     <message>
+        <source>First returns</source>
+        <translation>Erste Echos</translation>
+    </message>
+    <message>
         <source>First returns hit the tops of trees and buildings. Take all returns if the return numbers of the file are wrong.</source>
         <translation>Erste Echos treffen die Oberseite von Bäumen und Gebäuden. Nehmen Sie alle Echos, wenn die Nummern der Echos in der Datei falsch sind.</translation>
     </message>
@@ -794,6 +834,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>lazrs holen</translation>
     </message>
     <message>
+        <source>Gives class 9 to ground points in water, and class 20 to those beside its shore.</source>
+        <translation>Gibt Bodenpunkten im Wasser die Klasse 9 und denen neben dem Ufer die Klasse 20.</translation>
+    </message>
+    <message>
         <source>Grid minimum</source>
         <translation>Rasterminimum</translation>
     </message>
@@ -848,6 +892,14 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Ground points</source>
         <translation>Bodenpunkte</translation>
+    </message>
+    <message>
+        <source>Ground points in polygons of water become water (9), and those within a distance of the shore ignored ground (20), as the Lidar Base Specification asks for. Nothing else in the file changes: points with other classes keep them.</source>
+        <translation>Bodenpunkte in Polygonen des Wassers werden Wasser (9) und die in einem Abstand vom Ufer ignorierter Boden (20), wie es die Lidar Base Specification verlangt. Sonst ändert sich nichts in der Datei: Punkte mit anderen Klassen behalten diese.</translation>
+    </message>
+    <message>
+        <source>Ground points outside of the water, up to this far from its shore, become ignored ground: there the breakline alone decides the terrain. The Lidar Base Specification asks for one nominal point spacing: 0.7 m for QL2, 0.35 m for QL1. 0: none.</source>
+        <translation>Bodenpunkte außerhalb des Wassers bis zu diesem Abstand vom Ufer werden ignorierter Boden: Dort bestimmt allein die Bruchkante das Gelände. Die Lidar Base Specification verlangt den nominellen Punktabstand: 0,7 m bei QL2, 0,35 m bei QL1. 0: keine.</translation>
     </message>
     <message>
         <source>Ground points per m²</source>
@@ -980,6 +1032,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Ignored classes of the reference</source>
         <translation>Nicht beachtete Klassen der Referenz</translation>
+    </message>
+    <message>
+        <source>Ignored ground beside the shore</source>
+        <translation>Ignorierter Boden neben dem Ufer</translation>
     </message>
     <message>
         <source>In a CRS in feet, a size of 3 in units of the CRS gives cells of exactly 3 feet that begin at whole multiples of 3 feet.</source>
@@ -1222,6 +1278,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Größte Objektbreite</translation>
     </message>
     <message>
+        <source>Maximum surface height</source>
+        <translation>Größte Höhe der Oberfläche</translation>
+    </message>
+    <message>
         <source>Maximum terrain angle</source>
         <translation>Größte Geländeneigung</translation>
     </message>
@@ -1282,6 +1342,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Hier kein Boden</translation>
     </message>
     <message>
+        <source>No ground near</source>
+        <translation>Kein Boden in der Nähe</translation>
+    </message>
+    <message>
         <source>No specification</source>
         <translation>Keine Spezifikation</translation>
     </message>
@@ -1320,6 +1384,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Not installed yet: .laz and .copc.laz files cannot be read or written.</source>
         <translation>Noch nicht installiert: Dateien .laz und .copc.laz lassen sich weder lesen noch schreiben.</translation>
+    </message>
+    <message>
+        <source>Number of strips</source>
+        <translation>Anzahl der Flugstreifen</translation>
     </message>
     <message>
         <source>Number of the raster's band that holds the heights.</source>
@@ -1378,6 +1446,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Nur die Punkte, die ein Geländemodell braucht, werden Boden. Von allen anderen Bodenpunkten liegt keiner weiter vom TIN dieser Schlüsselpunkte entfernt, als die beiden folgenden Toleranzen erlauben.</translation>
     </message>
     <message>
+        <source>Overlap of strips</source>
+        <translation>Überlappung der Flugstreifen</translation>
+    </message>
+    <message>
         <source>Overview of the classes</source>
         <translation>Übersicht der Klassen</translation>
     </message>
@@ -1422,12 +1494,20 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Punktwolke mit Schlüsselpunkten</translation>
     </message>
     <message>
+        <source>Point cloud with water</source>
+        <translation>Punktwolke mit Wasser</translation>
+    </message>
+    <message>
         <source>Point clouds</source>
         <translation>Punktwolken</translation>
     </message>
     <message>
         <source>Points</source>
         <translation>Punkte</translation>
+    </message>
+    <message>
+        <source>Points 0.2 to 2 m above the ground</source>
+        <translation>Punkte 0,2 bis 2 m über dem Boden</translation>
     </message>
     <message>
         <source>Points are compared with their neighbours up to this distance. Choose at least half the shorter side of the largest building. Empty: from the preset, 18 m in the automatic one (more if points are sparse), 2 m in Whitebox.</source>
@@ -1466,6 +1546,14 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Punkte dieser Klassen der Referenz werden nicht gezählt, zum Beispiel Rauschen (7, 18). Leer: Alle Punkte zählen.</translation>
     </message>
     <message>
+        <source>Points that became ignored ground</source>
+        <translation>Punkte, die ignorierter Boden wurden</translation>
+    </message>
+    <message>
+        <source>Points that became water</source>
+        <translation>Punkte, die Wasser wurden</translation>
+    </message>
+    <message>
         <source>Points that took part</source>
         <translation>Punkte, die teilnahmen</translation>
     </message>
@@ -1496,6 +1584,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Polygons in which you know the class. It replaces the result of the filter. If it is the class of the ground, points of the chosen returns are ground. Any other class is given to all points, and the filter does not use them. Where polygons overlap, the last one counts.</source>
         <translation>Polygone, in denen Sie die Klasse kennen. Sie tritt an die Stelle des Ergebnisses des Filters. Ist es die Klasse des Bodens, sind Punkte der gewählten Echos Boden. Jede andere Klasse bekommen alle Punkte, und der Filter benutzt diese nicht. Wo sich Polygone überlappen, zählt das letzte.</translation>
+    </message>
+    <message>
+        <source>Polygons of water, with islands as holes. Empty: the water is found first, as 'Find water' does with its default values.</source>
+        <translation>Polygone des Wassers, mit Inseln als Löchern. Leer: Das Wasser wird zuerst gefunden, wie es 'Gewässer finden' mit seinen Vorgaben tut.</translation>
     </message>
     <message>
         <source>Polygons of water. Each is flattened to one level, that of the ground along its border.</source>
@@ -1938,10 +2030,6 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Das Attribut mit den Namen. Leer: ein Attribut mit einem üblichen Namen wie id, sonst Nummern ab 1.</translation>
     </message>
     <message>
-        <source>The boundary holds no polygon. Choose one that does.</source>
-        <translation>Die Begrenzung enthält kein Polygon. Wählen Sie eine, die eines enthält.</translation>
-    </message>
-    <message>
         <source>The checkpoints with their errors (ERROR, in metres): ground minus checkpoint.</source>
         <translation>Die Kontrollpunkte mit ihren Fehlern (ERROR, in Metern): Boden minus Kontrollpunkt.</translation>
     </message>
@@ -1958,8 +2046,16 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Die Klasse der Punkte, die kein Boden sind. Nie klassifizierte Punkte (0) werden in beiden Fällen 1. Rauschen, zurückgehaltene Punkte (withheld) und Klassen, die nicht klassifiziert werden, bleiben, wie sie sind.</translation>
     </message>
     <message>
+        <source>The class that ground points beside the shore get. Points that have it already keep it, also in the water, unless it is one of the ground classes.</source>
+        <translation>Die Klasse, die Bodenpunkte neben dem Ufer bekommen. Punkte, die sie schon haben, behalten sie, auch im Wasser, außer wenn sie eine der Bodenklassen ist.</translation>
+    </message>
+    <message>
         <source>The class that ground points get; 2 is ground in the LAS specification. Point formats 0 to 5 hold classes up to 31.</source>
         <translation>Die Klasse, die Bodenpunkte bekommen; in der LAS-Spezifikation ist Boden 2. Die Punktformate 0 bis 5 fassen Klassen bis 31.</translation>
+    </message>
+    <message>
+        <source>The class that ground points in the water get. Point formats 0 to 5 hold classes up to 31.</source>
+        <translation>Die Klasse, die Bodenpunkte im Wasser bekommen. Die Punktformate 0 bis 5 fassen Klassen bis 31.</translation>
     </message>
     <message>
         <source>The class that key points get. Points that already have it count as ground; those that are not needed get the first of the ground classes. Point formats 0 to 5 hold classes up to 31.</source>
@@ -1990,8 +2086,8 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Der Ordner für die Raster (GeoTIFF). Sie heißen nach dem, was sie zeigen, zum Beispiel vat.tif und sky-view.tif.</translation>
     </message>
     <message>
-        <source>The folder for the rasters of densities, voids and strips.</source>
-        <translation>Der Ordner für die Raster der Dichten, Lücken und Flugstreifen.</translation>
+        <source>The folder for the rasters of densities, voids and strips, which are shown as layers.</source>
+        <translation>Der Ordner für die Raster der Dichten, Lücken und Flugstreifen, die als Layer gezeigt werden.</translation>
     </message>
     <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
@@ -2028,6 +2124,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>The layer "{}" cannot be read.</source>
         <translation>Der Layer „{}“ lässt sich nicht lesen.</translation>
+    </message>
+    <message>
+        <source>The layer "{}" holds no polygon. Choose one that does.</source>
+        <translation>Der Layer „{}“ enthält kein Polygon. Wählen Sie einen, der eines enthält.</translation>
     </message>
     <message>
         <source>The layer "{}" is being edited. Save or discard the edits first.</source>
@@ -2084,6 +2184,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>The same points, with the classes above the ground.</source>
         <translation>Dieselben Punkte mit den Klassen über dem Boden.</translation>
+    </message>
+    <message>
+        <source>The same points, with the classes of water and of ignored ground.</source>
+        <translation>Dieselben Punkte, mit den Klassen für Wasser und ignorierten Boden.</translation>
     </message>
     <message>
         <source>The same points, with the key points marked.</source>
@@ -2244,6 +2348,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Virtual point cloud</source>
         <translation>Virtuelle Punktwolke</translation>
+    </message>
+    <message>
+        <source>Voids of the ground</source>
+        <translation>Lücken des Bodens</translation>
     </message>
     <message>
         <source>Water</source>
@@ -2410,6 +2518,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>bekannter Boden</translation>
     </message>
     <message>
+        <source>lake,river,pond,shore,breaklines,hydro-flattening,class 9,class 20,ignored ground,usgs,lbs,classes,classification</source>
+        <translation>See,Fluss,Teich,Ufer,Bruchkanten,Gewässer,Wasser,Klasse 9,Klasse 20,ignorierter Boden,Klassen,Klassifikation</translation>
+    </message>
+    <message>
         <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>
         <translation>See,Fluss,Teich,Ufer,Uferlinie,Gewässer,Bruchkanten</translation>
     </message>
@@ -2500,6 +2612,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>ptd,axelsson,densification</source>
         <translation>ptd,axelsson,Verdichtung</translation>
+    </message>
+    <message>
+        <source>quality</source>
+        <translation>Qualität</translation>
     </message>
     <message>
         <source>quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,specification,lasoverlap,lasgrid</source>

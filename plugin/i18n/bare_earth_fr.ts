@@ -20,6 +20,10 @@
         <translation>1 à 255</translation>
     </message>
     <message>
+        <source>1 where ground points are far away</source>
+        <translation>1 où les points du sol sont loin</translation>
+    </message>
+    <message>
         <source>&lt;b&gt;Values of the presets&lt;/b&gt;</source>
         <translation>&lt;b&gt;Valeurs des préréglages&lt;/b&gt;</translation>
     </message>
@@ -350,6 +354,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Classe des ponts</translation>
     </message>
     <message>
+        <source>Class of ignored ground</source>
+        <translation>Classe du sol ignoré</translation>
+    </message>
+    <message>
         <source>Class of key points</source>
         <translation>Classe des points clés</translation>
     </message>
@@ -364,6 +372,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Class of the ground</source>
         <translation>Classe du sol</translation>
+    </message>
+    <message>
+        <source>Class of water</source>
+        <translation>Classe de l'eau</translation>
     </message>
     <message>
         <source>Classes</source>
@@ -450,6 +462,10 @@ Seuls les points des classes 0 et 1 changent, sauf demande contraire. Rien d'aut
     <message>
         <source>Classify vegetation and buildings anew</source>
         <translation>Reclasser la végétation et les bâtiments</translation>
+    </message>
+    <message>
+        <source>Classify water</source>
+        <translation>Classer l'eau</translation>
     </message>
     <message>
         <source>Closed lines that are shorter are left out: they show single plants and noise.</source>
@@ -542,8 +558,28 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Livraison</translation>
     </message>
     <message>
+        <source>Density of first returns</source>
+        <translation>Densité des premiers retours</translation>
+    </message>
+    <message>
+        <source>Density of ground points</source>
+        <translation>Densité des points du sol</translation>
+    </message>
+    <message>
+        <source>Density of low vegetation</source>
+        <translation>Densité de la végétation basse</translation>
+    </message>
+    <message>
         <source>Depth of low outliers</source>
         <translation>Profondeur des points aberrants bas</translation>
+    </message>
+    <message>
+        <source>Difference between strips</source>
+        <translation>Écart entre bandes</translation>
+    </message>
+    <message>
+        <source>Differences between strips</source>
+        <translation>Écarts entre bandes</translation>
     </message>
     <message>
         <source>Differences between strips [m]</source>
@@ -722,6 +758,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Premiers retours et retours uniques</translation>
     </message>
     <message>
+        <source>First returns</source>
+        <translation>Premiers retours</translation>
+    </message>
+    <message>
         <source>First returns hit the tops of trees and buildings. Take all returns if the return numbers of the file are wrong.</source>
         <translation>Les premiers retours touchent le haut des arbres et des bâtiments. Prenez tous les retours si les numéros de retour du fichier sont faux.</translation>
     </message>
@@ -794,6 +834,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Obtenir lazrs</translation>
     </message>
     <message>
+        <source>Gives class 9 to ground points in water, and class 20 to those beside its shore.</source>
+        <translation>Donne la classe 9 aux points de sol dans l'eau, et la classe 20 à ceux qui longent la rive.</translation>
+    </message>
+    <message>
         <source>Grid minimum</source>
         <translation>Minimum de grille</translation>
     </message>
@@ -848,6 +892,14 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Ground points</source>
         <translation>Points sol</translation>
+    </message>
+    <message>
+        <source>Ground points in polygons of water become water (9), and those within a distance of the shore ignored ground (20), as the Lidar Base Specification asks for. Nothing else in the file changes: points with other classes keep them.</source>
+        <translation>Les points de sol dans les polygones d'eau deviennent de l'eau (9), et ceux à une certaine distance de la rive du sol ignoré (20), comme le demande la Lidar Base Specification. Rien d'autre ne change dans le fichier : les points des autres classes les gardent.</translation>
+    </message>
+    <message>
+        <source>Ground points outside of the water, up to this far from its shore, become ignored ground: there the breakline alone decides the terrain. The Lidar Base Specification asks for one nominal point spacing: 0.7 m for QL2, 0.35 m for QL1. 0: none.</source>
+        <translation>Les points de sol hors de l'eau, jusqu'à cette distance de la rive, deviennent du sol ignoré : là, seule la ligne de rupture décide du terrain. La Lidar Base Specification demande un espacement nominal des points : 0,7 m pour QL2, 0,35 m pour QL1. 0 : aucun.</translation>
     </message>
     <message>
         <source>Ground points per m²</source>
@@ -980,6 +1032,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Ignored classes of the reference</source>
         <translation>Classes ignorées de la référence</translation>
+    </message>
+    <message>
+        <source>Ignored ground beside the shore</source>
+        <translation>Sol ignoré le long de la rive</translation>
     </message>
     <message>
         <source>In a CRS in feet, a size of 3 in units of the CRS gives cells of exactly 3 feet that begin at whole multiples of 3 feet.</source>
@@ -1222,6 +1278,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Taille maximale des objets</translation>
     </message>
     <message>
+        <source>Maximum surface height</source>
+        <translation>Hauteur maximale de la surface</translation>
+    </message>
+    <message>
         <source>Maximum terrain angle</source>
         <translation>Pente maximale du terrain</translation>
     </message>
@@ -1282,6 +1342,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Pas de sol ici</translation>
     </message>
     <message>
+        <source>No ground near</source>
+        <translation>Pas de sol à proximité</translation>
+    </message>
+    <message>
         <source>No specification</source>
         <translation>Aucune spécification</translation>
     </message>
@@ -1320,6 +1384,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Not installed yet: .laz and .copc.laz files cannot be read or written.</source>
         <translation>Pas encore installé : les fichiers .laz et .copc.laz ne peuvent être ni lus ni écrits.</translation>
+    </message>
+    <message>
+        <source>Number of strips</source>
+        <translation>Nombre de bandes</translation>
     </message>
     <message>
         <source>Number of the raster's band that holds the heights.</source>
@@ -1378,6 +1446,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Seuls les points dont un modèle de terrain a besoin deviennent du sol. Parmi tous les autres points sol, aucun n'est plus loin du TIN de ces points clés que les deux tolérances ci-dessous.</translation>
     </message>
     <message>
+        <source>Overlap of strips</source>
+        <translation>Recouvrement des bandes</translation>
+    </message>
+    <message>
         <source>Overview of the classes</source>
         <translation>Vue d'ensemble des classes</translation>
     </message>
@@ -1422,12 +1494,20 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Nuage de points avec points clés</translation>
     </message>
     <message>
+        <source>Point cloud with water</source>
+        <translation>Nuage de points avec l'eau</translation>
+    </message>
+    <message>
         <source>Point clouds</source>
         <translation>Nuages de points</translation>
     </message>
     <message>
         <source>Points</source>
         <translation>Points</translation>
+    </message>
+    <message>
+        <source>Points 0.2 to 2 m above the ground</source>
+        <translation>Points de 0,2 à 2 m au-dessus du sol</translation>
     </message>
     <message>
         <source>Points are compared with their neighbours up to this distance. Choose at least half the shorter side of the largest building. Empty: from the preset, 18 m in the automatic one (more if points are sparse), 2 m in Whitebox.</source>
@@ -1466,6 +1546,14 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Les points de ces classes de la référence ne sont pas comptés, par exemple le bruit (7, 18). Vide : tous les points sont comptés.</translation>
     </message>
     <message>
+        <source>Points that became ignored ground</source>
+        <translation>Points devenus du sol ignoré</translation>
+    </message>
+    <message>
+        <source>Points that became water</source>
+        <translation>Points devenus de l'eau</translation>
+    </message>
+    <message>
         <source>Points that took part</source>
         <translation>Points qui ont participé</translation>
     </message>
@@ -1496,6 +1584,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Polygons in which you know the class. It replaces the result of the filter. If it is the class of the ground, points of the chosen returns are ground. Any other class is given to all points, and the filter does not use them. Where polygons overlap, the last one counts.</source>
         <translation>Polygones dont vous connaissez la classe. Elle remplace le résultat du filtre. Si c'est la classe du sol, les points des retours choisis sont du sol. Toute autre classe est donnée à tous les points, et le filtre ne les utilise pas. Là où des polygones se recouvrent, le dernier compte.</translation>
+    </message>
+    <message>
+        <source>Polygons of water, with islands as holes. Empty: the water is found first, as 'Find water' does with its default values.</source>
+        <translation>Polygones d'eau, avec les îles comme trous. Vide : l'eau est d'abord trouvée, comme le fait « Trouver l'eau » avec ses valeurs par défaut.</translation>
     </message>
     <message>
         <source>Polygons of water. Each is flattened to one level, that of the ground along its border.</source>
@@ -1938,10 +2030,6 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>L'attribut des noms. Vide : un attribut au nom courant, comme id, sinon des numéros à partir de 1.</translation>
     </message>
     <message>
-        <source>The boundary holds no polygon. Choose one that does.</source>
-        <translation>La limite ne contient aucun polygone. Choisissez-en une qui en contient.</translation>
-    </message>
-    <message>
         <source>The checkpoints with their errors (ERROR, in metres): ground minus checkpoint.</source>
         <translation>Les points de contrôle avec leurs erreurs (ERROR, en mètres) : sol moins point de contrôle.</translation>
     </message>
@@ -1958,8 +2046,16 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>La classe des points qui ne sont pas du sol. Les points jamais classés (0) deviennent 1 dans les deux cas. Le bruit, les points retenus (withheld) et les classes qui ne sont pas à classer restent tels quels.</translation>
     </message>
     <message>
+        <source>The class that ground points beside the shore get. Points that have it already keep it, also in the water, unless it is one of the ground classes.</source>
+        <translation>La classe que reçoivent les points de sol qui longent la rive. Les points qui l'ont déjà la gardent, même dans l'eau, sauf si elle est l'une des classes de sol.</translation>
+    </message>
+    <message>
         <source>The class that ground points get; 2 is ground in the LAS specification. Point formats 0 to 5 hold classes up to 31.</source>
         <translation>La classe que reçoivent les points sol ; 2 est le sol dans la spécification LAS. Les formats de point 0 à 5 contiennent des classes jusqu'à 31.</translation>
+    </message>
+    <message>
+        <source>The class that ground points in the water get. Point formats 0 to 5 hold classes up to 31.</source>
+        <translation>La classe que reçoivent les points de sol dans l'eau. Les formats de points 0 à 5 contiennent des classes jusqu'à 31.</translation>
     </message>
     <message>
         <source>The class that key points get. Points that already have it count as ground; those that are not needed get the first of the ground classes. Point formats 0 to 5 hold classes up to 31.</source>
@@ -1990,8 +2086,8 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Le dossier des rasters (GeoTIFF). Ils portent le nom de ce qu'ils montrent, par exemple vat.tif et sky-view.tif.</translation>
     </message>
     <message>
-        <source>The folder for the rasters of densities, voids and strips.</source>
-        <translation>Le dossier des rasters des densités, des vides et des bandes de vol.</translation>
+        <source>The folder for the rasters of densities, voids and strips, which are shown as layers.</source>
+        <translation>Le dossier des rasters de densités, de vides et de bandes, qui sont affichés comme couches.</translation>
     </message>
     <message>
         <source>The ground filter. TIN densification is the most accurate.</source>
@@ -2028,6 +2124,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>The layer "{}" cannot be read.</source>
         <translation>La couche « {} » ne peut pas être lue.</translation>
+    </message>
+    <message>
+        <source>The layer "{}" holds no polygon. Choose one that does.</source>
+        <translation>La couche « {} » ne contient aucun polygone. Choisissez-en une qui en contient.</translation>
     </message>
     <message>
         <source>The layer "{}" is being edited. Save or discard the edits first.</source>
@@ -2084,6 +2184,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>The same points, with the classes above the ground.</source>
         <translation>Les mêmes points, avec les classes au-dessus du sol.</translation>
+    </message>
+    <message>
+        <source>The same points, with the classes of water and of ignored ground.</source>
+        <translation>Les mêmes points, avec les classes de l'eau et du sol ignoré.</translation>
     </message>
     <message>
         <source>The same points, with the key points marked.</source>
@@ -2244,6 +2348,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Virtual point cloud</source>
         <translation>Nuage de points virtuel</translation>
+    </message>
+    <message>
+        <source>Voids of the ground</source>
+        <translation>Vides du sol</translation>
     </message>
     <message>
         <source>Water</source>
@@ -2410,6 +2518,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>sol connu</translation>
     </message>
     <message>
+        <source>lake,river,pond,shore,breaklines,hydro-flattening,class 9,class 20,ignored ground,usgs,lbs,classes,classification</source>
+        <translation>lac,rivière,étang,rive,lignes de rupture,eau,classe 9,classe 20,sol ignoré,classes,classification</translation>
+    </message>
+    <message>
         <source>lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines</source>
         <translation>lac,rivière,étang,rive,rivage,eau,lignes de rupture</translation>
     </message>
@@ -2500,6 +2612,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>ptd,axelsson,densification</source>
         <translation>ptd,axelsson,densification</translation>
+    </message>
+    <message>
+        <source>quality</source>
+        <translation>qualité</translation>
     </message>
     <message>
         <source>quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,specification,lasoverlap,lasgrid</source>

@@ -14,6 +14,7 @@ from .relief import ReliefAlgorithm
 from .remove_off_terrain_objects import RemoveOffTerrainObjectsAlgorithm
 from .terrain_model import TerrainModelAlgorithm
 from .water import WaterAlgorithm
+from .water_classes import WaterClassesAlgorithm
 
 ALGORITHMS = (
     PointCloudToTerrainAlgorithm,
@@ -24,6 +25,7 @@ ALGORITHMS = (
     ClassifyAboveGroundAlgorithm,
     ModelKeyPointsAlgorithm,
     WaterAlgorithm,
+    WaterClassesAlgorithm,
     CompareSettingsAlgorithm,
     AssessAlgorithm,
     CheckAlgorithm,

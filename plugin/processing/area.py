@@ -17,11 +17,9 @@ from ...algorithms.engine.output import Output
 from ...algorithms.products.raster_grid import ANYWHERE, RasterTarget
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat
-from ..i18n import mark
 from .constraints import add_constraints, constraints_of
 from .corrections import add_corrections, corrections_of
-from .feedback import Refusal
-from .inputs import CloudCrs, box_of, features_of, polygons_of
+from .inputs import CloudCrs, box_of, layer_polygons
 from .raster_target import add_raster_target, raster_target_of
 
 # Name, label and help of the fields of an area.
@@ -105,11 +103,8 @@ def area_of(
     if "EXTENT" in given:
         box = box_of(algorithm, parameters, "EXTENT", context, crs)
     if "BOUNDARY" in given:
-        source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
-        features = features_of(source, _AREA_FIELDS["BOUNDARY"][0], crs.value, context)
-        polygons = tuple(each for one in features for each in polygons_of(one.geometry()))
-        if not polygons:
-            raise Refusal(mark("The boundary holds no polygon. Choose one that does."))
+        label = _AREA_FIELDS["BOUNDARY"][0]
+        polygons = layer_polygons(algorithm, parameters, "BOUNDARY", label, context, crs)
     return Area(box, polygons)
 
 

@@ -50,7 +50,5 @@ class ClassifyAboveGroundAlgorithm(ProductAlgorithm):
         progress.command(command_line("above-ground", files, chosen, {"crs": self.stated}))
         request = AboveGroundRequest.of(chosen, crs=self.stated)
         summary = above_ground(self.source, Path(output), request, progress)
-        progress.info(summary.text)
-        self.class_counts = summary.class_counts
-        self.show(output, layers.classes(summary.class_counts))
-        return {"OUTPUT": output, **self.numbers_of(summary)}
+        look = layers.classes(summary.class_counts)
+        return self.done(output, summary, look, context, progress)

@@ -65,10 +65,7 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
         dtm = HeightRaster.of(self._dtm, progress) if self._dtm else None
         request = HeightRequest.of(chosen, dtm=dtm, crs=self.stated)
         summary = heights(self.source, Path(output), request, progress)
-        progress.info(
-            f"Heights above ground are {summary.minimum:.2f} to {summary.maximum:.2f}"
-            f" {summary.unit}."
-        )
         attribute = "Z" if request.output.output_as == "z" else HEIGHT_DIMENSION
-        self.show(output, layers.heights(attribute, summary.maximum, summary.unit_size))
-        return {"OUTPUT": output, **self.numbers_of(summary)}
+        unit = getattr(summary, "tiles", (summary,))[0].unit_size
+        look = layers.heights(attribute, self.numbers_of(summary)["MAXIMUM"], unit)
+        return self.done(output, summary, look, context, progress)

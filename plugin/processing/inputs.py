@@ -316,6 +316,29 @@ def raster_of(
     return layer
 
 
+def layer_polygons(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    name: str,
+    label: str,
+    context: QgsProcessingContext,
+    crs: CloudCrs,
+) -> tuple[Polygon, ...]:
+    """Return the polygons of the layer in a field, in the CRS of the points.
+
+    Raises
+    ------
+    BareEarthError
+        If the layer cannot be read, or has no polygon.
+    """
+    source = algorithm.parameterAsSource(parameters, name, context)
+    features = features_of(source, label, crs.value, context)
+    polygons = tuple(each for one in features for each in polygons_of(one.geometry()))
+    if not polygons:
+        raise Refusal(mark('The layer "{}" holds no polygon. Choose one that does.'), label)
+    return polygons
+
+
 def polygons_of(geometry: QgsGeometry) -> Iterator[Polygon]:
     """Yield the rings of each polygon."""
     # A copy, in which arcs became lines.

@@ -51,8 +51,5 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
         progress.command(command_line("key-points", files, chosen, {"crs": self.stated}))
         request = KeyPointRequest.of(chosen, crs=self.stated)
         summary = key_points(self.source, Path(output), request, progress)
-        key, ground = summary.key_point_count, summary.ground_count
-        progress.info(f"{key:,} of {ground:,} ground points are key points ({key / ground:.1%}).")
-        self.class_counts = summary.class_counts
-        self.show(output, layers.classes(summary.class_counts, mark("key points")))
-        return {"OUTPUT": output, **self.numbers_of(summary)}
+        look = layers.classes(summary.class_counts, mark("key points"))
+        return self.done(output, summary, look, context, progress)

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 
+from ...algorithms.core.files import split_name
+from ...algorithms.survey.files import is_one_file
 from .. import compat
+from ..styles import layers
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
 from .inputs import ANY_CLOUD_HELP, SurveyInput, ignored_filter, name_of, source_path
-from .outputs import add_cloud
+from .outputs import add_cloud, after_cancel, do_not_load
 from .stated_crs import add_crs
+
+# Of the numbers of many files; all others are added up.
+_TOGETHER = {"MINIMUM": min, "MAXIMUM": max}
 
 
 class ProductAlgorithm(BareEarthAlgorithm):
@@ -34,9 +41,13 @@ class ProductAlgorithm(BareEarthAlgorithm):
         """Add the output fields."""
         add_cloud(self, self.cloud_label, self.cloud_help)
 
+    def add_inputs(self) -> None:
+        """Add the input fields."""
+        self.addParameter(SurveyInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
+
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
-        self.addParameter(SurveyInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
+        self.add_inputs()
         add_crs(self)
         self.add_declared()
         self.add_outputs()
@@ -47,6 +58,8 @@ class ProductAlgorithm(BareEarthAlgorithm):
         """Find the input file."""
         self.source = source_path(self, parameters, "INPUT", context)
         self.inputs, self.subject = [self.source], name_of(self.source)
+        if self.cloud_label:
+            self.cancelled = after_cancel(self.inputs)
 
     def prepare(
         self,
@@ -65,12 +78,57 @@ class ProductAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> str:
-        """Return the path of the output point cloud; tell the user if QGIS cannot show it."""
+        """Return the path of the output point cloud; tell the user if QGIS cannot show it.
+
+        For many files it is a folder of this name, without its ending.
+        """
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
+        if not is_one_file(self.inputs):
+            do_not_load(context, [output])
+            return str(Path(output).with_name(split_name(Path(output))[0]))
         if not compat.can_load(output):
             progress.info(f"This QGIS cannot show such a file as a layer. It will be at {output}.")
         return output
 
+    def done(
+        self,
+        output: str,
+        summary: Any,
+        look: layers.Look,
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> dict[str, Any]:
+        """Show the output point cloud, and return the outputs of the algorithm.
+
+        Parameters
+        ----------
+        output : str
+            What `cloud_output` returned.
+        summary : object
+            The summary of one file, or of many.
+        look : Look
+            The style of the points.
+        context, progress
+            As for `compute`.
+        """
+        progress.info(summary.text)
+        if not is_one_file(self.inputs):
+            output = summary.vpc
+            if compat.can_load(output):
+                compat.load_point_cloud(output, context)
+            else:
+                progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
+        self.class_counts = getattr(summary, "class_counts", {})
+        self.show(output, look)
+        return {"OUTPUT": output, **self.numbers_of(summary)}
+
     def numbers_of(self, summary: Any) -> dict[str, Any]:
-        """Return the outputs that are numbers, from a summary."""
-        return {name: getattr(summary, name.lower()) for name, _ in self.numbers}
+        """Return the outputs that are numbers, from a summary of one file or of many."""
+        names = [name for name, _ in self.numbers]
+        files = getattr(summary, "tiles", None)
+        if files is None:
+            return {name: getattr(summary, name.lower()) for name in names}
+        return {
+            name: _TOGETHER.get(name, sum)(getattr(each, name.lower()) for each in files)
+            for name in names
+        }

@@ -8,8 +8,11 @@ from qgis.core import QgsProcessingParameterFileDestination as File
 from qgis.core import QgsProcessingParameterFolderDestination as Folder
 
 from ...algorithms.products.quality import QualityOptions, QualityRequest, survey_quality
+from ...algorithms.products.quality_rasters import raster_paths
 from ...algorithms.survey.ground_classes import GroundClasses
-from ..i18n import tr
+from .. import compat
+from ..i18n import mark, tr
+from ..styles import layers
 from .base import command_line
 from .inputs import ANY_CLOUD_HELP, SurveyInput
 from .products import ProductAlgorithm
@@ -20,7 +23,7 @@ class QualityAlgorithm(ProductAlgorithm):
     """Quality of a survey."""
 
     identifier, page, section = "quality", "quality", "Quality"
-    title = "Quality of a survey"
+    title, run_name = "Quality of a survey", mark("quality")
     summary = "Measures densities, voids and strips, and compares them with a specification."
     about = (
         "Measures a classified survey, of one file or many: densities of first returns and of"
@@ -50,7 +53,7 @@ class QualityAlgorithm(ProductAlgorithm):
         )
         self.addParameter(
             Folder("FOLDER", "Folder of the rasters", None, True, False),
-            "The folder for the rasters of densities, voids and strips.",
+            "The folder for the rasters of densities, voids and strips, which are shown as layers.",
         )
         self.add_numbers(dict(self.numbers))
 
@@ -66,5 +69,8 @@ class QualityAlgorithm(ProductAlgorithm):
         )
         found = survey_quality([self.source], request, progress)
         progress.info("\n".join(found.text()))
+        for name, path in raster_paths(Path(folder)).items() if folder else ():
+            compat.load_raster(str(path), context)
+            self.show(str(path), layers.QUALITY[name])
         results = {"PAGE": page, "FOLDER": folder, **self.numbers_of(found)}
         return {name: it for name, it in results.items() if it not in (None, "")}

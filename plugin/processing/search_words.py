@@ -39,6 +39,13 @@ _WORDS = {
     "water": (
         _CLOUD, mark("lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines"),
     ),
+    "waterclasses": (
+        _CLOUD,
+        mark(
+            "lake,river,pond,shore,breaklines,hydro-flattening,class 9,class 20,ignored ground,"
+            "usgs,lbs,classes,classification"
+        ),
+    ),
     "comparesettings": (
         _CLOUD, _GROUND, _TERRAIN, mark("preview,try,test,preset,parameters,compare,profile"),
     ),

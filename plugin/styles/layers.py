@@ -97,6 +97,17 @@ RASTERS = {
     "VAT": VAT, "RED_RELIEF": RED_RELIEF, "TERRAIN_WITH_BUILDINGS": WITH_BUILDINGS,
 }  # fmt: skip
 
+# Of the quality of a survey, by the names of the files.
+QUALITY = {
+    "surface_height": Look(mark("Maximum surface height"), 1, rasters.surface, 1),
+    "low_vegetation": Look(mark("Density of low vegetation"), 2, rasters.low_vegetation, 1),
+    "ground_density": Look(mark("Density of ground points"), 3, rasters.density, 2),
+    "pulse_density": Look(mark("Density of first returns"), 4, rasters.density, 3),
+    "overlap": Look(mark("Overlap of strips"), 5, rasters.overlap, 1),
+    "strip_differences": Look(mark("Differences between strips"), 6, rasters.strip_differences),
+    "voids": Look(mark("Voids of the ground"), 7, rasters.voids),
+}
+
 
 def in_crs(look: Look, crs: QgsCoordinateReferenceSystem) -> Look:
     """Return the look of a point cloud whose file does not state its CRS, or a wrong one."""

@@ -35,6 +35,10 @@ ERRORS: Stops = (
 RELIEF: Stops = (
     (0.0, "#21598f"), (0.3, "#8fbbd9"), (0.5, "#00f5f3ee"), (0.7, "#e3a07a"), (1.0, "#9c2f2b"),
 )  # fmt: skip
+# Densities, dark where they are high, as on the page about the quality of a survey.
+DENSITY: Stops = (
+    (0.0, "#f7fbff"), (0.25, "#c6dbef"), (0.5, "#6baed6"), (0.75, "#2171b5"), (1.0, "#08306b"),
+)  # fmt: skip
 # Pictures of the relief: what is hidden or steep is dark.
 GREY: Stops = ((0.0, "#000000"), (1.0, "#ffffff"))
 GREY_UPSIDE_DOWN: Stops = ((0.0, "#ffffff"), (1.0, "#000000"))

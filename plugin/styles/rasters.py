@@ -16,12 +16,15 @@ from qgis.core import (
     QgsMultiBandColorRenderer,
     QgsPalettedRasterRenderer,
     QgsRasterLayer,
+    QgsRasterShader,
     QgsSingleBandGrayRenderer,
     QgsSingleBandPseudoColorRenderer,
 )
 from qgis.PyQt.QtGui import QColor, QPainter
 
+from ...algorithms.crs.system import unit_size
 from ...algorithms.engine.explanation import rules_in
+from ...algorithms.products.quality_figures import LIMITS
 from .. import compat
 from ..i18n import mark, tr
 from . import clouds, ramps
@@ -40,6 +43,8 @@ _LEAST_DEGREES, _LEAST_DOMINANCE, _LEAST_SKY = 5.0, 0.2, 0.1
 _CODES, _ROWS = 256, 512
 # Colours of lines in profiles, which QGIS would choose at random.
 _TERRAIN_LINE, _SURFACE_LINE = "#6e4824", "#2a9d8f"
+# Colours of the quality of a survey, as on its page.
+_VOID, _DIFFERENCES = "#c0262d", ("#3a9d5d", "#f0c93a", "#c0262d")
 # Parts of the descriptions of bands, except units.
 SHOWN = (
     mark("Height"), mark("Height above ground"), mark("Local relief"),
@@ -48,6 +53,9 @@ SHOWN = (
     mark("Multi-scale relief"), mark("Slope"), mark("degrees"), mark("Sky-view factor"),
     mark("Positive openness"), mark("Negative openness"), mark("Local dominance"),
     mark("1 is level"), mark("Archaeological topography"), mark("Red relief"),
+    mark("First returns"), mark("Ground points"), mark("Points 0.2 to 2 m above the ground"),
+    mark("1 where ground points are far away"), mark("Number of strips"),
+    mark("Difference between strips"),
 )  # fmt: skip
 
 
@@ -177,6 +185,44 @@ def rules(layer: QgsRasterLayer) -> None:
         counts += np.bincount(rows.ravel(), minlength=_CODES)
     codes = np.flatnonzero(counts).tolist()
     classes(categories_of(codes, rules_in(band.GetDescription())))(layer)
+
+
+def density(layer: QgsRasterLayer) -> None:
+    """Colour numbers of points, dark where they are high."""
+    _spread(layer, ramps.DENSITY, 0.0, _cut(layer)[1])
+
+
+def low_vegetation(layer: QgsRasterLayer) -> None:
+    """Colour numbers of low points; where there are none it is transparent."""
+    _spread(layer, ramps.CANOPY, 0.0, _cut(layer)[1])
+
+
+def voids(layer: QgsRasterLayer) -> None:
+    """Show voids in red; all else is transparent."""
+    classes({1: (tr("No ground near"), QColor(_VOID))})(layer)
+
+
+def overlap(layer: QgsRasterLayer) -> None:
+    """Give each number of flight strips its colour."""
+    colours = (each for _, each in ramps.DENSITY)
+    classes({number: (str(number), QColor(each)) for number, each in enumerate(colours)})(layer)
+
+
+def strip_differences(layer: QgsRasterLayer) -> None:
+    """Colour differences between strips by the limits of the Lidar Base Specification."""
+    unit = unit_size(unit_of(layer.source()))
+    low, high = (each / unit for each in LIMITS)
+    words = f"\u2264 {low:.2g}", f"{low:.2g} \u2013 {high:.2g}", f"> {high:.2g}"
+    function = QgsColorRampShader(0.0, high, None, QgsColorRampShader.Type.Discrete)
+    function.setColorRampItemList(
+        [
+            QgsColorRampShader.ColorRampItem(most, QColor(colour), text)
+            for most, colour, text in zip((low, high, math.inf), _DIFFERENCES, words)
+        ]
+    )
+    shader = QgsRasterShader()
+    shader.setRasterShaderFunction(function)
+    layer.setRenderer(QgsSingleBandPseudoColorRenderer(layer.dataProvider(), 1, shader))
 
 
 def _cut(layer: QgsRasterLayer, least: float = _LEAST_RANGE) -> tuple[float, float]:

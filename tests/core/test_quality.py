@@ -5,9 +5,10 @@ import json
 import laspy
 import numpy as np
 import pytest
+from runs import CancelAt
 
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las.reading import read_parts
 from bare_earth.algorithms.products import quality_cells, quality_rasters
 from bare_earth.algorithms.products.quality import QualityOptions, QualityRequest, survey_quality
@@ -295,3 +296,20 @@ def test_feet_are_converted(tmp_path):
     assert found.pulse_density == pytest.approx(4.0, rel=0.02)
     heights = read_raster(tmp_path / "rasters" / "surface_height.tif").heights
     assert np.nanmax(heights) == pytest.approx(terrain(x, y).max() / foot, abs=0.01)
+
+
+@pytest.mark.parametrize("share", [0.5, 0.85, 0.9, 0.97, 1.0])
+def test_a_cancel_leaves_no_output_and_old_ones_as_they_were(one_and_many, tmp_path, share):
+    page, folder = tmp_path / "page.html", tmp_path / "rasters"
+    request = QualityRequest(QualityOptions(), page=page, folder=folder)
+    with pytest.raises(Cancelled):
+        survey_quality([one_and_many[0]], request, CancelAt(share))
+    assert not list(tmp_path.iterdir())
+    folder.mkdir()
+    old = [page, *(folder / f"{name}.tif" for name in QUALITY_RASTERS)]
+    for each in old:
+        each.write_bytes(b"old")
+    with pytest.raises(Cancelled):
+        survey_quality([one_and_many[0]], request, CancelAt(share))
+    assert {each.read_bytes() for each in old} == {b"old"}
+    assert sorted(folder.iterdir()) == sorted(old[1:])

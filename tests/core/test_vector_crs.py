@@ -13,8 +13,12 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
-from bare_earth.algorithms.engine.runs import classify, terrain
+from bare_earth.algorithms.engine.requests import (
+    AboveGroundRequest,
+    ClassifyRequest,
+    TerrainRequest,
+)
+from bare_earth.algorithms.engine.runs import above_ground, classify, terrain
 from bare_earth.algorithms.products.constraints import Constraints
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.survey.area import Area
@@ -290,3 +294,20 @@ def test_squares_from_the_field(tmp_path, name):
     )
     all_of_it = TerrainRequest(rasters=RasterFiles(dtm=tmp_path / "o.tif"))
     assert terrain(source, request).ground_count < terrain(source, all_of_it).ground_count - 1000
+
+
+def test_the_area_of_classes_above_the_ground_is_transformed_for_one_file(cloud, tmp_path):
+    las = laspy.read(cloud)
+    las.classification[np.asarray(las.z) > 52.0] = 1
+    las.write(str(cloud))
+    west = np.minimum(CORNERS, (500_060.0, np.inf))
+    area = read_boundary(geojson(tmp_path / "area.geojson", moved(west, "EPSG:4326")))
+    above_ground(cloud, tmp_path / "out.laz", AboveGroundRequest(area=Area(None, area)))
+    changed = np.asarray(laspy.read(tmp_path / "out.laz").classification) == 6
+    x = np.asarray(las.x)
+    assert changed[(np.asarray(las.z) > 52.0) & (x < 500_058.0)].mean() > 0.9
+    assert not changed[x > 500_060.1].any()
+    far = Area(None, (CORNERS[None] + 50_000.0,))
+    with pytest.raises(BareEarthError, match="lies in the area"):
+        above_ground(cloud, tmp_path / "far.laz", AboveGroundRequest(area=far))
+    assert not (tmp_path / "far.laz").exists()

@@ -42,6 +42,7 @@ GIVEN = {
     "classifytiles": {"INPUT_FOLDER": "IN/tiles", "OUTPUT_FOLDER": "OUT/out", "DTM": "OUT/dtm.tif"},
     "heightaboveground": {"INPUT": "IN/ground.laz", "OUTPUT": "OUT/out.laz"},
     "classifyaboveground": {"INPUT": "IN/ground.laz", "OUTPUT": "OUT/out.laz"},
+    "waterclasses": {"INPUT": "IN/ground.laz", "OUTPUT": "OUT/out.laz"},
     "modelkeypoints": {"INPUT": "IN/ground.laz", "OUTPUT": "OUT/out.laz"},
     "terrainmodel": {"INPUT": "IN/ground.laz", **RASTERS},
     "comparesettings": {

@@ -67,7 +67,7 @@ def test_numbers_of_the_list_are_accepted(algorithm, value, scene, tmp_path):
     assert algorithm.chosen(values, context)[0].preset == "steep"
 
 
-@pytest.mark.parametrize("value", ["steeper", 7, "99", -1])
+@pytest.mark.parametrize("value", ["steeper", 8, "99", -1])
 def test_others_are_not(algorithm, value):
     assert not algorithm.parameterDefinition("PRESET").checkValueIsAcceptable(
         value, QgsProcessingContext()

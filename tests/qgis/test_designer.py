@@ -19,6 +19,7 @@ CLOUDS = {
     "terrainmodel": ["INPUT"],
     "heightaboveground": ["INPUT"],
     "classifyaboveground": ["INPUT"],
+    "waterclasses": ["INPUT"],
     "modelkeypoints": ["INPUT"],
     "comparesettings": ["INPUT"],
     "assess": ["CLASSIFIED", "REFERENCE"],

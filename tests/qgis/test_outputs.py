@@ -24,6 +24,7 @@ CASES = [
     ("bareearth:classifytiles", "OUTPUT_FOLDER", "missing/deep"),
     ("bareearth:heightaboveground", "OUTPUT", "missing/heights.laz"),
     ("bareearth:classifyaboveground", "OUTPUT", "missing/classes.laz"),
+    ("bareearth:waterclasses", "OUTPUT", "missing/water.laz"),
     ("bareearth:modelkeypoints", "OUTPUT", "keys"),
     ("bareearth:terrainmodel", "CHM", "missing/chm.tif"),
     ("bareearth:assess", "REPORT", "report.pdf"),

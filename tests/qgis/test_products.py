@@ -15,7 +15,7 @@ from qgis.core import (
     QgsProcessingParameterDefinition,
     QgsProviderRegistry,
 )
-from support import Log, layer_of
+from support import Log, layer_of, write_scene
 
 gdal.UseExceptions()
 
@@ -23,6 +23,7 @@ HEIGHT = "bareearth:heightaboveground"
 ABOVE = "bareearth:classifyaboveground"
 KEY_POINTS = "bareearth:modelkeypoints"
 TERRAIN = "bareearth:terrainmodel"
+WATER = "bareearth:waterclasses"
 
 
 @pytest.fixture
@@ -255,3 +256,33 @@ def test_without_an_output_it_says_what_to_choose(name, scene, registry, context
     _, done = algorithm.run({"INPUT": str(scene.path)}, context, log)
     label = algorithm.parameterDefinition("OUTPUT").description()
     assert not done and f"Choose a file: {label}." in log.text
+
+
+@pytest.mark.parametrize("name", [HEIGHT, KEY_POINTS, ABOVE, WATER])
+def test_a_folder_is_one_survey_and_becomes_a_folder(registry, tmp_path, out, name):
+    import processing
+
+    (tmp_path / "in").mkdir()
+    for number in range(2):
+        path = tmp_path / "in" / f"{number}.laz"
+        ground = write_scene(path, origin=(500_000.0 + 80 * number, 5_700_000.0))
+        las = laspy.read(path)
+        las.classification[:] = np.where(ground, 2, 1)
+        las.write(str(path))
+    log, ring = Log(), "500070 5700010, 500090 5700010, 500090 5700020, 500070 5700010"
+    given = {"WATER": layer_of("Polygon", f"Polygon(({ring}))")} if name == WATER else {}
+    words = {"INPUT": str(tmp_path / "in"), "OUTPUT": str(out / "many.laz"), **given}
+    results = processing.run(name, words, feedback=log)
+    made = sorted((out / "many").glob("*.laz"))
+    assert [each.name for each in made] == [
+        "0.laz",
+        "1.laz",
+    ] and "2 of 2 files are done" in log.text
+    assert results["OUTPUT"].endswith(".vpc") and os.path.exists(results["OUTPUT"])
+    assert results["POINT_COUNT"] == 51_200 and not (out / "many.laz").exists()
+    if name == HEIGHT:
+        assert -0.01 < results["MINIMUM"] < 0.01 < 8.0 < results["MAXIMUM"]
+    if name == WATER:
+        classes = [np.asarray(laspy.read(each).classification) for each in made]
+        counts = [np.count_nonzero(each == 9) for each in classes]
+        assert min(counts) > 50 and sum(counts) == results["WATER_COUNT"]

@@ -47,7 +47,7 @@ PARAMETERS = {
     "bareearth:tindensification": [
         "INPUT", "CRS", "EXTENT", "BOUNDARY",
         "PRESET", "MAX_BUILDING_SIZE", "MAX_TERRAIN_ANGLE", "ITERATION_ANGLE",
-        "ITERATION_DISTANCE", "REDUCE_ANGLE_EDGE", "STOP_EDGE", "NOISE_DISTANCE",
+        "ITERATION_DISTANCE", "CELL_SIZE", "REDUCE_ANGLE_EDGE", "STOP_EDGE", "NOISE_DISTANCE",
         "GROUND_TOLERANCE", "GROUND_TOLERANCE_BELOW", "SLOPE_TOLERANCE", "ONLY_KEY_POINTS",
         "KEY_POINT_TOLERANCE_ABOVE", "KEY_POINT_TOLERANCE_BELOW", "KEY_POINT_GRID_SIZE",
         *SHARED_PARAMETERS,
@@ -115,6 +115,10 @@ PARAMETERS = {
     "bareearth:water": [
         "INPUT", "CRS", "MIN_AREA", "MIN_WIDTH", "WATER_CELL", "GROUND_CLASSES", "OVERLAP",
         "OUTPUT", "BREAKLINES",
+    ],
+    "bareearth:waterclasses": [
+        "INPUT", "WATER", "CRS", "SHORE_DISTANCE", "WATER_CLASS", "IGNORED_CLASS",
+        "GROUND_CLASSES", "OVERLAP", "THREADS", "MEMORY", "OUTPUT",
     ],
     "bareearth:terrainmodel": [
         "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP",
@@ -193,6 +197,7 @@ OUTPUTS = {
     ],
     "bareearth:modelkeypoints": ["OUTPUT", "POINT_COUNT", "GROUND_COUNT", "KEY_POINT_COUNT"],
     "bareearth:water": ["OUTPUT", "BREAKLINES", "LAKES", "RIVERS", "AREA"],
+    "bareearth:waterclasses": ["OUTPUT", "POINT_COUNT", "WATER_COUNT", "IGNORED_COUNT"],
     "bareearth:terrainmodel": [
         "DTM",
         "DSM",

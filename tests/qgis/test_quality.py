@@ -1,8 +1,12 @@
 import laspy
 import numpy as np
 import pytest
-from qgis.core import QgsProcessingException
-from support import Log
+from osgeo import gdal
+from qgis.core import QgsLayerTreeModel, QgsProcessingException, QgsProject, QgsRasterLayer
+from qgis.PyQt.QtGui import QColor
+from support import Log, write_scene
+
+from bare_earth.plugin.styles import rasters
 
 ALGORITHM = "bareearth:quality"
 
@@ -38,3 +42,98 @@ def test_a_page_that_is_no_page_is_refused(registry, cloud, tmp_path, context):
     except QgsProcessingException:
         ok = False
     assert not ok and not (tmp_path / "page.pdf").exists()
+
+
+@pytest.fixture
+def strips(tmp_path):
+    """Two strips that overlap by half, the second 0.1 m higher."""
+    ground = write_scene(tmp_path / "in.laz")
+    las = laspy.read(tmp_path / "in.laz")
+    x = np.asarray(las.x) - 500_000.0
+    las.classification[:] = np.where(ground, 2, 1)
+    second = laspy.ScaleAwarePointRecord(
+        las.points.array[x > 40.0].copy(), las.header.point_format, las.header.scales,
+        las.header.offsets,
+    )  # fmt: skip
+    second["point_source_id"] = np.full(len(second), 2)
+    second.z = np.asarray(second.z) + 0.1
+    las.point_source_id[:] = 1
+    las.points = laspy.ScaleAwarePointRecord(
+        np.concatenate((las.points.array, second.array)), las.header.point_format,
+        las.header.scales, las.header.offsets,
+    )  # fmt: skip
+    las.write(str(tmp_path / "in.laz"))
+    return tmp_path / "in.laz"
+
+
+def legend_of(layer):
+    nodes = QgsLayerTreeModel(QgsProject.instance().layerTreeRoot()).layerLegendNodes
+    return [each.data(0) for each in nodes(QgsProject.instance().layerTreeRoot().findLayer(layer))]
+
+
+def colour_at(layer, x, y):
+    """Return the colour of the renderer at a place in metres from the corner of the scene."""
+    extent = layer.extent()
+    column = int((500_000.0 + x - extent.xMinimum()) / layer.rasterUnitsPerPixelX())
+    row = int((extent.yMaximum() - 5_700_000.0 - y) / layer.rasterUnitsPerPixelY())
+    layer.setOpacity(1.0)
+    block = layer.renderer().block(1, extent, layer.width(), layer.height())
+    return QColor.fromRgba(block.color(row, column))
+
+
+def test_its_rasters_are_layers_of_one_group_with_colours_and_legends(strips, tmp_path):
+    import processing
+
+    words = {"INPUT": str(strips), "PAGE": str(tmp_path / "page.html"), "VOID_DISTANCE": 2.0}
+    processing.runAndLoadResults(ALGORITHM, {**words, "FOLDER": str(tmp_path / "rasters")})
+    (group,) = QgsProject.instance().layerTreeRoot().children()
+    assert group.name() == "in: quality"
+    visible = {each.name(): each.itemVisibilityChecked() for each in group.children()}
+    assert list(visible) == [
+        "Voids of the ground", "Differences between strips", "Overlap of strips",
+        "Density of first returns", "Density of ground points", "Density of low vegetation",
+        "Maximum surface height",
+    ]  # fmt: skip
+    assert [name for name, is_shown in visible.items() if is_shown] == [
+        "Voids of the ground", "Differences between strips", "Density of first returns",
+    ]  # fmt: skip
+    named = {each.name(): each.layer() for each in group.children()}
+    differences = named["Differences between strips"]
+    assert colour_at(differences, 60, 60).name() == "#f0c93a"  # 0.1 m
+    limits = ["\u2264 0.08", "0.08 \u2013 0.16", "> 0.16"]
+    assert legend_of(differences) == ["Difference between strips, m", *limits]
+    voids = named["Voids of the ground"]
+    assert colour_at(voids, 39, 33).name() == "#c0262d" and colour_at(voids, 60, 60).alpha() == 0
+    overlap = named["Overlap of strips"]
+    assert colour_at(overlap, 20, 60).name() == "#c6dbef"
+    assert colour_at(overlap, 60, 60).name() == "#6baed6"
+    assert legend_of(overlap)[0] == "Number of strips"
+    density = named["Density of first returns"].renderer()
+    assert density.classificationMin() == 0.0 and density.classificationMax() == 8.0
+    QgsProject.instance().clear()
+
+
+def test_limits_of_strips_are_in_the_unit_of_the_heights(tmp_path):
+    path = str(tmp_path / "strip_differences.tif")
+    raster = gdal.GetDriverByName("GTiff").Create(path, 2, 1, 1, gdal.GDT_Float32)
+    raster.SetGeoTransform((0, 1, 0, 1, 0, -1))
+    raster.GetRasterBand(1).SetDescription("Difference between strips, ft")
+    raster.GetRasterBand(1).WriteArray(np.array([[0.3, 0.6]], np.float32))
+    del raster
+    layer = QgsRasterLayer(path)
+    rasters.strip_differences(layer)
+    block = layer.renderer().block(1, layer.extent(), 2, 1)
+    assert [QColor.fromRgba(block.color(0, each)).name() for each in (0, 1)] == [
+        "#f0c93a",
+        "#c0262d",
+    ]
+
+
+@pytest.mark.parametrize("percent", [10, 60, 85, 95])
+def test_a_cancel_leaves_nothing(registry, cloud, tmp_path, context, percent):
+    algorithm, log = registry.createAlgorithmById(ALGORITHM), Log(cancel_at=percent)
+    page, folder = tmp_path / "page.html", tmp_path / "rasters"
+    values = {"INPUT": str(cloud), "PAGE": str(page), "FOLDER": str(folder)}
+    assert algorithm.run(values, context, log)[0] == {} and "nothing was written" in log.text
+    assert not page.exists() and not folder.exists()
+    assert not context.layersToLoadOnCompletion()

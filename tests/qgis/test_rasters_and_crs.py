@@ -94,6 +94,7 @@ def test_what_is_no_crs_is_refused(run, feet, tmp_path):
     [
         ("heightaboveground", {"OUTPUT": "h.las", "GROUND_CLASSES": "1"}),
         ("classifyaboveground", {"OUTPUT": "a.las", "GROUND_CLASSES": "1"}),
+        ("waterclasses", {"OUTPUT": "w.las", "GROUND_CLASSES": "1"}),
         ("modelkeypoints", {"OUTPUT": "k.las", "GROUND_CLASSES": "1"}),
         ("pointcloudtoterrain", {"DTM": "t.tif"}),
         ("comparesettings", {"OUTPUT": "c.html", "SETTINGS": ["slope:automatic"],

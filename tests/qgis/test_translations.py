@@ -86,8 +86,8 @@ def test_qgis_speaks_german_and_french(registry, speak, locale, title, label, ta
 @pytest.mark.parametrize(
     ("locale", "values"),
     [
-        ("de", "<td>30 / 15 / 1,4</td>"),
-        ("fr", "<td>30 / 15 / 1,4</td>"),
+        ("de", "<td>30 / 15 / 1,4 / 1</td>"),
+        ("fr", "<td>30 / 15 / 1,4 / 1</td>"),
         ("es", "<td>30 / 15 / 1.4"),
     ],
 )
@@ -135,6 +135,7 @@ def test_the_log_of_a_run_is_in_one_language(registry, marked, tmp_path, context
         "bareearth:terrainmodel": {"INPUT": ground, "DTM": terrain},
         "bareearth:heightaboveground": {"INPUT": ground, "OUTPUT": out},
         "bareearth:classifyaboveground": {"INPUT": ground, "OUTPUT": out},
+        "bareearth:waterclasses": {"INPUT": ground, "OUTPUT": out},
         "bareearth:modelkeypoints": {"INPUT": ground, "OUTPUT": out},
         "bareearth:assess": {"CLASSIFIED": ground, "REFERENCE": ground},
         "bareearth:comparesettings": {

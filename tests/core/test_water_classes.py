@@ -1,0 +1,281 @@
+"""Classes of ground points in water and beside its shore, of one file and of many."""
+
+import json
+from pathlib import Path
+
+import laspy
+import numpy as np
+import pytest
+from conftest import Heard
+from realdata import real
+from runs import CancelAt, said
+from scipy.spatial import cKDTree
+from test_water import lake, lake_scene
+
+from bare_earth.algorithms import find_water, read_boundary
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.crs.provider import wkt_of_epsg
+from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.requests import ClassifyRequest, WaterClassRequest
+from bare_earth.algorithms.engine.runs import classify, water_classes
+from bare_earth.algorithms.grids.lines import along, near_rings
+from bare_earth.algorithms.las.extrabytes import REMEMBERED
+from bare_earth.algorithms.products.water import Water
+from bare_earth.algorithms.products.water_classes import WaterClasses, WaterPolygons
+from bare_earth.algorithms.products.water_files import WaterRequest
+from bare_earth.algorithms.survey.ground_classes import GroundClasses
+from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.survey.shapes import Shapes
+
+pytest.importorskip("pyproj")
+EAST, NORTH, SIDE, DISTANCE = 500_000.0, 5_700_000.0, 80.0, 0.7
+UTM, FEET, US_FOOT = 25832, 2230, 1200 / 3937
+# Half the sides in metres of a lake that is turned by 30 degrees, and of the island in it.
+LAKE, ISLAND, TURNED = (25.0, 15.0), (6.0, 4.0), np.radians(30.0)
+
+
+def in_lake_frame(x, y):
+    """Return the distance of places from both axes of the lake, in metres."""
+    east, north = x - SIDE / 2, y - SIDE / 2
+    along = east * np.cos(TURNED) + north * np.sin(TURNED)
+    return np.abs(along), np.abs(north * np.cos(TURNED) - east * np.sin(TURNED))
+
+
+def ring(half):
+    """Return the corners of a rectangle in metres."""
+    u, v = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]).T * np.reshape(half, (2, 1))
+    x = u * np.cos(TURNED) - v * np.sin(TURNED)
+    return np.column_stack((x, u * np.sin(TURNED) + v * np.cos(TURNED))) + SIDE / 2
+
+
+def truth(x, y, distance=DISTANCE):
+    """Return which places in metres are water, and which are land within a distance of it."""
+    u, v = in_lake_frame(x, y)
+    beyond = np.hypot(np.maximum(u - LAKE[0], 0), np.maximum(v - LAKE[1], 0))
+    depth = np.minimum(ISLAND[0] - u, ISLAND[1] - v)  # on the island: metres from its shore
+    water = (beyond == 0) & (depth < 0)
+    return water, ~water & np.where(depth >= 0, depth <= distance, beyond <= distance)
+
+
+def polygons(unit=1.0, origin=(EAST, NORTH)):
+    return ((ring(LAKE) / unit + origin, ring(ISLAND) / unit + origin),)
+
+
+def write(path, count=12_000, epsg=UTM, unit=1.0, west=0.0, east=SIDE, seed=1, classes=None):
+    """Write points on land that slopes by 10 %: mostly ground, and some of every other class."""
+    random = np.random.default_rng(seed)
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
+    header.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(wkt_of_epsg(epsg)))
+    header.global_encoding.wkt = True
+    las = laspy.LasData(header)
+    x, y = random.uniform(west, east, count), random.uniform(0, SIDE, count)
+    las.x, las.y, las.z = x / unit + EAST, y / unit + NORTH, (100.0 + 0.1 * x) / unit
+    if classes is None:
+        classes = np.where(random.random(count) < 0.7, 2, random.choice(256, count))
+    las.classification[:] = classes
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.withheld[:] = random.random(count) < 0.05
+    las.write(str(path))
+    return path
+
+
+def metres(las, unit=1.0):
+    return (np.asarray(las.x) - EAST) * unit, (np.asarray(las.y) - NORTH) * unit
+
+
+def classes_of(path):
+    return np.asarray(laspy.read(path).classification)
+
+
+def request(distance=DISTANCE, unit=1.0, shapes=None, **others):
+    water = WaterPolygons(polygons(unit) if shapes is None else shapes)
+    how = WaterClasses(shore_distance=distance)
+    return WaterClassRequest(parameters=how, water=water, **others)
+
+
+@pytest.mark.parametrize(("epsg", "unit"), [(UTM, 1.0), (FEET, US_FOOT)])
+@pytest.mark.parametrize("distance", [DISTANCE, 3.0, 0.0])
+def test_each_ground_point_gets_the_class_of_its_place(tmp_path, epsg, unit, distance):
+    source = write(tmp_path / "in.laz", epsg=epsg, unit=unit)
+    summary = water_classes(source, tmp_path / "out.laz", request(distance, unit))
+    before, after = laspy.read(source), laspy.read(tmp_path / "out.laz")
+    old, new = np.asarray(before.classification), np.asarray(after.classification)
+    water, beside = truth(*metres(before, unit), distance)
+    ground = (old == 2) & ~np.asarray(before.withheld, dtype=bool)
+    beside &= distance > 0
+    assert water[ground].sum() > 1000 and (beside[ground].sum() > 100) == (distance > 0)
+    expected = np.where(ground & water, 9, np.where(ground & beside, 20, old))
+    assert np.array_equal(new, expected)
+    assert summary.water_count == (ground & water).sum()
+    assert summary.ignored_count == (ground & beside).sum()
+    assert summary.class_counts == dict(zip(*np.unique(new, return_counts=True)))
+    after.classification = before.classification
+    assert np.array_equal(after.points.array, before.points.array)
+
+
+def test_other_classes_are_given_if_the_user_asks(tmp_path):
+    source, target = write(tmp_path / "in.las"), tmp_path / "out.las"
+    how = WaterClasses(shore_distance=2.0, water_class=41, ignored_class=45)
+    ground = GroundClasses(ground_classes=(2, 20))
+    water = WaterPolygons(polygons())
+    asked = WaterClassRequest(parameters=how, ground=ground, water=water)
+    water_classes(source, target, asked)
+    before = laspy.read(source)
+    is_water, is_beside = truth(*metres(before), 2.0)
+    old = np.asarray(before.classification)
+    was = np.isin(old, (2, 20)) & ~np.asarray(before.withheld, dtype=bool)
+    assert (was & (old == 20) & is_water).any()
+    expected = np.where(was & is_water, 41, np.where(was & is_beside, 45, old))
+    assert np.array_equal(classes_of(target), expected)
+
+
+def test_a_second_run_changes_nothing(tmp_path):
+    source = write(tmp_path / "in.las")
+    water_classes(source, tmp_path / "once.las", request())
+    again = water_classes(tmp_path / "once.las", tmp_path / "twice.las", request())
+    assert (tmp_path / "twice.las").read_bytes() == (tmp_path / "once.las").read_bytes()
+    assert again.water_count == again.ignored_count == 0
+
+
+def test_points_on_disk_get_the_same_classes(tmp_path):
+    source, heard = write(tmp_path / "in.laz", 30_000), Heard()
+    water_classes(source, tmp_path / "memory.laz", request())
+    few = request(resources=Resources(memory=0.001))
+    water_classes(source, tmp_path / "disk.laz", few, heard)
+    assert any("wait in a temporary file" in text for text in heard.infos)
+    assert (tmp_path / "disk.laz").read_bytes() == (tmp_path / "memory.laz").read_bytes()
+
+
+def test_many_files_have_no_seams_and_go_on(tmp_path, threads_for_processes):
+    (tmp_path / "in").mkdir()
+    names = "a", "b", "c"
+    for number, name in enumerate(names):
+        west = SIDE / 3 * number
+        write(tmp_path / "in" / f"{name}.laz", 4000, west=west, east=west + SIDE / 3, seed=number)
+    corners = [[*each.tolist(), each[0].tolist()] for each in polygons()[0]]
+    shape = {"type": "Polygon", "coordinates": corners}
+    (tmp_path / "water.geojson").write_text(json.dumps(shape), encoding="utf-8")
+    words = (
+        "water-classes",
+        tmp_path / "in",
+        tmp_path / "out",
+        "--water",
+        tmp_path / "water.geojson",
+    )
+    done = json.loads(said(*words, "--json")[1])
+    assert done["done_count"] == 3 and done["kept_count"] == 0
+    for name in names:
+        source, alone = tmp_path / "in" / f"{name}.laz", tmp_path / f"{name}.laz"
+        water_classes(source, alone, request())
+        assert (tmp_path / "out" / f"{name}.laz").read_bytes() == alone.read_bytes()
+        assert (classes_of(alone) == 9).sum() > 300
+    assert json.loads(said(*words, "--json", "--resume")[1])["kept_count"] == 3
+    told = json.loads(said(*words, "--json", "--resume", "--shore-distance", "2")[1])
+    assert told["kept_count"] == 0
+
+
+def test_the_water_can_be_found_first(tmp_path):
+    scene = lake_scene("sparse")
+    scene.classes[scene.classes == 1] = 2  # a filter took the stray returns for ground
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales = (0.001,) * 3
+    las = laspy.LasData(header)
+    las.x, las.y, las.z, las.classification = scene.x, scene.y, scene.z, scene.classes
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(tmp_path / "in.las"))
+    words = tmp_path / "in.las", tmp_path / "out.las", "--water", "automatic"
+    code, told, _ = said("water-classes", *words, "--crs", "EPSG:25832", "--json")
+    assert code == 0 and json.loads(told)["water_count"] > 0
+    is_water, away = classes_of(tmp_path / "out.las") == 9, lake(scene.x, scene.y)
+    assert is_water[away < -3.0].mean() > 0.99 and not is_water[away > 3.0].any()
+    assert (classes_of(tmp_path / "out.las") == 20).any()
+
+
+def test_polygons_can_be_in_another_crs(tmp_path):
+    import pyproj
+
+    source = write(tmp_path / "in.las")
+    to = pyproj.Transformer.from_crs(UTM, 4326, always_xy=True)
+    degrees = tuple(np.column_stack(to.transform(*each.T)) for each in polygons()[0])
+    shapes = Shapes((degrees,), "EPSG:4326", "lake.geojson")
+    water_classes(source, tmp_path / "moved.las", request(shapes=shapes))
+    water_classes(source, tmp_path / "out.las", request())
+    assert np.array_equal(classes_of(tmp_path / "moved.las"), classes_of(tmp_path / "out.las"))
+
+
+def test_remembered_classes_follow(tmp_path):
+    source, ground, target = (tmp_path / f"{name}.las" for name in ("in", "ground", "out"))
+    write(source, classes=1)
+    selection = Selection(remember_classes=True)
+    classify(source, ground, ClassifyRequest(selection=selection))
+    water_classes(ground, target, request())
+    las = laspy.read(target)
+    assert (np.asarray(las.classification) == 9).sum() > 1000
+    # So that the next run does not take them for changes by hand.
+    assert np.array_equal(las[REMEMBERED], las.classification)
+
+
+def test_without_polygons_nothing_changes_and_the_user_is_told(tmp_path):
+    source, heard = write(tmp_path / "in.las"), Heard()
+    water_classes(source, tmp_path / "out.las", WaterClassRequest(), heard)
+    assert (tmp_path / "out.las").read_bytes() == source.read_bytes()
+    assert heard.warnings == ["There is no polygon of water, so that no class changes."]
+
+
+def test_what_cannot_be_done_is_a_sentence(tmp_path):
+    source, target = write(tmp_path / "in.las"), tmp_path / "out.las"
+    far = WaterPolygons(polygons(origin=(0.0, 0.0)))
+    with pytest.raises(BareEarthError, match=r"lies in the polygons of water .* Give the polygons"):
+        water_classes(source, target, WaterClassRequest(water=far))
+    with pytest.raises(BareEarthError, match="has no ground points: none is of class 90,"):
+        water_classes(write(tmp_path / "no.las", classes=1), target,
+                      request(ground=GroundClasses(ground_classes=(90,))))  # fmt: skip
+    with pytest.raises(BareEarthError, match="not a finite number"):
+        WaterPolygons(((np.full((4, 2), np.nan),),))
+    old = laspy.LasData(laspy.LasHeader(point_format=1, version="1.2"))
+    old.x, old.y, old.z, old.classification = [EAST], [NORTH], [0.0], [2]
+    old.write(str(tmp_path / "old.las"))
+    how = WaterClasses(ignored_class=45)
+    with pytest.raises(BareEarthError, match=r"holds classes up to 31, not 45.* ignored ground"):
+        water_classes(tmp_path / "old.las", target, WaterClassRequest(parameters=how))
+    with pytest.raises(Cancelled):
+        water_classes(source, target, request(), CancelAt(0.5))
+    (tmp_path / "empty.geojson").write_text('{"type": "FeatureCollection", "features": []}')
+    code, _, told = said("water-classes", source, target, "--water", tmp_path / "empty.geojson")
+    assert code == 1 and "holds no polygon" in told
+    assert said("water-classes", source, target)[0] == 2
+    nowhere = tmp_path / "no" / "out.las"
+    code, _, told = said("water-classes", source, nowhere, "--water", "automatic")
+    assert code == 1 and "no does not exist. Create it first." in told and "Water:" not in told
+    assert not target.exists()
+
+
+@pytest.mark.parametrize(("name", "least"), [("corse_cliff", 0.85), ("wires_single_return", 0.85)])
+def test_water_of_real_tiles_gets_its_class_back(tmp_path, name, least):
+    source, ground, target = real(f"real/{name}.laz"), tmp_path / "ground.laz", tmp_path / "out.laz"
+    find_water([source], tmp_path / "water.geojson", WaterRequest(Water(min_area=500.0)))
+    las = laspy.read(source)
+    water = np.asarray(las.classification) == 9
+    las.classification[water] = 2
+    las.write(str(ground))
+    shapes = read_boundary(Path(tmp_path / "water.geojson"))
+    water_classes(ground, target, request(shapes=shapes))
+    assert (classes_of(target)[water] == 9).mean() > least
+
+
+def test_distances_from_any_ring_are_those_of_a_dense_ring():
+    random = np.random.default_rng(4)
+    corners = random.uniform(0, 50, (40, 2))
+    corners[7] = corners[6]  # an edge without length
+    x, y = random.uniform(-5, 55, (2, 3000))
+    dense = along(np.column_stack((corners, np.zeros(40))), 0.002, is_closed=True)[:, :2]
+    far = cKDTree(dense).query(np.column_stack((x, y)))[0]
+    near = near_rings(x, y, [corners[:0], corners], 0.7)
+    sure = np.abs(far - 0.7) > 1e-5
+    assert sure.sum() > 2900 and 500 < near.sum() < 2500
+    assert np.array_equal(near[sure], far[sure] <= 0.7)
+    assert near_rings(x[:0], y[:0], [corners], 0.7).size == 0
+    # Places in an order of their own, and only some of them, get the same.
+    some = random.permutation(3000)[:100]
+    assert np.array_equal(near_rings(x[some], y[some], [corners], 0.7), near[some])
