@@ -37,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.job is not None:
         write_job(options.job, _OUTPUT / options.job)
-        print("Wrote", *sorted(each for each in (_OUTPUT / options.job).rglob("*.*")))
+        print(f"Wrote the data of the tutorial to {_OUTPUT / options.job}")
         return 0
     if options.truth is not None and options.cloud is None:
         parser.error("a truth belongs to a tile: give both")
