@@ -114,7 +114,9 @@ _NAMES = {"archaeology": "vat", "flood": "corrected"}
 def _corrected(job: str, made: Tutorial) -> None:
     """Draw the same raster before and after the correction, and what was drawn."""
     name, files, part = _CORRECTED[job]
-    figure, panels = pyplot.subplots(1, 2, figsize=(8.2, 4.2), layout="constrained")
+    west, east, south, north = part or made.raster(made.first, name).extent
+    high = 4.1 * (north - south) / (east - west) + 0.2
+    figure, panels = pyplot.subplots(1, 2, figsize=(8.2, high), layout="constrained")
     for panel, delivery, title in zip(panels, (made.first, made.second), ("before", "after")):
         raster = made.raster(delivery, name)
         if name == "chm":
@@ -125,8 +127,7 @@ def _corrected(job: str, made: Tutorial) -> None:
             for shape in made.drawn(file):
                 panel.plot(*shape.T, color=LINE, lw=1.0)
         _bare(panel, f"{title}: {name}.tif")
-        extent = part or raster.extent
-        panel.set(xlim=extent[:2], ylim=extent[2:])
+        panel.set(xlim=(west, east), ylim=(south, north))
     save(figure, f"tutorial-{job}-{_NAMES.get(job, 'corrected')}", colours=48)
 
 
