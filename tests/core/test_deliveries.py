@@ -246,7 +246,7 @@ def given_water(distance):
     """
     west, south, east, north = 62.0, 15.0, 125.0, 75.0
     corners = np.array([(west, south), (east, south), (east, north), (west, north)])
-    area = (corners + (EAST, NORTH),)
+    area = (corners + np.array((EAST, NORTH)),)
 
     def truth(x, y):
         away = np.column_stack((x - east, west - x, y - north, south - y))
