@@ -78,7 +78,7 @@ def error_in(drawn, delivery, scene):
     shapes = [each["geometry"] for each in json.loads(drawn.read_text())["features"]]
     inside = features.geometry_mask(shapes, heights.shape, to, invert=True)
     rows, columns = np.nonzero(inside & np.isfinite(heights))
-    east, north = to * (columns + 0.5, rows + 0.5)
+    east, north = to.c + to.a * (columns + 0.5), to.f + to.e * (rows + 0.5)
     half = scene.settings.size / 2
     true = scene.bare_earth(east - ORIGIN[0] - half, north - ORIGIN[1] - half)
     return float(np.abs(heights[rows, columns] - true).mean())
