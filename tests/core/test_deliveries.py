@@ -21,10 +21,8 @@ from bare_earth.algorithms import (
     DeliveryOptions,
     DeliveryRequest,
     DeliveryTerrain,
-    GridMinimum,
     RasterFiles,
     Selection,
-    SlopeFilter,
     TerrainModel,
     TerrainRequest,
     TileOutput,
@@ -246,7 +244,7 @@ def given_water(distance):
     """
     west, south, east, north = 62.0, 15.0, 125.0, 75.0
     corners = np.array([(west, south), (east, south), (east, north), (west, north)])
-    area = (corners + np.array((EAST, NORTH)),)
+    area = (np.add(corners, (EAST, NORTH)),)
 
     def truth(x, y):
         away = np.column_stack((x - east, west - x, y - north, south - y))
@@ -581,17 +579,3 @@ def test_the_command_delivers_and_prints_the_figures(scene, tmp_path, capsys):
     assert told["cell_size"] == 2.0 and told["check"] is None and told["quality"]["points"]
     assert set(told["layers"]) == {"dtm", "dsm", "hillshade", "contours"}
     assert all(os.path.exists(each) for each in told["layers"].values())
-
-
-def test_a_delivery_for_archaeology_keeps_what_its_tolerance_allows(made):
-    """Low walls and plants, which the defaults of the method leave out."""
-    settings = json.loads((made("archaeology")[1] / "delivery.json").read_text())["settings"]
-    assert settings["TIN densification"] == {"ground_tolerance": "0.8"}
-    for parameters, wanted in (
-        (TinDensification(ground_tolerance=0.4), 0.4),
-        (TinDensification(), 0.8),
-        (SlopeFilter(), 0.8),
-        (GridMinimum(), 0.8),
-    ):
-        request = DeliveryRequest(delivery="archaeology", parameters=parameters)
-        assert request.classify(False).parameters.ground_tolerance == wanted
