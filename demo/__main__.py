@@ -13,9 +13,11 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Sequence
 
 from bare_earth.algorithms.products.assessment import AssessmentOptions, assess_files
 
+from .jobs import JOBS, write_job
 from .picture import draw
 from .scene import GROUND_CLASSES, write_scene
 
@@ -26,12 +28,17 @@ _ALGORITHM = "bareearth:tindensification"
 _SCENE_NORTHING = 5_931_196.0
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the demo; return its exit code."""
     parser = argparse.ArgumentParser(prog="make demo", description=__doc__)
     parser.add_argument("cloud", type=Path, nargs="?", help="a tile; a generated scene without it")
     parser.add_argument("--truth", type=Path, help="the same points with their true classes")
-    options = parser.parse_args()
+    parser.add_argument("--job", choices=list(JOBS), help="only write the data of a tutorial")
+    options = parser.parse_args(arguments)
+    if options.job is not None:
+        write_job(options.job, _OUTPUT / options.job)
+        print(f"Wrote the data of the tutorial to {_OUTPUT / options.job}")
+        return 0
     if options.truth is not None and options.cloud is None:
         parser.error("a truth belongs to a tile: give both")
     for path in filter(None, (options.cloud, options.truth)):

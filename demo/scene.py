@@ -15,6 +15,7 @@ from benchmarks.scenes.classes import (
     GROUND,
     HIGH_VEGETATION,
     LOW_VEGETATION,
+    OTHER,
     WATER,
 )
 from benchmarks.scenes.scene import ORIGIN
@@ -64,16 +65,28 @@ def write_scene(
     """
     scene = make(KIND, seed, density=density)
     if checkpoints is not None:
-        checkpoints.write_text(_checkpoints(scene), encoding="utf-8")
-    las = _las(scene)
+        checkpoints.write_text(checkpoints_of(scene), encoding="utf-8")
+    las = las_of(scene)
     las.write(truth)
     las.classification = np.zeros(len(las.points), dtype=np.uint8)
     las.write(cloud)
     return len(las.points)
 
 
-def _checkpoints(scene: Scene) -> str:
-    """Return places that a surveyor can reach, their heights and land cover, as CSV."""
+def checkpoints_of(
+    scene: Scene, open_land: int = _OPEN, forest: int = _FOREST, hard: bool = False
+) -> str:
+    """Return places that a surveyor can reach, their heights and land cover, as CSV.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of which they are.
+    open_land, forest : int
+        How many lie on open land and under trees, at most.
+    hard : bool
+        Only on even, bare land without machines: where targets for drone surveys are put.
+    """
     from scipy.spatial import cKDTree
 
     random = np.random.default_rng(scene.seed)
@@ -87,10 +100,16 @@ def _checkpoints(scene: Scene) -> str:
 
     is_free = ~near(3.0, BUILDING, WATER, BRIDGE)
     is_forest = near(1.0, HIGH_VEGETATION)
+    if hard:
+        step = np.hypot(
+            scene.terrain(x + 1.0, y) - scene.terrain(x - 1.0, y),
+            scene.terrain(x, y + 1.0) - scene.terrain(x, y - 1.0),
+        )
+        is_free &= ~near(2.0, OTHER, LOW_VEGETATION) & (step < 0.3)
     z = scene.terrain(x, y) + random.normal(0.0, 0.015, len(x))
     chosen = [
-        *np.flatnonzero(is_free & ~is_forest)[:_OPEN],
-        *np.flatnonzero(is_free & is_forest)[:_FOREST],
+        *np.flatnonzero(is_free & ~is_forest)[:open_land],
+        *np.flatnonzero(is_free & is_forest)[:forest],
     ]
     west, south = (middle - scene.settings.size / 2 for middle in scene.corner)
     rows = [
@@ -101,7 +120,8 @@ def _checkpoints(scene: Scene) -> str:
     return "\n".join(["Name,East,North,Height,Land cover", *rows]) + "\n"
 
 
-def _las(scene: Scene) -> laspy.LasData:
+def las_of(scene: Scene) -> laspy.LasData:
+    """Return the points with their true classes, moved so that the square begins at `ORIGIN`."""
     header = laspy.LasHeader(point_format=6, version="1.4")
     header.scales, header.offsets = np.full(3, 0.001), np.array([*ORIGIN, 0.0])
     header.vlrs.append(WktCoordinateSystemVlr(_WKT))

@@ -32,6 +32,7 @@ from method_figures import grid_minimum_steps, slope_filter_steps, tin_densifica
 from noise_figure import noise
 from outline_figures import canopy_pits, terrain_outline
 from relief_figure import relief, walls
+from tutorial_figures import JOBS, tutorial_figures
 from water_figure import water
 
 from bare_earth.algorithms import (
@@ -101,6 +102,7 @@ def main() -> None:
         "presets": print_presets,
         **{f"which-method-{name}": partial(small_multiples, name) for name in TERRAIN},
         "water": water,
+        **{f"tutorial-{job}": partial(tutorial_figures, job) for job in JOBS},
     }
     for name, make_figure in figures.items():
         if name.startswith(tuple(sys.argv[1:]) or ("",)):

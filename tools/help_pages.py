@@ -29,7 +29,7 @@ pre {{ border: 1px solid var(--line); padding: .5rem; overflow-x: auto; }}
 </style>
 </head>
 <body>
-<nav><a href="index.html">Bare Earth</a></nav>
+<nav><a href="{up}index.html">Bare Earth</a></nav>
 {body}
 </body>
 </html>
@@ -55,8 +55,8 @@ def help_pages(docs: dict[str, bytes], repository: str) -> dict[str, bytes]:
     for name, content in docs.items():
         if name.endswith(".md") and name not in _ELSEWHERE:
             text = content.decode()
-            found[_new_name(name)] = _page(text, repository).encode()
-            for picture in re.findall(r"\]\((images/[^)]*)\)", text):
+            found[_new_name(name)] = _page(text, repository, "../" * name.count("/")).encode()
+            for picture in re.findall(r"\]\((?:\.\./)*(images/[^)]*)\)", text):
                 found[picture] = docs[picture]
     return found
 
@@ -93,17 +93,19 @@ def packed_readme(
     return {"README.md": text.encode(), **shown}
 
 
-def _page(text: str, repository: str) -> str:
+def _page(text: str, repository: str, up: str) -> str:
+    """Return a page as HTML; `up` leads from its folder to that of the first page."""
+
     def link(match: re.Match) -> str:
         name, anchor = match.groups()
-        if name in _ELSEWHERE:
-            return f"]({repository}/blob/main/docs/{name}{anchor})"
+        if name[len(up) :] in _ELSEWHERE and name.startswith(up):
+            return f"]({repository}/blob/main/docs/{name[len(up) :]}{anchor})"
         return f"]({_new_name(name)}{anchor})"
 
-    text = re.sub(r"\]\(([\w.-]+\.md)((?:#[\w.-]*)?)\)", link, text)
+    text = re.sub(r"\]\(([\w./-]+\.md)((?:#[\w.-]*)?)\)", link, text)
     title = re.search(r"^# (.*)$", text, re.M).group(1)
     body = markdown.markdown(text, extensions=["tables", "fenced_code", "toc"])
-    return _PAGE.format(title=escape(title), body=body)
+    return _PAGE.format(title=escape(title), body=body, up=up)
 
 
 def _new_name(name: str) -> str:

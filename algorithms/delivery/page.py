@@ -66,7 +66,8 @@ def delivery_html(request: DeliveryRequest, made: Made, survey: Survey, root: Pa
         _settings(request, made, survey),
     ]
     name = survey.tiles[0].path.name
-    more = f" and {len(survey.tiles) - 1:,} more files" if survey.tiles[1:] else ""
+    others = len(survey.tiles) - 1
+    more = f" and {others:,} more {'file' if others == 1 else 'files'}" if others else ""
     return page_html(f"{content.label}: {name}{more}", "\n".join(parts), _STYLE)
 
 
@@ -86,7 +87,7 @@ def _figures(request: DeliveryRequest, made: Made, survey: Survey, units: Units)
     for value, count in made.class_counts.items():
         rows.append((named_class(value).capitalize(), f"{count:,}"))
     if found is not None:
-        rows.append(("Area", f"{found.area / 10_000:,.2f} ha"))
+        rows.append(("Area, without a border of 10 to 20 m", f"{found.area / 10_000:,.2f} ha"))
         densities = (found.pulse_density, found.ground_density)
         for name, density in zip(("First returns", "Ground points"), densities):
             shown = "none" if density is None else f"{density:.2f}"

@@ -229,7 +229,7 @@ class DeliveryRequest(Request):
         chosen: dict[str, Any] = vars(given)
         if chosen["preset"] == "automatic" and content.preset in presets:
             given = replace(given, preset=content.preset)  # type: ignore[call-arg]
-        return given.filled(content.values)
+        return _or_else(given, content.values)
 
     def terrain_with(self, cell_size: float) -> MapTerrain:
         """Return the parameters of the rasters, with a cell size in metres if none is given."""

@@ -89,9 +89,11 @@ class WaterSummary:
     def text(self) -> str:
         """The result as words."""
         grades = ", ".join(f"{count:,} {grade}" for grade, count in self.grades.items())
+        lakes = f"{self.lakes:,} lake{'' if self.lakes == 1 else 's'}"
+        rivers = "1 part of a river" if self.rivers == 1 else f"{self.rivers:,} parts of rivers"
         return (
-            f"{self.lakes:,} lakes and {self.rivers:,} parts of rivers, {self.area / 10_000:,.1f}"
-            f" ha{f' ({grades})' if grades else ''}, in cells of {self.cell:g} m"
+            f"{lakes} and {rivers}, {self.area / 10_000:,.1f} ha{f' ({grades})' if grades else ''},"
+            f" in cells of {self.cell:g} m"
         )
 
 

@@ -1,6 +1,7 @@
 """What QGIS, plugins.qgis.org and pip read of the package."""
 
 import configparser
+import posixpath
 import re
 import shutil
 import subprocess
@@ -136,8 +137,10 @@ def test_the_help_is_whole_and_needs_nothing_else(names, package, metadata):
         for link in re.findall(r'(?:href|src)="([^"]*)"', text):
             file, _, anchor = link.partition("#")
             if not link.startswith("https://"):
-                assert f"bare_earth/help/{file or page}" in names, (page, link)
-                assert not anchor or f'id="{anchor}"' in pages[file or page], (page, link)
+                to = posixpath.normpath(posixpath.join(posixpath.dirname(page), file))
+                to = to if file else page
+                assert f"bare_earth/help/{to}" in names, (page, link)
+                assert not anchor or f'id="{anchor}"' in pages[to], (page, link)
             elif link.startswith(metadata["repository"]):
                 assert (ROOT / link.partition("/blob/main/")[2]).is_file(), (page, link)
         # Nothing is left as it is written.
