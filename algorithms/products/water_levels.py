@@ -82,7 +82,9 @@ class Levels(NamedTuple):
         return (self.heights[nearest] * weight).sum(axis=1) / weight.sum(axis=1)
 
 
-def shore_of(water: np.ndarray, ground: np.ndarray, cell: float) -> Shore | None:
+def shore_of(
+    water: np.ndarray, ground: np.ndarray, cell: float, hidden: np.ndarray | None = None
+) -> Shore | None:
     """Return the shore of a region.
 
     Parameters
@@ -93,6 +95,8 @@ def shore_of(water: np.ndarray, ground: np.ndarray, cell: float) -> Shore | None
         Lowest ground of each cell; infinite where there is none.
     cell : float
         Side of a cell in metres.
+    hidden : numpy.ndarray of bool, shape (rows, columns), optional
+        Cells that are not part of the shore, such as abutments of bridges.
 
     Returns
     -------
@@ -104,6 +108,9 @@ def shore_of(water: np.ndarray, ground: np.ndarray, cell: float) -> Shore | None
     away = distance_transform_cdt(~water, metric="chessboard")
     is_shore = (away > 0) & (away <= _SHORE)
     has_ground = np.isfinite(ground)
+    if hidden is not None:
+        is_shore &= ~hidden
+        has_ground &= ~hidden
     rows, columns = np.nonzero(is_shore & has_ground)
     if not len(rows):
         return None
@@ -193,8 +200,9 @@ def river_level(water: np.ndarray, shore: Shore) -> Levels | None:
         return None
     from scipy.spatial import cKDTree
 
-    steps = np.hypot(*np.diff(line, axis=0).T)
-    length = float(steps.sum())
+    length = float(np.hypot(*np.diff(line, axis=0).T).sum())
+    # The ends of the way run into corners. They count for the length, not for the direction.
+    line = line[_ENDS:-_ENDS] if len(line) > 5 * _ENDS else line
     station = cKDTree(line).query(shore.places)[1]
     order = np.argsort(station, kind="stable")
     values = shore.lowest[order]
@@ -257,9 +265,7 @@ def middle_line(water: np.ndarray) -> np.ndarray:
     way = _way(costly, start, end)
     line = (places[way] + 0.5) * group - 0.5
     step = max(1, round(float(deep.max()) / 2.0))
-    line = _smoothed(line, step)[::step]
-    # The ends of the way run into corners.
-    return line[_ENDS:-_ENDS] if len(line) > 5 * _ENDS else line
+    return _smoothed(line, step)[::step]
 
 
 def _graph(cells: np.ndarray, cost: np.ndarray) -> Any:
