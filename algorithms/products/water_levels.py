@@ -116,7 +116,12 @@ def shore_of(
         return None
     side = _side(water, cell)
     heights = ground[rows, columns].astype(np.float64)
-    places, lowest, median = _segments(rows, columns, heights, side)
+    # A square that holds none of the cells right at the water shows the bank only.
+    squares = _squares(rows, columns, side)
+    beside = np.isin(squares, squares[away[rows, columns] == 1])
+    if not beside.any():
+        return None
+    places, lowest, median = _segments(rows[beside], columns[beside], heights[beside], side)
     outer = _beyond((away > _SHORE + 1) & (away <= _BEYOND) & has_ground, ground, places, side)
     known = len(rows) / int(is_shore.sum())
     return Shore(places, lowest, outer - median, heights, known)
@@ -146,12 +151,16 @@ def _side(water: np.ndarray, cell: float) -> int:
     return max(round(min(length, math.sqrt(water.sum()) * 4.0 / _SEGMENTS)), 3)
 
 
+def _squares(rows: np.ndarray, columns: np.ndarray, side: int) -> np.ndarray:
+    """Return a number for the square of each cell."""
+    return (rows // side << 32) + columns // side
+
+
 def _segments(
     rows: np.ndarray, columns: np.ndarray, heights: np.ndarray, side: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the middle, the lowest and the median height of the cells in each square."""
-    squares = (rows // side << 32) + columns // side
-    names, group = np.unique(squares, return_inverse=True)
+    names, group = np.unique(_squares(rows, columns, side), return_inverse=True)
     order = np.lexsort((heights, group))
     starts = np.searchsorted(group[order], np.arange(len(names)))
     counts = np.bincount(group)
