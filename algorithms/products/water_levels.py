@@ -28,12 +28,12 @@ class Shore(NamedTuple):
     Attributes
     ----------
     places : numpy.ndarray of float64, shape (n, 2)
-        Row and column of the middle of each segment.
+        Row and column of the middle of each segment that touches the water.
     lowest : numpy.ndarray of float64, shape (n,)
         Its lowest ground: the bank hardly counts in it.
-    rises : numpy.ndarray of float64, shape (n,)
-        How far the ground a few cells farther out is higher than the shore, in metres; NaN where
-        there is none.
+    rises : numpy.ndarray of float64, shape (k,)
+        How far the ground a few cells farther out is higher than the shore, in metres, for all
+        segments, also those of the bank alone; NaN where there is none.
     heights : numpy.ndarray of float64, shape (m,)
         The ground of all cells of the shore.
     known : float
@@ -116,13 +116,12 @@ def shore_of(
         return None
     side = _side(water, cell)
     heights = ground[rows, columns].astype(np.float64)
-    # A square that holds none of the cells right at the water shows the bank only.
+    places, _, median = _segments(rows, columns, heights, side)
+    outer = _beyond((away > _SHORE + 1) & (away <= _BEYOND) & has_ground, ground, places, side)
+    # The lowest ground of a square without cells right at the water is that of the bank.
     squares = _squares(rows, columns, side)
     beside = np.isin(squares, squares[away[rows, columns] == 1])
-    if not beside.any():
-        return None
-    places, lowest, median = _segments(rows[beside], columns[beside], heights[beside], side)
-    outer = _beyond((away > _SHORE + 1) & (away <= _BEYOND) & has_ground, ground, places, side)
+    places, lowest, _ = _segments(rows[beside], columns[beside], heights[beside], side)
     known = len(rows) / int(is_shore.sum())
     return Shore(places, lowest, outer - median, heights, known)
 
