@@ -7,12 +7,12 @@ import numpy as np
 from ..grids.morphology import closing, dilation
 from .water_grid import WaterGrid
 
-# Decks with a gap of so many metres, such as those of two carriageways, are one.
+# Decks with a gap of up to so many metres, such as those of two carriageways, are one.
 _GAP = 6.0
 # Cells this near to a deck, in metres and at least in cells, have few returns from the water.
 _EDGE, _EDGE_CELLS = 2.0, 1.5
 # Pieces of water are joined by a disc whose radius is so many times half the width of the deck: it
-# hardly reaches between them from the land. Wider decks, in metres, are no bridges.
+# hardly reaches between them from the land. Half the width in metres up to which decks join.
 _RADIUS, _MOST_HALF = 3.0, 25.0
 # The ground this near to a deck, in metres and at least in cells, may be that of an abutment.
 _ABUTMENT, _ABUTMENT_CELLS = 4.0, 3.0
@@ -40,21 +40,22 @@ def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
     below = np.zeros(grid.shape, dtype=bool)
     if grid.decks is None:
         return below
-    gap, edge = _GAP / 2.0 / grid.cell, max(_EDGE / grid.cell, _EDGE_CELLS)
+    gap, edge = max(_GAP / 2.0 / grid.cell, 1.0), max(_EDGE / grid.cell, _EDGE_CELLS)
     most = _MOST_HALF / grid.cell + edge
+    # A disc that lies beyond the window touches no water that matters.
     reach = int(2.0 * _RADIUS * most) + 1
-    labels, _ = label(dilation(grid.decks, max(gap, 1.0)))
+    labels, _ = label(dilation(grid.decks, gap))
     for number, box in enumerate(find_objects(labels), start=1):
-        window = tuple(
-            slice(max(each.start - reach, 0), each.stop + reach) for each in box
-        )  # discs beyond the window find no water
+        window = tuple(slice(max(side.start - reach, 0), side.stop + reach) for side in box)
+        seen = water[window]
+        if not seen.any():
+            continue
         deck = grid.decks[window] & (labels[window] == number)
-        open_to_sky = np.isfinite(grid.ground[window]) & ~deck
-        deck = (dilation(closing(deck, max(gap, 1.0)), edge)) & ~open_to_sky & ~water[window]
-        half = float(distance_transform_edt(np.pad(deck, 1)).max())
+        land = np.isfinite(grid.ground[window]) & ~deck
+        hiding = dilation(closing(deck, gap), edge) & ~land & ~seen
+        half = float(distance_transform_edt(np.pad(hiding, 1)).max())
         if half <= most:
-            joined = closing(water[window] & ~deck, _RADIUS * half)
-            below[window] |= joined & deck
+            below[window] |= closing(seen, _RADIUS * half) & hiding
     return below
 
 
