@@ -21,10 +21,8 @@ from bare_earth.algorithms import (
     DeliveryOptions,
     DeliveryRequest,
     DeliveryTerrain,
-    GridMinimum,
     RasterFiles,
     Selection,
-    SlopeFilter,
     TerrainModel,
     TerrainRequest,
     TileOutput,
@@ -246,7 +244,7 @@ def given_water(distance):
     """
     west, south, east, north = 62.0, 15.0, 125.0, 75.0
     corners = np.array([(west, south), (east, south), (east, north), (west, north)])
-    area = (corners + np.array((EAST, NORTH)),)
+    area = (np.add(corners, (EAST, NORTH)),)
 
     def truth(x, y):
         away = np.column_stack((x - east, west - x, y - north, south - y))
@@ -286,6 +284,20 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
     record = json.loads((tmp_path / "out" / "delivery.json").read_text())
     assert record["classes"] == {str(value): count for value, count in counts.items()}
     assert {f"points/{Path(summary.cloud).name}"} <= set(record["files"])
+
+
+@pytest.mark.parametrize("is_one", [True, False])
+def test_key_points_are_among_the_ground_that_water_leaves(scene, tmp_path, is_one):
+    options = DeliveryOptions(hold_out_share=None, key_points=True)
+    how = DeliveryRequest(options=options, constraints=given_water(0.71)[0])
+    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", how)
+    clouds = [laspy.read(each) for each in (tmp_path / "out" / "points").glob("*.laz")]
+    marked = [np.asarray(each.classification)[np.asarray(each.key_point) == 1] for each in clouds]
+    assert set(np.concatenate(marked)) == {2} and all(map(len, marked))
+    assert {9, 20} <= summary.class_counts.keys() and not list((tmp_path / "out").glob(".w*"))
+    names = {"classified.vpc", "east.laz", "west.laz", ".bare-earth"}
+    written = {each.name for each in (tmp_path / "out" / "points").iterdir()}
+    assert written == ({"whole.laz"} if is_one else names)
 
 
 def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scene, tmp_path):
@@ -447,11 +459,15 @@ def classes_of(folder):
     return {each.name: np.asarray(laspy.read(each).classification) for each in files}
 
 
+@pytest.mark.parametrize("has_key_points", [False, True])
 @pytest.mark.parametrize("count", [1, 2])
-def test_files_with_classes_of_water_can_be_continued_after_a_cancel(scene, tmp_path, count):
+def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
+    scene, tmp_path, count, has_key_points
+):
     target = tmp_path / "out"
     how = DeliveryRequest(
-        options=DeliveryOptions(hold_out_share=None), constraints=given_water(0.71)[0]
+        options=DeliveryOptions(hold_out_share=None, key_points=has_key_points),
+        constraints=given_water(0.71)[0],
     )
     with pytest.raises(FinishedFilesStay):
         deliver(scene[2], target, how, StopsAfter(target, count))
@@ -581,17 +597,3 @@ def test_the_command_delivers_and_prints_the_figures(scene, tmp_path, capsys):
     assert told["cell_size"] == 2.0 and told["check"] is None and told["quality"]["points"]
     assert set(told["layers"]) == {"dtm", "dsm", "hillshade", "contours"}
     assert all(os.path.exists(each) for each in told["layers"].values())
-
-
-def test_a_delivery_for_archaeology_keeps_what_its_tolerance_allows(made):
-    """Low walls and plants, which the defaults of the method leave out."""
-    settings = json.loads((made("archaeology")[1] / "delivery.json").read_text())["settings"]
-    assert settings["TIN densification"] == {"ground_tolerance": "0.8"}
-    for parameters, wanted in (
-        (TinDensification(ground_tolerance=0.4), 0.4),
-        (TinDensification(), 0.8),
-        (SlopeFilter(), 0.8),
-        (GridMinimum(), 0.8),
-    ):
-        request = DeliveryRequest(delivery="archaeology", parameters=parameters)
-        assert request.classify(False).parameters.ground_tolerance == wanted
