@@ -7,8 +7,6 @@ import numpy as np
 from ..grids.morphology import closing, dilation
 from .water_grid import WaterGrid
 
-# Decks with a gap of up to so many metres, such as those of two carriageways, are one.
-_GAP = 6.0
 # Cells this near to a deck, in metres and at least in cells, have few returns from the water.
 _EDGE, _EDGE_CELLS = 2.0, 1.5
 # Pieces of water are joined by a disc whose radius is so many times half the width of the deck: it
@@ -40,11 +38,11 @@ def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
     below = np.zeros(grid.shape, dtype=bool)
     if grid.decks is None:
         return below
-    gap, edge = max(_GAP / 2.0 / grid.cell, 1.0), max(_EDGE / grid.cell, _EDGE_CELLS)
+    edge = max(_EDGE / grid.cell, _EDGE_CELLS)
     most = _MOST_HALF / grid.cell + edge
     # A disc that lies beyond the window touches no water that matters.
     reach = int(2.0 * _RADIUS * most) + 1
-    labels, _ = label(dilation(grid.decks, gap))
+    labels, _ = label(dilation(grid.decks, edge))
     for number, box in enumerate(find_objects(labels), start=1):
         window = tuple(slice(max(side.start - reach, 0), side.stop + reach) for side in box)
         seen = water[window]
@@ -52,7 +50,7 @@ def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
             continue
         deck = grid.decks[window] & (labels[window] == number)
         land = np.isfinite(grid.ground[window]) & ~deck
-        hiding = dilation(closing(deck, gap), edge) & ~land & ~seen
+        hiding = dilation(deck, edge) & ~land & ~seen
         half = float(distance_transform_edt(np.pad(hiding, 1)).max())
         if half <= most:
             below[window] |= closing(seen, _RADIUS * half) & hiding

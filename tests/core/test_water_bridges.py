@@ -129,6 +129,21 @@ def test_only_water_with_one_level_is_one_lake(drop):
     assert levels == pytest.approx([LEVEL - drop, LEVEL] if drop else [LEVEL], abs=0.25)
 
 
+def test_abutments_are_no_shore():
+    """Of a reach of 100 m by 20 m they are a quarter of the banks."""
+
+    def reach(x, y):
+        return np.maximum(np.abs(x - 75.0) - 50.0, np.abs(y - 75.0) - 10.0)
+
+    for seed in (1, 2):
+        scene = Scene(150.0, 150.0, seed=seed)
+        scene.basin(reach, lambda x, y: LEVEL - 0.004 * x)
+        build(scene, reach, 12.0, 75.0, start=0.0)
+        flood(scene, reach)
+        (body,) = scene.water(min_area=500.0, min_width=5.0)
+        assert body.kind == "river" and overlap([body], reach, (150.0, 150.0)) > 0.9
+
+
 def test_the_terrain_has_no_dam_below_a_bridge(tmp_path):
     rasterio = pytest.importorskip("rasterio")
     """The river begins and ends within the survey, because rasters end where the points do."""
