@@ -17,6 +17,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isolines
 from ..grids.morphology import closing, dilation, erosion
+from .water_bridges import below_decks, beside_decks
 from .water_grid import WaterGrid
 from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
 
@@ -127,11 +128,17 @@ class WaterBody(NamedTuple):
 
 
 class _Region(NamedTuple):
-    """Connected cells, with a margin."""
+    """Connected cells, with a margin; `below` are those of them below decks of bridges."""
 
     water: np.ndarray
+    below: np.ndarray
     rows: slice
     columns: slice
+
+    @property
+    def open(self) -> np.ndarray:
+        """The cells that the laser sees."""
+        return self.water & ~self.below
 
 
 def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list[WaterBody]:
@@ -154,7 +161,12 @@ def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list
     usual = grid.usual()
     found: list[WaterBody] = []
     for region in _regions(grid, how, progress):
-        found += _bodies_of(region, grid, usual, how)
+        bodies = list(_bodies_of(region, grid, usual, how))
+        if not bodies and region.below.any():
+            for part in _labelled(region.open, how.min_area / grid.cell**2):
+                alone = region._replace(water=part, below=np.zeros_like(part))
+                bodies += _bodies_of(alone, grid, usual, how)
+        found += bodies
     return sorted(found, key=lambda each: (-each.rings[0][:, 1].max(), each.rings[0][:, 0].min()))
 
 
@@ -166,6 +178,8 @@ def _regions(grid: WaterGrid, how: Water, progress: Progress) -> Iterator[_Regio
     # Cells beyond the survey must not eat its border away.
     kept = erosion(cells.view(np.uint8), _OPEN).view(bool)
     cells &= dilation(kept, _OPEN)
+    below = below_decks(cells, grid)
+    cells |= below
     labels, _ = label(cells)
     sizes = np.bincount(labels.ravel())
     reach, least = margin(), how.min_area / grid.cell**2
@@ -179,7 +193,8 @@ def _regions(grid: WaterGrid, how: Water, progress: Progress) -> Iterator[_Regio
             for each, side in zip(box, grid.shape)
         )
         water = labels[rows, columns] == number
-        yield _Region(_with_small_islands(water, grid.cell), rows, columns)
+        water = _with_small_islands(water, grid.cell)
+        yield _Region(water, water & below[rows, columns], rows, columns)
 
 
 def _with_small_islands(water: np.ndarray, cell: float) -> np.ndarray:
@@ -198,9 +213,10 @@ def _bodies_of(
     """Yield a region as water; if it is something else, its parts of class 9."""
     window = region.rows, region.columns
     is_class = region.water & grid.class_in(*window)
-    share = float(is_class[region.water].mean())
+    share = float(is_class[region.open].mean())
     if share < _CLASSIFIED:
-        shore = shore_of(region.water, grid.ground[window], grid.cell)
+        hidden = beside_decks(grid, *window)
+        shore = shore_of(region.water, grid.ground[window], grid.cell, hidden)
         rising = _rising(shore)
         body = None
         if shore is not None and shore.known >= _LEAST_KNOWN and rising >= _LEAST_RISING:
@@ -208,11 +224,13 @@ def _bodies_of(
         if body is not None:
             yield body
             return
-    for part in _labelled(closing(is_class, _CLOSE_CLASS), how.min_area / grid.cell**2):
-        part = _with_small_islands(part, grid.cell)
-        shore = surface_of(part & is_class, grid.lowest[window], grid.cell)
-        share = float(is_class[part].mean())
-        body = _body_of(_Region(part, *window), shore, (share, 1.0), grid, usual, how)
+    classified = closing(is_class, _CLOSE_CLASS) | region.below
+    for cells in _labelled(classified, how.min_area / grid.cell**2):
+        cells = _with_small_islands(cells, grid.cell)
+        part = _Region(cells, cells & region.below, *window)
+        shore = surface_of(cells & is_class, grid.lowest[window], grid.cell)
+        share = float(is_class[part.open].mean()) if part.open.any() else 0.0
+        body = _body_of(part, shore, (share, 1.0), grid, usual, how)
         if body is not None:
             yield body
 
@@ -243,7 +261,7 @@ def _body_of(
     most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell) * (1.0 + (share >= _CLASSIFIED))
     if levels.spread > most or width < (how.min_width if kind == "river" else 0.0):
         return None
-    if not _is_free(region.water, grid.lowest[region.rows, region.columns], levels):
+    if not _is_free(region.open, grid.lowest[region.rows, region.columns], levels):
         return None
     filled = _filled(region, grid, usual)
     certainty = _certainty(max(1.0 - filled, share), levels.spread, rising)
@@ -283,8 +301,8 @@ def _is_free(water: np.ndarray, lowest: np.ndarray, levels: Levels) -> bool:
 
 def _filled(region: _Region, grid: WaterGrid, usual: np.ndarray) -> float:
     """Return the number of last returns relative to that of as much land."""
-    counts = grid.counts[region.rows, region.columns][region.water]
-    expected = grid.by_cell(usual, region.rows, region.columns)[region.water]
+    counts = grid.counts[region.rows, region.columns][region.open]
+    expected = grid.by_cell(usual, region.rows, region.columns)[region.open]
     return float(min(counts.sum() / max(expected.sum(), 1e-9), 1.0))
 
 

@@ -22,8 +22,8 @@ from .survey_ground import SurveyGround
 from .water import Water, WaterBody, find_water
 from .water_grid import WaterGrid, cell_for
 
-# The class of water in the LAS specification.
-WATER_CLASS = 9
+# The classes of water and of the decks of bridges in the LAS specification.
+WATER_CLASS, _DECK_CLASS = 9, 17
 # Fields of the polygons. Levels are in the unit of the heights, all others in metres.
 FIELDS: dict[str, type] = {
     "ID": int, "KIND": str, "LEVEL": float, "LEVEL_LOW": float, "SPREAD": float,
@@ -140,7 +140,8 @@ class SurveyWater:
             used = request.ground.used(cloud) & ~is_one_of(cloud.classification, NOISE)
             last = cloud.return_number >= cloud.number_of_returns
             is_water = cloud.classification == WATER_CLASS
-            _add(grid, cloud, survey, (ground, used & is_water, used & last))
+            is_deck = cloud.classification == _DECK_CLASS
+            _add(grid, cloud, survey, (ground, used & is_water, used & last, used & is_deck))
         survey.check()
         found = find_water(grid, request.water, progress.part(0.9, 1.0))
         return cls(found, survey.survey.crs, cell)
@@ -220,9 +221,9 @@ def _add(
     grid: WaterGrid,
     cloud: PointCloud,
     survey: SurveyGround,
-    marks: tuple[np.ndarray, np.ndarray, np.ndarray],
+    marks: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray],
 ) -> None:
-    """Add the points of a part that have any mark: ground, water, last return."""
+    """Add the points of a part that have any mark: ground, water, last return, deck."""
     which = np.flatnonzero(np.logical_or.reduce(marks))
     grid.add(cloud.points(which, survey.frame), *(each[which] for each in marks))
 

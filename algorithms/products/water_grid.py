@@ -82,6 +82,8 @@ class WaterGrid:
         go from south to north.
     counts, water : numpy.ndarray of uint16, shape (rows, columns)
         Number of last returns, and of those of class 9.
+    decks : numpy.ndarray of bool, shape (rows, columns), or None
+        Which cells have points of the decks of bridges; None if there are none.
 
     Raises
     ------
@@ -102,8 +104,16 @@ class WaterGrid:
             )
         self.lowest, self.ground = (np.full(self.shape, np.inf, np.float32) for _ in range(2))
         self.counts, self.water = (np.zeros(self.shape, np.uint16) for _ in range(2))
+        self.decks: np.ndarray | None = None
 
-    def add(self, points: Points, ground: np.ndarray, water: np.ndarray, last: np.ndarray) -> None:
+    def add(
+        self,
+        points: Points,
+        ground: np.ndarray,
+        water: np.ndarray,
+        last: np.ndarray,
+        decks: np.ndarray | None = None,
+    ) -> None:
         """Add points.
 
         Parameters
@@ -112,6 +122,8 @@ class WaterGrid:
             In the frame of the survey.
         ground, water, last : numpy.ndarray of bool, shape (n,)
             Which are ground, of class 9, and last returns.
+        decks : numpy.ndarray of bool, shape (n,), optional
+            Which lie on the decks of bridges.
         """
         row = np.floor(points.y / self.cell).astype(np.int64) - self.row
         column = np.floor(points.x / self.cell).astype(np.int64) - self.column
@@ -125,6 +137,10 @@ class WaterGrid:
         for heights, which in ((self.lowest, last), (self.ground, ground)):
             which = which & inside
             lower_at(heights.reshape(-1), code[which], points.z[which].astype(np.float32))
+        if decks is not None and (decks & inside).any():
+            if self.decks is None:
+                self.decks = np.zeros(self.shape, dtype=bool)
+            self.decks.reshape(-1)[code[decks & inside]] = True
 
     def class_in(self, rows: slice = slice(None), columns: slice = slice(None)) -> np.ndarray:
         """Return which cells of a window have mostly points of class 9; bool."""

@@ -28,12 +28,12 @@ class Shore(NamedTuple):
     Attributes
     ----------
     places : numpy.ndarray of float64, shape (n, 2)
-        Row and column of the middle of each segment.
+        Row and column of the middle of each segment that touches the water.
     lowest : numpy.ndarray of float64, shape (n,)
         Its lowest ground: the bank hardly counts in it.
-    rises : numpy.ndarray of float64, shape (n,)
-        How far the ground a few cells farther out is higher than the shore, in metres; NaN where
-        there is none.
+    rises : numpy.ndarray of float64, shape (k,)
+        How far the ground a few cells farther out is higher than the shore, in metres, for all
+        segments, also those of the bank alone; NaN where there is none.
     heights : numpy.ndarray of float64, shape (m,)
         The ground of all cells of the shore.
     known : float
@@ -82,7 +82,9 @@ class Levels(NamedTuple):
         return (self.heights[nearest] * weight).sum(axis=1) / weight.sum(axis=1)
 
 
-def shore_of(water: np.ndarray, ground: np.ndarray, cell: float) -> Shore | None:
+def shore_of(
+    water: np.ndarray, ground: np.ndarray, cell: float, hidden: np.ndarray | None = None
+) -> Shore | None:
     """Return the shore of a region.
 
     Parameters
@@ -93,6 +95,8 @@ def shore_of(water: np.ndarray, ground: np.ndarray, cell: float) -> Shore | None
         Lowest ground of each cell; infinite where there is none.
     cell : float
         Side of a cell in metres.
+    hidden : numpy.ndarray of bool, shape (rows, columns), optional
+        Cells that are not part of the shore, such as abutments of bridges.
 
     Returns
     -------
@@ -104,13 +108,20 @@ def shore_of(water: np.ndarray, ground: np.ndarray, cell: float) -> Shore | None
     away = distance_transform_cdt(~water, metric="chessboard")
     is_shore = (away > 0) & (away <= _SHORE)
     has_ground = np.isfinite(ground)
+    if hidden is not None:
+        is_shore &= ~hidden
+        has_ground &= ~hidden
     rows, columns = np.nonzero(is_shore & has_ground)
     if not len(rows):
         return None
     side = _side(water, cell)
     heights = ground[rows, columns].astype(np.float64)
-    places, lowest, median = _segments(rows, columns, heights, side)
+    places, _, median = _segments(rows, columns, heights, side)
     outer = _beyond((away > _SHORE + 1) & (away <= _BEYOND) & has_ground, ground, places, side)
+    # The lowest ground of a square without cells right at the water is that of the bank.
+    squares = _squares(rows, columns, side)
+    beside = np.isin(squares, squares[away[rows, columns] == 1])
+    places, lowest, _ = _segments(rows[beside], columns[beside], heights[beside], side)
     known = len(rows) / int(is_shore.sum())
     return Shore(places, lowest, outer - median, heights, known)
 
@@ -139,12 +150,16 @@ def _side(water: np.ndarray, cell: float) -> int:
     return max(round(min(length, math.sqrt(water.sum()) * 4.0 / _SEGMENTS)), 3)
 
 
+def _squares(rows: np.ndarray, columns: np.ndarray, side: int) -> np.ndarray:
+    """Return a number for the square of each cell."""
+    return (rows // side << 32) + columns // side
+
+
 def _segments(
     rows: np.ndarray, columns: np.ndarray, heights: np.ndarray, side: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the middle, the lowest and the median height of the cells in each square."""
-    squares = (rows // side << 32) + columns // side
-    names, group = np.unique(squares, return_inverse=True)
+    names, group = np.unique(_squares(rows, columns, side), return_inverse=True)
     order = np.lexsort((heights, group))
     starts = np.searchsorted(group[order], np.arange(len(names)))
     counts = np.bincount(group)
@@ -193,8 +208,9 @@ def river_level(water: np.ndarray, shore: Shore) -> Levels | None:
         return None
     from scipy.spatial import cKDTree
 
-    steps = np.hypot(*np.diff(line, axis=0).T)
-    length = float(steps.sum())
+    length = float(np.hypot(*np.diff(line, axis=0).T).sum())
+    # The ends of the way run into corners. They count for the length, not for the direction.
+    line = line[_ENDS:-_ENDS] if len(line) > 5 * _ENDS else line
     station = cKDTree(line).query(shore.places)[1]
     order = np.argsort(station, kind="stable")
     values = shore.lowest[order]
@@ -257,9 +273,7 @@ def middle_line(water: np.ndarray) -> np.ndarray:
     way = _way(costly, start, end)
     line = (places[way] + 0.5) * group - 0.5
     step = max(1, round(float(deep.max()) / 2.0))
-    line = _smoothed(line, step)[::step]
-    # The ends of the way run into corners.
-    return line[_ENDS:-_ENDS] if len(line) > 5 * _ENDS else line
+    return _smoothed(line, step)[::step]
 
 
 def _graph(cells: np.ndarray, cost: np.ndarray) -> Any:

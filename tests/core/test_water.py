@@ -49,7 +49,8 @@ class Scene:
     def grid(self, cell=1.0):
         grid = WaterGrid((0.0, 0.0, self.size[0] - 1e-6, self.size[1] - 1e-6), cell)
         every = np.ones(len(self.x), dtype=bool)
-        grid.add(Points(self.x, self.y, self.z), self.classes == 2, self.classes == 9, every)
+        marks = (self.classes == 2, self.classes == 9, every, self.classes == 17)
+        grid.add(Points(self.x, self.y, self.z), *marks)
         return grid
 
     def water(self, cell=1.0, **how):
