@@ -87,7 +87,10 @@ def _deliver(options: argparse.Namespace) -> int:
     workers = workers_of(options, request.resources)
     with Terminal(options.verbose) as progress:
         done = deliver(options.input, options.output, request, progress, workers)
-    print(json.dumps(done.as_dict()) if options.json else f"{options.output}: {done.text}")
+    if options.json:
+        print(json.dumps(done.as_dict()))
+    else:
+        print("\n".join([f"{options.output}: {done.text}", *done.lines()]))
     return FAILED if done.failures else DONE
 
 

@@ -12,10 +12,11 @@ from ..core.files import temporary_folder
 from ..core.progress import SILENT, Progress
 from ..core.version import __version__
 from ..engine.workers import Workers
+from ..products.page import Units
 from ..survey.files import Survey, is_one_file, open_survey
 from ..survey.shapes import Place
 from .folder import PAGE, DeliveryFolder
-from .page import delivery_html, settings_of
+from .page import cell_text, delivery_html, settings_of
 from .request import DeliveryRequest
 from .steps import DeliverySteps, Heard, Made
 from .summary import DeliverySummary
@@ -83,7 +84,7 @@ def deliver(
         made.warnings = heard.warnings
         page = delivery_html(request, made, survey, working)
         (working / PAGE).write_text(page, encoding="utf-8")
-        summary = _summary(request, made, working, place.path)
+        summary = _summary(request, made, survey, working, place.path)
         heard(1.0)  # the last moment to cancel
         place.settle(made.waiting)
         place.take(working, _record(request, made, place.path))
@@ -120,7 +121,9 @@ def _moved(path: Path, working: Path, folder: Path) -> Path:
     return folder / path.relative_to(working) if working in path.parents else path
 
 
-def _summary(request: DeliveryRequest, made: Made, working: Path, folder: Path) -> DeliverySummary:
+def _summary(
+    request: DeliveryRequest, made: Made, survey: Survey, working: Path, folder: Path
+) -> DeliverySummary:
     if made.cloud is None or made.quality is None:
         raise BareEarthError("The delivery is not complete.")
     return DeliverySummary(
@@ -133,6 +136,7 @@ def _summary(request: DeliveryRequest, made: Made, working: Path, folder: Path) 
         ground_count=made.ground_count,
         class_counts=made.class_counts,
         cell_size=made.cell_size,
+        cell_text=cell_text(request, made, Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)),
         failures=made.failures,
         warnings=made.warnings,
         seconds={name: round(took, 2) for name, took in made.seconds.items()},

@@ -86,6 +86,11 @@ class Figures:
     maximum: float
     percentile_95: float
 
+    @property
+    def text(self) -> str:
+        """The figures that matter most, in words."""
+        return f"RMSE {self.total_rmse:.3f} m, mean {self.mean:+.3f} m, of {self.count:,}"
+
     @classmethod
     def of(cls, errors: np.ndarray, survey_error: float = 0.0) -> Figures | None:
         """Return the figures of errors, shape (n,); None if there are none.

@@ -579,3 +579,36 @@ def test_the_command_delivers_and_prints_the_figures(scene, tmp_path, capsys):
     assert told["cell_size"] == 2.0 and told["check"] is None and told["quality"]["points"]
     assert set(told["layers"]) == {"dtm", "dsm", "hillshade", "contours"}
     assert all(os.path.exists(each) for each in told["layers"].values())
+
+
+def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
+    summary, folder = made("survey")
+    target = tmp_path / "out"
+    assert main(["deliver", "survey", str(scene[1]), str(target)]) == 0
+    first, *rows = capsys.readouterr().out.splitlines()
+    assert first.startswith(f"{target}: {summary.ground_count:,} of {summary.point_count:,} points")
+    told = {each[:11].rstrip(): each[12:] for each in rows}
+    assert list(told) == ["classes", "water", "held out", "comparisons", "cell size", "page"]
+    counts = (f"{value}: {count:,}" for value, count in summary.class_counts.items())
+    assert told["classes"] == ", ".join(counts) and told["cell size"] == "1 m"
+    assert told["held out"] == summary.check.hold_out.all.text and told["water"]
+    # The scene is sparse, and the specification asks for 2 points in a square metre.
+    assert told["page"] == str(target / "index.html") and Path(told["page"]).exists()
+    states = {each.name: each.state for each in summary.quality.lines}
+    passed = list(states.values()).count("pass")
+    share, _, names = told["comparisons"].partition("; not: ")
+    assert share == f"{passed} of {len(states)} pass" and states["Density"] == "fail"
+    assert names == ", ".join(f"{name} ({it})" for name, it in states.items() if it != "pass")
+
+
+def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
+    x, y = np.array([5.0, 60.0, 70.0]), np.array([5.0, 50.0, 85.0])
+    rows = zip(x + EAST, y + NORTH, ground_at(x, y))
+    table = "\n".join(["x,y,z", *(",".join(map(str, each)) for each in rows)])
+    (tmp_path / "points.csv").write_text(table)
+    words = ["--checkpoints", str(tmp_path / "points.csv"), "--hold-out-share", "none"]
+    assert main(["deliver", "drone-site", str(scene[1]), str(tmp_path / "out"), *words]) == 0
+    rows = capsys.readouterr().out.splitlines()[1:]
+    titles = [each[:11].rstrip() for each in rows]
+    assert titles == ["classes", "checkpoints", "cell size", "page"]
+    assert re.search(r"^checkpoints RMSE 0\.\d{3} m, mean [+-]0\.\d{3} m, of 3$", rows[1])
