@@ -126,6 +126,7 @@ def _summary(
 ) -> DeliverySummary:
     if made.cloud is None or made.quality is None:
         raise BareEarthError("The delivery is not complete.")
+    units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
     return DeliverySummary(
         folder=str(folder),
         delivery=request.delivery,
@@ -136,7 +137,7 @@ def _summary(
         ground_count=made.ground_count,
         class_counts=made.class_counts,
         cell_size=made.cell_size,
-        cell_text=cell_text(request, made, Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)),
+        cell_text=cell_text(request, made, units),
         failures=made.failures,
         warnings=made.warnings,
         seconds={name: round(took, 2) for name, took in made.seconds.items()},

@@ -222,7 +222,7 @@ def _settings(request: DeliveryRequest, made: Made, survey: Survey) -> str:
 
 def settings_of(request: DeliveryRequest, cell_size: float) -> dict[str, dict[str, str]]:
     """Return what differs from the defaults, by the name of the step and of the parameter."""
-    how = request.classify(request.content.heights)
+    how = request.classify
     method = method_of(how.parameters).label
     sets: dict[str, ParameterSet] = {
         method: how.parameters,

@@ -202,8 +202,9 @@ class DeliveryRequest(Request):
         """How the quality is measured."""
         return QualityOptions(specification=self.specification)
 
-    def classify(self, with_heights: bool) -> ClassifyRequest:
-        """Return the request to classify; `with_heights`: in a run that also writes heights."""
+    @property
+    def classify(self) -> ClassifyRequest:
+        """The request to classify the points, and to add their heights if they are wanted."""
         return ClassifyRequest(
             files=self.files,
             tiles=self.tiles,
@@ -219,7 +220,9 @@ class DeliveryRequest(Request):
             area=self.area,
             corrections=self.corrections,
             above_ground=self.above_ground,
-            output=Output(area_only=self.area is not None, height_above_ground=with_heights),
+            output=Output(
+                area_only=self.area is not None, height_above_ground=self.content.heights
+            ),
         )
 
     def _method(self) -> ParameterSet:

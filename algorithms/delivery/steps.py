@@ -16,8 +16,8 @@ from ..engine.key_points import KeyPointMark
 from ..engine.manifest import folders_of
 from ..engine.one_file import Summary
 from ..engine.options import TileInput
-from ..engine.requests import HeightRequest, KeyPointRequest, TerrainRequest, WaterClassRequest
-from ..engine.runs import classify, heights, key_points, terrain, write
+from ..engine.requests import KeyPointRequest, TerrainRequest, WaterClassRequest
+from ..engine.runs import classify, key_points, terrain, write
 from ..engine.workers import Workers
 from ..products.checkpoint_outputs import CheckOutputs
 from ..products.checkpoint_results import Check
@@ -167,15 +167,12 @@ class DeliverySteps:
         return waits if waits in self.made.waiting else self.made.cloud
 
     def _classify(self, progress: Progress) -> None:
-        """Classify the points, add their heights, and mark key points, as the delivery asks."""
-        request, wanted = self.request, self.request.content.heights
+        """Classify the points, and mark key points, as the delivery asks."""
         ways: list[Callable[..., Any]] = [self._classified]
-        if wanted and not self.is_one:
-            ways.append(self._with_heights)
-        if request.options.key_points:
+        if self.request.options.key_points:
             ways.append(self._with_key_points)
         sources, made = list(self.sources), self.made
-        for number, (way, part) in enumerate(zip(ways, progress.shares(3.0, 1.0, 1.0)), 1):
+        for number, (way, part) in enumerate(zip(ways, progress.shares(3.0, 1.0)), 1):
             is_last = number == len(ways)
             place = self._points if is_last else self._waiting / str(number)
             place.mkdir(parents=True, exist_ok=True)
@@ -212,15 +209,8 @@ class DeliverySteps:
     def _classified(
         self, sources: list[Path], target: Path, is_last: bool, progress: Progress
     ) -> Any:
-        how = self.request.classify(self.is_one and self.request.content.heights)
-        how = replace(how, tiles=self._tiles(is_last))
+        how = replace(self.request.classify, tiles=self._tiles(is_last))
         return classify(sources, target, how, progress, self.workers, as_survey=not self.is_one)
-
-    def _with_heights(
-        self, sources: list[Path], target: Path, is_last: bool, progress: Progress
-    ) -> Any:
-        how = HeightRequest(ground=self.request.ground, **self._further(is_last))
-        return heights(sources, target, how, progress, self.workers, not self.is_one)
 
     def _with_key_points(
         self, sources: list[Path], target: Path, is_last: bool, progress: Progress

@@ -74,9 +74,7 @@ class DeliverySummary:
     def text(self) -> str:
         """The result in words."""
         share = self.ground_count / max(self.point_count, 1)
-        return (
-            f"{self.ground_count:,} of {self.point_count:,} points are ground ({share:.1%})."
-        )
+        return f"{self.ground_count:,} of {self.point_count:,} points are ground ({share:.1%})."
 
     def rows(self) -> list[tuple[str, str]]:
         """Return titles and values of the figures that matter most, as text."""

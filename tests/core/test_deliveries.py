@@ -582,7 +582,7 @@ def test_the_command_delivers_and_prints_the_figures(scene, tmp_path, capsys):
 
 
 def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
-    summary, folder = made("survey")
+    summary, _ = made("survey")
     target = tmp_path / "out"
     assert main(["deliver", "survey", str(scene[1]), str(target)]) == 0
     first, *rows = capsys.readouterr().out.splitlines()
@@ -612,3 +612,19 @@ def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
     titles = [each[:11].rstrip() for each in rows]
     assert titles == ["classes", "checkpoints", "cell size", "page"]
     assert re.search(r"^checkpoints RMSE 0\.\d{3} m, mean [+-]0\.\d{3} m, of 3$", rows[1])
+
+
+def test_many_files_with_heights_are_done_already_after_a_finished_delivery(scene, tmp_path):
+    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="forestry", options=small)
+    first = deliver(scene[2], target, how)
+    before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
+    assert len(before) == 2
+    for each in before:
+        assert "HeightAboveGround" in laspy.read(each).point_format.dimension_names
+    said = Said()
+    second = deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)), said)
+    assert "2 files are done already." in said.texts
+    assert {each: each.stat().st_mtime_ns for each in before} == before
+    assert second.class_counts == first.class_counts and {3, 5, 6} & first.class_counts.keys()
+    assert second.ground_count == first.ground_count == first.class_counts[2]
