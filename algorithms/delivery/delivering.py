@@ -150,8 +150,9 @@ def _summary(
 
 def _record(request: DeliveryRequest, made: Made, folder: Path) -> dict[str, object]:
     """Return what is said of a delivery beside its files."""
-    # The points of many files are in the folder already.
-    there = [each for each in made.files if folder in each.parents and each.is_file()]
+    # The points of many files are in the folder already. Their records are no part of a delivery.
+    points = DeliveryFolder(folder).points
+    there = [each for each in made.files if each.parent == points and each.is_file()]
     return {
         "delivery": request.delivery,
         "version": __version__,

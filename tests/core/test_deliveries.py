@@ -142,7 +142,7 @@ def made(scene, tmp_path_factory):
 
 def files_of(folder):
     found = (each.relative_to(folder).as_posix() for each in folder.rglob("*") if each.is_file())
-    return {each for each in found if not each.startswith("points/")}
+    return {each for each in found if not each.startswith(("points/", ".bare-earth/"))}
 
 
 def heights(path):
@@ -296,14 +296,14 @@ def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scen
     points = tmp_path / "out" / "points"
     tiles = {"east.copc.laz", "west.copc.laz"}
     lists = {"classified.vpc", "classified-overview.copc.laz"}
-    assert {each.name for each in points.iterdir()} == tiles | lists | {".bare-earth"}
+    assert {each.name for each in points.iterdir()} == tiles | lists
     assert {each for each in read_vpc(summary.cloud)} == {points / each for each in tiles}
     assert (
         np.asarray(laspy.read(points / "classified-overview.copc.laz").classification) == 9
     ).any()
     files = json.loads((tmp_path / "out" / "delivery.json").read_text())["files"]
     assert {each for each in files if not (tmp_path / "out" / each).is_file()} == set()
-    assert {each for each in os.listdir(tmp_path / "out") if each.startswith(".")} == set()
+    assert {each for each in os.listdir(tmp_path / "out") if each[0] == "."} == {".bare-earth"}
 
 
 def test_water_that_was_found_gives_classes_in_one_file_and_in_two(made):
@@ -628,3 +628,26 @@ def test_many_files_with_heights_are_done_already_after_a_finished_delivery(scen
     assert {each: each.stat().st_mtime_ns for each in before} == before
     assert second.class_counts == first.class_counts and {3, 5, 6} & first.class_counts.keys()
     assert second.ground_count == first.ground_count == first.class_counts[2]
+
+
+def test_records_of_many_files_are_not_among_the_points(scene, tmp_path):
+    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="drone-site", options=small)
+    deliver(scene[2], target, how)
+    handed = {"classified.vpc", "east.laz", "west.laz"}
+    assert set(os.listdir(target / "points")) == handed
+    assert set(os.listdir(target / ".bare-earth")) == {"east.laz.json", "west.laz.json"}
+    files = json.loads((target / "delivery.json").read_text())["files"]
+    assert {each for each in files if each.startswith("points/")} == {
+        f"points/{each}" for each in handed
+    }
+    # A run that goes on finds them, also after one that was stopped; one file has none.
+    again, said = replace(how, tiles=TileOutput(resume=True)), Said()
+    with pytest.raises(FinishedFilesStay):
+        deliver(scene[2], target, again, Stops(0.5))
+    deliver(scene[2], target, again, said)
+    assert "2 files are done already." in said.texts
+    assert set(os.listdir(target / "points")) == handed and (target / ".bare-earth").is_dir()
+    deliver(scene[1], target, how)
+    assert os.listdir(target / "points") == ["whole.laz"]
+    assert not (target / ".bare-earth").exists()
