@@ -32,7 +32,8 @@ _ABOUT = {
     "contours": "Contour lines; the field ELEV has the height, INDEX is 1 for every fifth line.",
     "water": "Lakes and rivers as polygons, with their level, the spread of their shore and a grade"
     " of certainty. They are flat in the terrain model.",
-    "breaklines": "Shores, islands and the middles of rivers, with heights.",
+    "breaklines": "Shores, islands and the middles of rivers, and breaklines that were given; with"
+    " heights.",
     "checkpoints": "The checkpoints, with the errors of the ground points and the terrain model.",
     "quality.html": "Densities, voids, strips and classes of the survey, and the comparison with"
     " the specification.",

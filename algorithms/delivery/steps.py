@@ -24,7 +24,6 @@ from ..products.checkpoint_results import Check
 from ..products.checkpoints import CheckOptions, CheckRequest, check_files
 from ..products.constraints import Constraints
 from ..products.contours import Interval, write_contours
-from ..products.line_files import feature_writer
 from ..products.quality import QualityRequest, survey_quality
 from ..products.quality_figures import Quality
 from ..products.raster_files import RasterFiles
@@ -36,6 +35,7 @@ from ..survey.overview import overview_of
 from .deliveries import WITH_BUILDINGS
 from .folder import QUALITY, DeliveryFolder
 from .request import DeliveryRequest
+from .water import vector_format, write_water
 
 _BUILDING = 6
 # Contour lines in a CRS whose heights are feet: so many feet are about half a metre.
@@ -98,6 +98,7 @@ class Made:
     layers: dict[str, Path] = field(default_factory=dict)
     cell_size: float = 1.0
     constraints: Constraints | None = None
+    found: SurveyWater | None = None
     quality: Quality | None = None
     check: Check | None = None
     water: WaterSummary | None = None
@@ -302,12 +303,7 @@ class DeliverySteps:
         self.made.water = found.summary
         progress.info(f"Water: {found.summary.text}.")
         if found.bodies:
-            water, lines = (
-                self.work.path / f"{name}{vector_format()}" for name in ("water", "breaklines")
-            )
-            found.write(water, lines, progress)
-            self.made.layers |= {"water": water, "breaklines": lines}
-            known = found.constraints
+            self.made.found, known = found, found.constraints
             rivers = (*request.constraints.rivers, *known.rivers)
             self.made.constraints = replace(request.constraints, water=known.water, rivers=rivers)
 
@@ -323,7 +319,7 @@ class DeliverySteps:
             constraints=made.constraints or request.constraints, area=request.area,
             raster_target=request.raster_target, roads=request.selection.roads,
         )  # fmt: skip
-        first, second = progress.shares(len(paths) + 2.0, 2.0 * content.with_buildings)
+        first, second, third = progress.shares(len(paths) + 2.0, 2.0 * content.with_buildings, 0.5)
         terrain([self._cloud], how, first, self.workers)
         made.layers |= paths
         if content.with_buildings:
@@ -333,6 +329,7 @@ class DeliverySteps:
             how = replace(how, rasters=RasterFiles(dsm=path), surface=surface)
             terrain([self._cloud], how, second, self.workers)
             made.layers[WITH_BUILDINGS] = path
+        made.layers |= write_water(self._cloud, request, made.found, how, self.work.path, third)
 
     def _trace(self, progress: Progress) -> None:
         """Draw contour lines."""
@@ -377,12 +374,3 @@ def _counts_of(done: Any) -> tuple[int, int]:
     if isinstance(done, Summary):
         return done.area_count, done.area_ground_count
     return done.point_count, done.ground_count
-
-
-def vector_format() -> str:
-    """Return the ending of vector files: GeoPackage if it can be written, else GeoJSON."""
-    try:
-        feature_writer(Path("x.gpkg"), "lines")
-    except BareEarthError:
-        return ".geojson"
-    return ".gpkg"

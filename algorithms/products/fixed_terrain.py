@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Iterable, Iterator, Sequence
+from typing import Callable, Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
@@ -19,6 +19,8 @@ from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import IGNORED_GROUND
 from .constraints import NEAR, STATION, Constraints
 
+# Returns the level of water at places of shape (n, 2), in metres.
+Levels = Callable[[np.ndarray], np.ndarray]
 # This share of the ground along the border of water is below its level: banks are higher.
 _LEVEL = 10.0
 # Metres between vertices inside water.
@@ -26,7 +28,7 @@ _INSIDE = 10.0
 # Lines are used up to so many metres beyond the points of a block.
 _BEYOND = 20.0
 # Places on a line for each cell in which points are thinned: the line misses no cell.
-_PER_CELL = 4.0
+PER_CELL = 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,36 +127,96 @@ def fixed_terrain(
     """
     if not constraints.any:
         return None
-    unit, step, origin = frame.horizontal_unit, cell / _PER_CELL, np.array(frame.origin)
-    lines = [
-        along((line - (*origin, 0.0)) * (unit, unit, frame.vertical_unit), step)
-        for line in constraints.breaklines
-    ]
-    waters = [
-        tuple(np.column_stack(((ring - origin) * unit, np.zeros(len(ring)))) for ring in polygon)
-        for polygon in constraints.water
-    ]
-    borders = [
-        np.concatenate([along(ring, step, is_closed=True) for ring in polygon])
-        for polygon in waters
-    ]
-    rivers = [
-        along((line - (*origin, 0.0)) * (unit, unit, 1.0), STATION)[:, :2]
-        for line in constraints.rivers
-    ]
-    near, is_ground = _ground_near([*lines, *borders], clouds, ground, frame)
-    if waters:
-        # Points in the water are not on its banks.
-        water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in waters))
-        dry = ~water.contains(*near[:, :2].T)
-        near, is_ground = near[dry], is_ground[dry]
-    heights, none = NearestHeights(near[is_ground], NEAR), np.zeros((0, 3))
-    # The level is that of the foot of the bank, where ground is ignored by the surface.
-    shore = heights if is_ground.all() else NearestHeights(near, NEAR)
-    flat = list(_flattened(waters, borders, rivers, shore, progress))
+    given = GivenTerrain.of(constraints, clouds, frame, ground, cell / PER_CELL)
+    flat = list(_flattened(given, progress))
     borders, insides = zip(*flat) if flat else ((), ())
-    edges = np.concatenate([none, *_along_breaklines(lines, heights, progress), *borders])
+    lines, none = _along_breaklines(given.lines, given.ground, progress), np.zeros((0, 3))
+    edges = np.concatenate([none, *lines, *borders])
     return FixedTerrain(edges, np.concatenate([none, *insides]), cell)
+
+
+class GivenTerrain(NamedTuple):
+    """Lines and water in metres, in the frame of the survey, and the ground near them.
+
+    Attributes
+    ----------
+    lines : list of numpy.ndarray of float64, shape (n, 3)
+        Places along each breakline.
+    waters : list of polygon
+        Each with rings of shape (n, 3), whose z is not used.
+    borders : list of numpy.ndarray of float64, shape (n, 3)
+        Places along the rings of each polygon of water.
+    rivers : list of numpy.ndarray of float64, shape (n, 2)
+        Stations along each river.
+    ground, shore : NearestHeights
+        The ground near breaklines, and near water, where ignored ground counts too.
+    """
+
+    lines: list[np.ndarray]
+    waters: list[Polygon]
+    borders: list[np.ndarray]
+    rivers: list[np.ndarray]
+    ground: NearestHeights
+    shore: NearestHeights
+
+    @classmethod
+    def of(
+        cls,
+        constraints: Constraints,
+        clouds: Iterable[PointCloud],
+        frame: Frame,
+        ground: GroundClasses,
+        step: float,
+    ) -> GivenTerrain:
+        """Return constraints with the ground near them; places are at most a step apart."""
+        unit, origin = frame.horizontal_unit, np.array(frame.origin)
+        lines = [
+            along((line - (*origin, 0.0)) * (unit, unit, frame.vertical_unit), step)
+            for line in constraints.breaklines
+        ]
+        waters = [
+            tuple(np.column_stack(((ring - origin) * unit, np.zeros(len(ring)))) for ring in each)
+            for each in constraints.water
+        ]
+        borders = [
+            np.concatenate([along(ring, step, is_closed=True) for ring in polygon])
+            for polygon in waters
+        ]
+        rivers = [
+            along((line - (*origin, 0.0)) * (unit, unit, 1.0), STATION)[:, :2]
+            for line in constraints.rivers
+        ]
+        near, is_ground = _ground_near([*lines, *borders], clouds, ground, frame)
+        if waters:
+            # Points in the water are not on its banks.
+            water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in waters))
+            dry = ~water.contains(*near[:, :2].T)
+            near, is_ground = near[dry], is_ground[dry]
+        heights = NearestHeights(near[is_ground], NEAR)
+        # The level is that of the foot of the bank, where ground is ignored by the surface.
+        shore = heights if is_ground.all() else NearestHeights(near, NEAR)
+        return cls(lines, waters, borders, rivers, heights, shore)
+
+    def lines_in(self, area: Area) -> list[np.ndarray]:
+        """Return the stations of each river that lie in an area."""
+        return [each[area.contains(*each.T)] for each in self.rivers]
+
+    def levels(self, number: int) -> Levels | None:
+        """Return what tells the level of a polygon of water; None without ground on its border."""
+        border = self.borders[number][:, :2]
+        heights = self.shore.at(border)
+        if np.isnan(heights).all():
+            return None
+        line = np.concatenate([np.zeros((0, 2)), *self.lines_in(area_of(self.waters[number]))])
+        if len(line) > 1:
+            return lambda places: falling(line, border, heights, places, _LEVEL)
+        level = np.nanpercentile(heights, _LEVEL)
+        return lambda places: np.full(len(places), level)
+
+
+def area_of(polygon: Polygon) -> Area:
+    """Return a polygon of water as an area."""
+    return Area(None, (tuple(ring[:, :2] for ring in polygon),))
 
 
 def parts_of(files: Sequence[LasFile], progress: Progress = SILENT) -> Iterator[PointCloud]:
@@ -180,32 +242,20 @@ def _along_breaklines(
         )
 
 
-def _flattened(
-    waters: Sequence[Polygon],
-    borders: Sequence[np.ndarray],
-    rivers: Sequence[np.ndarray],
-    ground: NearestHeights,
-    progress: Progress,
-) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+def _flattened(given: GivenTerrain, progress: Progress) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Yield the vertices of each water polygon, on its border and inside."""
     dry = 0
-    for polygon, border in zip(waters, borders):
-        heights = ground.at(border[:, :2])
-        if np.isnan(heights).all():
+    for number, (polygon, border) in enumerate(zip(given.waters, given.borders)):
+        levels = given.levels(number)
+        if levels is None:
             dry += 1
             yield np.zeros((0, 3)), np.zeros((0, 3))
             continue
-        area = Area(None, (tuple(ring[:, :2] for ring in polygon),))
+        area = area_of(polygon)
         inside = inside_grid(area.bounds, _INSIDE)
         inside = inside[area.contains(*inside.T)]
         places = np.concatenate((border[:, :2], inside))
-        levels = np.full(len(places), np.nanpercentile(heights, _LEVEL))
-        line = np.concatenate(
-            [np.zeros((0, 2)), *(each[area.contains(*each.T)] for each in rivers)]
-        )
-        if len(line) > 1:
-            levels = falling(line, border[:, :2], heights, places, _LEVEL)
-        vertices = np.column_stack((places, levels))
+        vertices = np.column_stack((places, levels(places)))
         yield vertices[: len(border)], vertices[len(border) :]
     if dry:
         progress.warning(

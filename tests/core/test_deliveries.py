@@ -39,6 +39,7 @@ from bare_earth.algorithms.delivery.deliveries import DELIVERIES
 from bare_earth.algorithms.grids.lines import along
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.survey.area import Area
+from bare_earth.algorithms.survey.vector_files import read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc
 
 pyproj = pytest.importorskip("pyproj")
@@ -651,3 +652,91 @@ def test_records_of_many_files_are_not_among_the_points(scene, tmp_path):
     deliver(scene[1], target, how)
     assert os.listdir(target / "points") == ["whole.laz"]
     assert not (target / ".bare-earth").exists()
+
+
+def square(west, south, east, north):
+    corners = np.array([(west, south), (east, south), (east, north), (west, north)])
+    return (np.add(corners, (EAST, NORTH)),)
+
+
+def features(path):
+    """Return the values of the fields, and the coordinates of each feature."""
+    known, _, _, columns = pytest.importorskip("pyogrio").raw.read(path)
+    rows = [dict(zip(known["fields"].tolist(), each)) for each in zip(*columns)]
+    assert known["crs"] == "EPSG:25832"
+    is_water = Path(path).stem == "water"
+    shapes = [each[0] for each in read_boundary(path)] if is_water else read_lines(path)
+    return [(row, at) for row, at in zip(rows, shapes, strict=True)]
+
+
+def line(*corners):
+    return np.add(corners, (EAST, NORTH, 0.0))
+
+
+@pytest.mark.parametrize("is_one", [True, False])
+def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp_path, is_one):
+    # A lake, a river across both files, water without ground near it; a dyke, and an edge.
+    lake, river = square(96.0, 25.0, 136.0, 65.0), square(60.0, 3.0, 90.0, 9.0)
+    along_river = line((91.0, 6.0, np.nan), (58.0, 6.0, np.nan))
+    dyke = line((5.0, 45.0, 107.0), (12.0, 45.0, 107.5))
+    edge = line((55.0, 50.0, np.nan), (75.0, 50.0, np.nan))
+    known = Constraints(
+        water=(lake, river, square(400.0, 0.0, 410.0, 10.0)), rivers=(along_river,),
+        breaklines=(dyke, edge),
+    )  # fmt: skip
+    how = DeliveryRequest(
+        delivery="flood", options=DeliveryOptions(hold_out_share=None), constraints=known
+    )
+    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", how)
+    assert {"water", "breaklines"} <= summary.layers.keys()
+    polygons = features(summary.layers["water"])
+    assert [row["KIND"] for row, _ in polygons] == ["lake", "river", "lake"]
+    assert {row["GRADE"] for row, _ in polygons} == {"given"}
+    assert [row["AREA"] for row, _ in polygons] == [1600.0, 180.0, 100.0]
+    assert np.isnan([polygons[2][0]["LEVEL"], polygons[0][0]["SPREAD"]]).all()
+    for (_, at), given in zip(polygons, known.water):
+        assert np.allclose(at[:4], given[0])
+    lines = features(summary.layers["breaklines"])
+    names = [(row["ID"], row["KIND"]) for row, _ in lines]
+    assert names == [
+        (1, "shore"), (2, "shore"), (2, "river"),
+        (1, "breakline"), (2, "breakline"), (2, "breakline"),
+    ]  # fmt: skip
+    # Their heights are those of the terrain model; the level of a lake is one.
+    level = polygons[0][0]["LEVEL"]
+    dtm = heights(tmp_path / "out" / "dtm.tif")
+    rows, columns = np.floor((DEPTH - 45.0, 116.0)).astype(int)
+    assert dtm[rows, columns] == pytest.approx(level, abs=0.002)
+    assert np.allclose(lines[0][1][:, 2], level, atol=0.001)
+    x, y, z = (lines[2][1] - (EAST, NORTH, 0.0)).T
+    assert (np.diff(z) <= 0).all() and polygons[1][0]["LEVEL"] >= polygons[1][0]["LEVEL_LOW"]
+    inside = (x > 62.0) & (x < 88.0)
+    rows, columns = (DEPTH - y[inside]).astype(int), x[inside].astype(int)
+    assert np.allclose(dtm[rows, columns], z[inside], atol=0.02) and inside.sum() >= 4
+    assert np.allclose(lines[3][1], dyke)
+    for _, at in lines[4:]:
+        assert len(at) == 5 and np.allclose(at[:, 2], 104.0, atol=0.15)
+    # The polygons can be used again.
+    again = Constraints(water=tuple(read_boundary(summary.layers["water"])[:2]))
+    files = files_of(tmp_path / "out")
+    assert {"water.gpkg", "breaklines.gpkg"} <= files
+    page = (tmp_path / "out" / "index.html").read_text("utf-8")
+    assert 'href="water.gpkg"' in page and 'href="breaklines.gpkg"' in page
+    second = deliver(scene[1], tmp_path / "again", replace(how, constraints=again))
+    (row, _), *_ = features(second.layers["water"])
+    assert row["LEVEL"] == pytest.approx(level, abs=0.02)
+
+
+def test_breaklines_of_the_user_are_delivered_beside_water_that_was_found(scene, tmp_path):
+    dyke = line((5.0, 45.0, 107.0), (12.0, 45.0, 107.5))
+    small = DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="flood", options=small, constraints=Constraints((dyke,)))
+    summary = deliver(scene[1], tmp_path / "out", how)
+    (row, _), *others = features(summary.layers["water"])
+    assert row["GRADE"] != "given" and not others
+    kinds = [row["KIND"] for row, _ in features(summary.layers["breaklines"])]
+    assert kinds == ["shore", "breakline"]
+    # Where no water is wanted, the lines are delivered all the same.
+    how = replace(how, delivery="drone-site")
+    summary = deliver(scene[1], tmp_path / "site", how)
+    assert "water" not in summary.layers and len(features(summary.layers["breaklines"])) == 1
