@@ -53,6 +53,7 @@ class Accuracy(ParameterSet):
         unit="m",
         minimum=0.0,
         maximum=10.0,
+        advanced=True,
         help="RMSE of the heights of the checkpoints themselves, as their survey states it. The"
         " standard adds it to that of the data: square root of the sum of the squares.",
     )
