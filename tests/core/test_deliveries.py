@@ -21,6 +21,7 @@ from bare_earth.algorithms import (
     DeliveryOptions,
     DeliveryRequest,
     DeliveryTerrain,
+    DeliveryWater,
     RasterFiles,
     Selection,
     TerrainModel,
@@ -740,3 +741,14 @@ def test_breaklines_of_the_user_are_delivered_beside_water_that_was_found(scene,
     how = replace(how, delivery="drone-site")
     summary = deliver(scene[1], tmp_path / "site", how)
     assert "water" not in summary.layers and len(features(summary.layers["breaklines"])) == 1
+
+
+def test_sizes_of_water_that_are_given_count_and_others_are_those_of_the_delivery():
+    def wanted(name, **values):
+        water = DeliveryRequest(delivery=name, water=DeliveryWater(**values)).water_wanted
+        return None if water is None else (water.min_area, water.min_width, water.water_cell)
+
+    assert wanted("survey") == (8000.0, 30.0, None) and wanted("forestry", min_area=900.0) is None
+    assert wanted("flood") == (1000.0, 5.0, None)
+    # Also a size that is usual elsewhere.
+    assert wanted("flood", min_area=8000.0, water_cell=2.0) == (8000.0, 5.0, 2.0)
