@@ -15,10 +15,11 @@ from ..engine.workers import Workers
 from ..products.page import Units
 from ..survey.files import Survey, is_one_file, open_survey
 from ..survey.shapes import Place
-from .folder import PAGE, DeliveryFolder
+from .folder import CHANGES, PAGE, DeliveryFolder
+from .heard import Heard
 from .page import cell_text, delivery_html, settings_of
 from .request import DeliveryRequest
-from .steps import DeliverySteps, Heard, Made
+from .steps import DeliverySteps, Made
 from .summary import DeliverySummary
 
 
@@ -74,7 +75,8 @@ def deliver(
     # On the disk of the folder, so that outputs can be moved there.
     beside = place.path.parent if is_one else place.path
     with _left_in_order(place, is_one), temporary_folder(beside) as working:
-        heard = Heard(progress, {working: place.path, place.changed: place.points})
+        changed = {place.waiting / name: place.points for name in CHANGES}
+        heard = Heard(progress, {working: place.path, **changed})
         work = DeliveryFolder(working)
         steps = DeliverySteps(request, survey, paths, is_one, work, place, workers)
         try:

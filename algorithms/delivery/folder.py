@@ -17,7 +17,9 @@ from ..survey.files import is_cloud
 POINTS, QUALITY = "points", "quality"
 PAGE, RECORD = "index.html", "delivery.json"
 # Folder of files that further steps will read.
-_WAITING, _CHANGED = ".waiting", "water"
+_WAITING = ".waiting"
+# Folders in it, of classified files that a step changed.
+CHANGES = WATER, KEY_POINTS = "water", "key-points"
 # The lock in the folder of records, see `alone_in`.
 _LOCK = "lock"
 
@@ -43,11 +45,6 @@ class DeliveryFolder:
     def waiting(self) -> Path:
         """The folder of files that further steps will read."""
         return self.path / _WAITING
-
-    @property
-    def changed(self) -> Path:
-        """The folder of classified files with classes of water, until all outputs are done."""
-        return self.waiting / _CHANGED
 
     @property
     def _places_of_records(self) -> tuple[Path, Path]:
@@ -115,19 +112,20 @@ class DeliveryFolder:
         Parameters
         ----------
         made : sequence of Path
-            Files in `changed`, which replace those of the same names in `points`.
+            Files in a folder of `CHANGES`, which replace those of the same names in `points`.
 
         Raises
         ------
         BareEarthError
             If the operating system refuses to write.
         """
-        names = [each.relative_to(self.changed) for each in made]
         try:
-            # The records first: after a crash, no file has a record that is not its own.
-            for name in sorted(names, key=lambda each: len(each.parts), reverse=True):
-                (self.points / name).parent.mkdir(parents=True, exist_ok=True)
-                os.replace(self.changed / name, self.points / name)
+            # The records first: after a crash, no changed file has the record of an unchanged one.
+            for each in sorted(made, key=lambda path: len(path.parts), reverse=True):
+                _, *parts = each.relative_to(self.waiting).parts
+                target = self.points.joinpath(*parts)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                os.replace(each, target)
         except OSError as error:
             raise describe_write_error(self.points, error) from error
         shutil.rmtree(self.waiting, ignore_errors=True)

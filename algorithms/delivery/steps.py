@@ -7,17 +7,17 @@ import shutil
 import time
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Callable, Mapping
+from typing import Any, Callable
 
 from ..core.errors import BareEarthError
 from ..core.files import split_name
-from ..core.progress import PassingOn, Progress
+from ..core.progress import Progress
 from ..engine.key_points import KeyPointMark
 from ..engine.manifest import folders_of
 from ..engine.one_file import Summary
 from ..engine.options import TileInput
 from ..engine.requests import KeyPointRequest, TerrainRequest, WaterClassRequest
-from ..engine.runs import classify, key_points, terrain, write
+from ..engine.runs import classify, terrain, write
 from ..engine.workers import Workers
 from ..products.checkpoint_outputs import CheckOutputs
 from ..products.checkpoint_results import Check
@@ -33,7 +33,7 @@ from ..products.water_files import SurveyWater, WaterRequest, WaterSummary
 from ..survey.files import Survey
 from ..survey.overview import overview_of
 from .deliveries import WITH_BUILDINGS
-from .folder import QUALITY, DeliveryFolder
+from .folder import KEY_POINTS, QUALITY, WATER, DeliveryFolder
 from .request import DeliveryRequest
 from .water import vector_format, write_water
 
@@ -42,51 +42,13 @@ _BUILDING = 6
 _FEET_A_METRE = 4.0
 
 
-class Heard(PassingOn):
-    """Passes on messages, each once, since several steps read the same files; keeps warnings.
-
-    Parameters
-    ----------
-    whole : Progress
-        Receives them.
-    folders : mapping of Path to Path
-        Messages name these folders in place of those that are temporary.
-    """
-
-    def __init__(self, whole: Progress, folders: Mapping[Path, Path]) -> None:
-        super().__init__(whole)
-        self.warnings: list[str] = []
-        self._said: set[str] = set()
-        self._folders = folders
-
-    def info(self, text: str) -> None:
-        """Pass on a message."""
-        for each in self._new(text):
-            super().info(each)
-
-    def choice(self, text: str) -> None:
-        """Pass on a choice."""
-        for each in self._new(text):
-            super().choice(each)
-
-    def warning(self, text: str) -> None:
-        """Pass on a warning, and keep it."""
-        for each in self._new(text):
-            self.warnings.append(each)
-            super().warning(each)
-
-    def _new(self, text: str) -> list[str]:
-        """Return a message as it is to be read, or nothing if it was passed on before."""
-        for temporary, folder in self._folders.items():
-            text = text.replace(str(temporary), str(folder))
-        is_new = text not in self._said
-        self._said.add(text)
-        return [text] if is_new else []
-
-
 @dataclass
 class Made:
-    """What the steps have made so far; `cloud` is None before the points are classified."""
+    """What the steps have made so far; `cloud` is None before the points are classified.
+
+    `changed` is the list of many files that take the places of `files` at the end, and `waiting`
+    are these.
+    """
 
     cloud: Path | None = None
     point_count: int = 0
@@ -94,6 +56,7 @@ class Made:
     class_counts: dict[int, int] = field(default_factory=dict)
     failures: dict[str, str] = field(default_factory=dict)
     files: list[Path] = field(default_factory=list)
+    changed: Path | None = None
     waiting: list[Path] = field(default_factory=list)
     layers: dict[str, Path] = field(default_factory=dict)
     cell_size: float = 1.0
@@ -144,7 +107,8 @@ class DeliverySteps:
         has_check = options.hold_out_share is not None or self.request.checkpoints is not None
         named: list[tuple[str, float, Callable[[Progress], None]]] = [
             ("classes", 6.0, self._classify),
-            ("water", 2.0 * (content.water is not None), self._flood),
+            ("water", 2.0 * (content.water is not None), self._water),
+            ("key points", 2.0 * options.key_points, self._mark),
             ("quality", 2.0, self._measure),
             ("rasters", 2.0 + 0.4 * len(content.rasters), self._draw),
             ("contour lines", 0.3 * content.contours, self._trace),
@@ -164,29 +128,21 @@ class DeliverySteps:
         """The points that further steps read."""
         if self.made.cloud is None:
             raise BareEarthError("The points are not classified yet.")
-        waits = self.folder.changed / self.made.cloud.name
-        return waits if waits in self.made.waiting else self.made.cloud
+        return self.made.changed or self.made.cloud
 
     def _classify(self, progress: Progress) -> None:
-        """Classify the points, and mark key points, as the delivery asks."""
-        ways: list[Callable[..., Any]] = [self._classified]
-        if self.request.options.key_points:
-            ways.append(self._with_key_points)
-        sources, made = list(self.sources), self.made
-        for number, (way, part) in enumerate(zip(ways, progress.shares(3.0, 1.0)), 1):
-            is_last = number == len(ways)
-            place = self._points if is_last else self._waiting / str(number)
-            place.mkdir(parents=True, exist_ok=True)
-            done = way(sources, self._target(place, is_last), is_last, part)
-            if self.is_one:
-                made.cloud = self._target(place, is_last)
-                sources = [made.cloud]
-            else:
-                made.cloud, sources = Path(done.vpc), [Path(done.vpc)]
-                made.failures |= done.failures
-            made.point_count, made.ground_count = _counts_of(done)
-            made.class_counts = done.class_counts or made.class_counts
-        made.files = [self._cloud] if self.is_one else _files_of(done)
+        """Classify the points, and add their heights, as the delivery asks."""
+        made, target = self.made, self._target
+        (target.parent if self.is_one else target).mkdir(parents=True, exist_ok=True)
+        how = self.request.classify
+        as_survey = not self.is_one
+        done = classify(self.sources, target, how, progress, self.workers, as_survey=as_survey)
+        made.cloud = target if self.is_one else Path(done.vpc)
+        made.files = [target] if self.is_one else _files_of(done)
+        if not self.is_one:
+            made.failures |= done.failures
+        made.point_count, made.ground_count = _counts_of(done)
+        made.class_counts = done.class_counts
 
     @property
     def _points(self) -> Path:
@@ -194,41 +150,20 @@ class DeliverySteps:
         return (self.work if self.is_one else self.folder).points
 
     @property
-    def _waiting(self) -> Path:
-        """The folder of files for further steps, which is removed at the end."""
-        return (self.work if self.is_one else self.folder).waiting
-
-    def _target(self, place: Path, is_last: bool) -> Path:
-        """Return the output of a step: a file, or the folder of many."""
+    def _target(self) -> Path:
+        """The classified points: a file, or the folder of many."""
         if not self.is_one:
-            return place
+            return self._points
         source, kind = self.sources[0], self.request.tiles.format
-        if kind == "same" or not is_last:
-            return place / source.name
-        return place / f"{split_name(source)[0]}.{kind}"
+        name = source.name if kind == "same" else f"{split_name(source)[0]}.{kind}"
+        return self._points / name
 
-    def _classified(
-        self, sources: list[Path], target: Path, is_last: bool, progress: Progress
-    ) -> Any:
-        how = replace(self.request.classify, tiles=self._tiles(is_last))
-        return classify(sources, target, how, progress, self.workers, as_survey=not self.is_one)
-
-    def _with_key_points(
-        self, sources: list[Path], target: Path, is_last: bool, progress: Progress
-    ) -> Any:
-        mark = KeyPointMark(mark_as="flag")
-        how = KeyPointRequest(ground=self.request.ground, mark=mark, **self._further(is_last))
-        return key_points(sources, target, how, progress, self.workers, not self.is_one)
-
-    def _tiles(self, is_last: bool) -> Any:
-        tiles = self.request.tiles
-        return tiles if is_last else replace(tiles, format="same", overview=False)
-
-    def _further(self, is_last: bool) -> dict[str, Any]:
-        """Return the options of a step that reads the outputs of another."""
+    @property
+    def _further(self) -> dict[str, Any]:
+        """The options of a step that reads the classified points."""
         request = self.request
         return {
-            "files": TileInput(), "tiles": self._tiles(is_last), "resources": request.resources,
+            "files": TileInput(), "tiles": request.tiles, "resources": request.resources,
             "crs": request.crs,
         }  # fmt: skip
 
@@ -254,7 +189,7 @@ class DeliverySteps:
             made.quality.ground_density, request.specification
         )
 
-    def _flood(self, progress: Progress) -> None:
+    def _water(self, progress: Progress) -> None:
         """Find the water, and give classes to the ground in it and beside its shore."""
         first, second = progress.shares(1.0, 1.0)
         self._find_water(first)
@@ -263,32 +198,41 @@ class DeliverySteps:
             return
         asked = WaterClassRequest(
             parameters=how, ground=self.request.ground, water=WaterPolygons(known.water),
-            **self._further(True),
+            **self._further,
         )  # fmt: skip
-        if self.is_one:
-            target = self.work.waiting / self._cloud.name
-            target.parent.mkdir(exist_ok=True)
-            done = write([self._cloud], target, asked, second)
-            os.replace(target, self._cloud)
-        else:
-            done = self._write_changed(asked, second)
+        done = self._change(asked, WATER, second)
         self.made.class_counts = done.class_counts
         self.made.ground_count = done.class_counts.get(self.request.selection.to_class, 0)
 
-    def _write_changed(self, how: WaterClassRequest, progress: Progress) -> Any:
-        """Write many files with classes of water; they take their places at the end.
+    def _mark(self, progress: Progress) -> None:
+        """Mark the key points: among the ground that water and its shore leave."""
+        mark = KeyPointMark(mark_as="flag")
+        how = KeyPointRequest(ground=self.request.ground, mark=mark, **self._further)
+        self._change(how, KEY_POINTS, progress)
 
-        Until then the classified ones stay, so that a run can be continued.
+    def _change(
+        self, how: WaterClassRequest | KeyPointRequest, name: str, progress: Progress
+    ) -> Any:
+        """Change the classified points. Many files stay as they are until all outputs are made.
+
+        So a run can be continued. The changed ones wait in a folder with the name.
         """
-        target, source = self.folder.changed, self._cloud
+        source = self._cloud
+        if self.is_one:
+            target = self.work.waiting / source.name
+            target.parent.mkdir(exist_ok=True)
+            done = write([source], target, how, progress)
+            os.replace(target, source)
+            return done
+        target = self.folder.waiting / name
         if not how.tiles.resume:
             shutil.rmtree(target, ignore_errors=True)
         target.parent.mkdir(exist_ok=True)
         vpc = target / source.name
         done = write([source], target, how, progress, self.workers, True, vpc)
         for path, why in done.failures.items():
-            raise BareEarthError(f"{path} got no classes of water. {why}")
-        self.made.waiting = _files_of(done)
+            raise BareEarthError(f"{path} cannot be changed. {why}")
+        self.made.changed, self.made.waiting = vpc, _files_of(done)
         moved = (self._points / each.relative_to(target) for each in self.made.waiting)
         self.made.files = sorted({*self.made.files, *moved})
         return done

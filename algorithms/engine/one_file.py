@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Iterable
 
 import numpy as np
 
@@ -174,12 +174,8 @@ def classify_file(
         waiting, heights = dict(zip(products, stores)), None
         # All outputs or none: the rasters get their names after the cloud is written.
         if "rasters" in products:
-            part, writing = drawing.shares(4.0, 1.0)
-            frame = survey_frame(points.cloud.crs, products["rasters"].origin)
             parts = (result.part(*each) for each in points.parts())
-            drawn = products["rasters"].seeing(parts, frame, progress)
-            made = drawn.work(waiting["rasters"], points.resources, part)
-            write_rasters(made, frame, drawn, outputs, writing)
+            _draw(products["rasters"], points, parts, waiting["rasters"], outputs, drawing)
         if "heights" in products:
             heights = _worked(points, products["heights"], waiting["heights"], measuring).heights
         if "above" in products:
@@ -209,6 +205,22 @@ def _placed(step: MakeRasters, las: LasFile, progress: Progress) -> MakeRasters:
     crs, box = read_crs(las), las.outer_box if las.states_extent else None
     require_measurable(las.path, crs, box)
     return step.placed(crs, box, progress)
+
+
+def _draw(
+    step: MakeRasters,
+    points: FilePoints,
+    parts: Iterable[PointCloud],
+    store: Any,
+    outputs: contextlib.ExitStack,
+    progress: Progress,
+) -> RasterSize:
+    """Make the rasters of the points of a store; `parts` are all points, with their classes."""
+    drawing, writing = progress.shares(4.0, 1.0)
+    frame = survey_frame(points.cloud.crs, step.origin)
+    step = step.seeing(parts, frame, progress)
+    made = step.work(store, points.resources, drawing)
+    return write_rasters(made, frame, step, outputs, writing)
 
 
 def _worked(points: FilePoints, step: PointStep, store: Any, progress: Progress) -> Any:
@@ -305,10 +317,8 @@ def rasters_of_file(
         (step,) = located([step], points.place, progress)
         parts = points.parts(progress.part(0.1, 0.13))
         (store,) = points.gathered([(step, step.counts())], parts, progress.part(0.13, 0.15))
-        frame = survey_frame(points.cloud.crs, step.origin)
-        step = step.seeing((part for _, part in points.parts()), frame, progress)
-        made = step.work(store, points.resources, progress.part(0.15, 0.9))
-        return write_rasters(made, frame, step, outputs, progress.part(0.9, 1.0))
+        parts = (part for _, part in points.parts())
+        return _draw(step, points, parts, store, outputs, progress.part(0.15, 1.0))
 
 
 def _checked(

@@ -288,6 +288,20 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
     assert {f"points/{Path(summary.cloud).name}"} <= set(record["files"])
 
 
+@pytest.mark.parametrize("is_one", [True, False])
+def test_key_points_are_among_the_ground_that_water_leaves(scene, tmp_path, is_one):
+    options = DeliveryOptions(hold_out_share=None, key_points=True)
+    how = DeliveryRequest(options=options, constraints=given_water(0.71)[0])
+    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", how)
+    clouds = [laspy.read(each) for each in (tmp_path / "out" / "points").glob("*.laz")]
+    marked = [np.asarray(each.classification)[np.asarray(each.key_point) == 1] for each in clouds]
+    assert set(np.concatenate(marked)) == {2} and all(map(len, marked))
+    assert {9, 20} <= summary.class_counts.keys() and not list((tmp_path / "out").glob(".w*"))
+    names = {"classified.vpc", "east.laz", "west.laz"}
+    written = {each.name for each in (tmp_path / "out" / "points").iterdir()}
+    assert written == ({"whole.laz"} if is_one else names)
+
+
 def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scene, tmp_path):
     water, _ = given_water(0.71)
     how = DeliveryRequest(
@@ -447,11 +461,15 @@ def classes_of(folder):
     return {each.name: np.asarray(laspy.read(each).classification) for each in files}
 
 
+@pytest.mark.parametrize("has_key_points", [False, True])
 @pytest.mark.parametrize("count", [1, 2])
-def test_files_with_classes_of_water_can_be_continued_after_a_cancel(scene, tmp_path, count):
+def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
+    scene, tmp_path, count, has_key_points
+):
     target = tmp_path / "out"
     how = DeliveryRequest(
-        options=DeliveryOptions(hold_out_share=None), constraints=given_water(0.71)[0]
+        options=DeliveryOptions(hold_out_share=None, key_points=has_key_points),
+        constraints=given_water(0.71)[0],
     )
     with pytest.raises(FinishedFilesStay):
         deliver(scene[2], target, how, StopsAfter(target, count))
