@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .delivery.request import DeliveryOptions as DeliveryOptions
     from .delivery.request import DeliveryRequest as DeliveryRequest
     from .delivery.request import DeliveryTerrain as DeliveryTerrain
+    from .delivery.request import DeliveryWater as DeliveryWater
     from .engine.heights import HeightOutput as HeightOutput
     from .engine.key_points import KeyPointMark as KeyPointMark
     from .engine.memory import Resources as Resources
@@ -92,6 +93,7 @@ _MODULES = {
     "DeliveryOptions": "delivery.request",
     "DeliveryRequest": "delivery.request",
     "DeliveryTerrain": "delivery.request",
+    "DeliveryWater": "delivery.request",
     "HeightOutput": "engine.heights",
     "KeyPointMark": "engine.key_points",
     "Resources": "engine.memory",

@@ -12,6 +12,20 @@ from .options import UsageError, add_crs, add_inputs, add_json, add_parameters, 
 from .terminal import Terminal
 
 
+def add_columns(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say how checkpoints are read."""
+    parser.add_argument(
+        "--columns", metavar="x=E,y=N,z=H,cover=Class,name=ID",
+        help="the columns or attributes of the checkpoints, by name or by number from 1 on; those"
+        " that are not given are recognised by their names",
+    )  # fmt: skip
+    parser.add_argument(
+        "--checkpoints-crs", metavar="CRS",
+        help="the CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file"
+        " states, or the CRS of the points",
+    )  # fmt: skip
+
+
 def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..products.accuracy import VEGETATED, Accuracy
     from ..products.checkpoints import CheckOptions
@@ -24,16 +38,7 @@ def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Non
     parser.add_argument(
         "--checkpoints", metavar="FILE", help=f"points that were surveyed on the ground ({FORMATS})"
     )
-    parser.add_argument(
-        "--columns", metavar="x=E,y=N,z=H,cover=Class,name=ID",
-        help="the columns or attributes of the checkpoints, by name or by number from 1 on; those"
-        " that are not given are recognised by their names",
-    )  # fmt: skip
-    parser.add_argument(
-        "--checkpoints-crs", metavar="CRS",
-        help="the CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file"
-        " states, or the CRS of the points",
-    )  # fmt: skip
+    add_columns(parser)
     parser.add_argument(
         "--vegetated", metavar="WORD", nargs="+", default=VEGETATED,
         help="land covers with a word that begins or ends so are vegetated (default:"

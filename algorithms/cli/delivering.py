@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 from typing import Sequence
 
+from .checking import add_columns
 from .classifying import add_method
 from .command import DONE, FAILED, Command
 from .options import KEPT, add_crs, add_inputs, add_json, add_parameters, chosen
@@ -25,13 +26,12 @@ from .terminal import Terminal
 
 def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..delivery.deliveries import DELIVERIES
-    from ..delivery.request import DeliveryOptions, DeliveryTerrain
+    from ..delivery.request import DeliveryOptions, DeliveryTerrain, DeliveryWater
     from ..engine.memory import Resources
     from ..engine.options import TileInput, TileOutput
     from ..products.accuracy import Accuracy
     from ..products.contours import Contours
     from ..products.surface_model import SurfaceModel
-    from ..products.water import Water
     from ..survey.checkpoint_files import FORMATS
     from ..survey.selection import Selection
 
@@ -48,6 +48,7 @@ def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
         "--checkpoints", metavar="FILE",
         help=f"points that were surveyed on the ground ({FORMATS}); see 'bare-earth check'",
     )  # fmt: skip
+    add_columns(parser)
     parser.add_argument(
         "--corrections", metavar="FILE", type=Path,
         help="polygons in which you know the class; see 'bare-earth classify'",
@@ -60,7 +61,7 @@ def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     add_json(parser, "the figures ")
     add_parameters(
         parser, method.parameters, DeliveryOptions, Selection, DeliveryTerrain, SurfaceModel,
-        Contours, Water, Accuracy, TileInput, TileOutput, Resources,
+        Contours, DeliveryWater, Accuracy, TileInput, TileOutput, Resources,
         titles=(
             f"{method.label} parameters", "Delivery", "Which points, which classes",
             "Terrain model", "Surface model and gaps", "Contour lines", "Water",
@@ -77,7 +78,9 @@ def _deliver(options: argparse.Namespace) -> int:
     from ..survey.vector_files import read_corrections
 
     corrections = options.corrections and read_corrections(options.corrections)
-    points = options.checkpoints and read_checkpoints(options.checkpoints)
+    points = options.checkpoints and read_checkpoints(
+        options.checkpoints, options.columns, options.checkpoints_crs
+    )
     request = DeliveryRequest.of(
         chosen(options), delivery=options.delivery, checkpoints=points, crs=options.crs,
         corrections=corrections or NO_CORRECTIONS, area=area_of(options),
@@ -87,7 +90,10 @@ def _deliver(options: argparse.Namespace) -> int:
     workers = workers_of(options, request.resources)
     with Terminal(options.verbose) as progress:
         done = deliver(options.input, options.output, request, progress, workers)
-    print(json.dumps(done.as_dict()) if options.json else f"{options.output}: {done.text}")
+    if options.json:
+        print(json.dumps(done.as_dict()))
+    else:
+        print("\n".join([f"{options.output}: {done.text}", *done.lines()]))
     return FAILED if done.failures else DONE
 
 

@@ -12,11 +12,12 @@ from ..core.files import temporary_folder
 from ..core.progress import SILENT, Progress
 from ..core.version import __version__
 from ..engine.workers import Workers
+from ..products.page import Units
 from ..survey.files import Survey, is_one_file, open_survey
 from ..survey.shapes import Place
 from .folder import CHANGES, PAGE, DeliveryFolder
 from .heard import Heard
-from .page import delivery_html, settings_of
+from .page import cell_text, delivery_html, settings_of
 from .request import DeliveryRequest
 from .steps import DeliverySteps, Made
 from .summary import DeliverySummary
@@ -85,7 +86,7 @@ def deliver(
         made.warnings = heard.warnings
         page = delivery_html(request, made, survey, working)
         (working / PAGE).write_text(page, encoding="utf-8")
-        summary = _summary(request, made, working, place.path)
+        summary = _summary(request, made, survey, working, place.path)
         heard(1.0)  # the last moment to cancel
         place.settle(made.waiting)
         place.take(working, _record(request, made, place.path))
@@ -122,9 +123,12 @@ def _moved(path: Path, working: Path, folder: Path) -> Path:
     return folder / path.relative_to(working) if working in path.parents else path
 
 
-def _summary(request: DeliveryRequest, made: Made, working: Path, folder: Path) -> DeliverySummary:
+def _summary(
+    request: DeliveryRequest, made: Made, survey: Survey, working: Path, folder: Path
+) -> DeliverySummary:
     if made.cloud is None or made.quality is None:
         raise BareEarthError("The delivery is not complete.")
+    units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
     return DeliverySummary(
         folder=str(folder),
         delivery=request.delivery,
@@ -135,6 +139,7 @@ def _summary(request: DeliveryRequest, made: Made, working: Path, folder: Path) 
         ground_count=made.ground_count,
         class_counts=made.class_counts,
         cell_size=made.cell_size,
+        cell_text=cell_text(request, made, units),
         failures=made.failures,
         warnings=made.warnings,
         seconds={name: round(took, 2) for name, took in made.seconds.items()},
@@ -147,8 +152,9 @@ def _summary(request: DeliveryRequest, made: Made, working: Path, folder: Path) 
 
 def _record(request: DeliveryRequest, made: Made, folder: Path) -> dict[str, object]:
     """Return what is said of a delivery beside its files."""
-    # The points of many files are in the folder already.
-    there = [each for each in made.files if folder in each.parents and each.is_file()]
+    # The points of many files are in the folder already. Their records are no part of a delivery.
+    points = DeliveryFolder(folder).points
+    there = [each for each in made.files if each.parent == points and each.is_file()]
     return {
         "delivery": request.delivery,
         "version": __version__,

@@ -11,6 +11,7 @@ from typing import Any, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import check_output, describe_write_error, replacing
+from ..engine.manifest import folders_of
 from ..survey.files import is_cloud
 
 POINTS, QUALITY = "points", "quality"
@@ -19,6 +20,8 @@ PAGE, RECORD = "index.html", "delivery.json"
 _WAITING = ".waiting"
 # Folders in it, of classified files that a step changed.
 CHANGES = WATER, KEY_POINTS = "water", "key-points"
+# The lock in the folder of records, see `alone_in`.
+_LOCK = "lock"
 
 
 class DeliveryFolder:
@@ -42,6 +45,15 @@ class DeliveryFolder:
     def waiting(self) -> Path:
         """The folder of files that further steps will read."""
         return self.path / _WAITING
+
+    @property
+    def _places_of_records(self) -> tuple[Path, Path]:
+        """Where a run has the records of many files, and where a finished delivery has them.
+
+        Whoever receives the points has no use for these.
+        """
+        during = folders_of(self.points)[1]
+        return during, self.path / during.name
 
     @property
     def record(self) -> dict[str, Any] | None:
@@ -83,9 +95,13 @@ class DeliveryFolder:
     def begin(self, delivery: str) -> None:
         """Make the folder for files that are finished one by one, and say that more will follow."""
         files = self._files
+        during, after = self._places_of_records
         try:
             self.path.mkdir(exist_ok=True)
             (self.path / PAGE).unlink(missing_ok=True)
+            if after.is_dir() and not during.exists():
+                self.points.mkdir(exist_ok=True)
+                os.replace(after, during)
         except OSError as error:
             raise describe_write_error(self.path, error) from error
         self._write({"delivery": delivery, "is_finished": False, "files": files})
@@ -155,10 +171,21 @@ class DeliveryFolder:
             kept = {*names, *record.get("files", ())}
             for name in set(old) - kept:
                 (self.path / name).unlink(missing_ok=True)
+            self._put_records_away(is_one=(made / POINTS).is_dir())
             self._remove_empty({Path(name).parent for name in old})
         except OSError as error:
             raise describe_write_error(self.path, error) from error
         self._write({**record, "is_finished": True, "files": sorted(kept)})
+
+    def _put_records_away(self, is_one: bool) -> None:
+        """Move the records of many files out of the points, and remove those of other files."""
+        during, after = self._places_of_records
+        shutil.rmtree(after, ignore_errors=True)
+        if is_one:
+            shutil.rmtree(during, ignore_errors=True)
+        elif during.is_dir():
+            (during / _LOCK).unlink(missing_ok=True)
+            os.replace(during, after)
 
     @property
     def _files(self) -> list[str]:

@@ -12,7 +12,7 @@ from ..filters import method_of
 from ..las.class_names import named_class
 from ..products.accuracy import Figures
 from ..products.page import Units, map_figure, page_html, text
-from ..products.quality_figures import FAIL, LOOK
+from ..products.quality_figures import FAIL
 from ..products.quality_rasters import QUALITY_RASTERS
 from ..products.raster_files import RASTERS
 from ..survey.files import Survey
@@ -32,7 +32,8 @@ _ABOUT = {
     "contours": "Contour lines; the field ELEV has the height, INDEX is 1 for every fifth line.",
     "water": "Lakes and rivers as polygons, with their level, the spread of their shore and a grade"
     " of certainty. They are flat in the terrain model.",
-    "breaklines": "Shores, islands and the middles of rivers, with heights.",
+    "breaklines": "Shores, islands and the middles of rivers, and breaklines that were given; with"
+    " heights.",
     "checkpoints": "The checkpoints, with the errors of the ground points and the terrain model.",
     "quality.html": "Densities, voids, strips and classes of the survey, and the comparison with"
     " the specification.",
@@ -92,15 +93,19 @@ def _figures(request: DeliveryRequest, made: Made, survey: Survey, units: Units)
         for name, density in zip(("First returns", "Ground points"), densities):
             shown = "none" if density is None else f"{density:.2f}"
             rows.append((f"{name} in a square metre", shown))
-    model = request.terrain_with(made.cell_size)
-    size = model.cell_metres(units.horizontal)
-    rows.append(("Cell size of the terrain model", text(units.length(size))))
+    rows.append(("Cell size of the terrain model", text(cell_text(request, made, units))))
     if made.interval is not None:
         rows.append(("Contour interval", text(made.interval.text())))
     if made.water is not None:
         rows.append(("Water", text(made.water.text)))
     rows += _accuracy(made)
     return f"<h2>In figures</h2>\n{_table(rows)}\n{_comparison(made)}"
+
+
+def cell_text(request: DeliveryRequest, made: Made, units: Units) -> str:
+    """Return the cell size of the terrain model in words."""
+    size = request.terrain_with(made.cell_size).cell_metres(units.horizontal)
+    return units.length(size)
 
 
 def _accuracy(made: Made) -> list[tuple[str, str]]:
@@ -118,11 +123,7 @@ def _accuracy(made: Made) -> list[tuple[str, str]]:
             "Ground points held out": held.all, "Held out, open land": held.open,
             "Held out, under trees": held.under_trees, "Held out, steep": held.steep,
         }  # fmt: skip
-    told = [
-        (name, f"RMSE {each.total_rmse:.3f} m, mean {each.mean:+.3f} m, of {each.count:,}")
-        for name, each in rows.items()
-        if each is not None
-    ]
+    told = [(name, each.text) for name, each in rows.items() if each is not None]
     return told + ([("Statement", text(check.statement))] if check.statement else [])
 
 
@@ -130,7 +131,7 @@ def _comparison(made: Made) -> str:
     if made.quality is None or not made.quality.lines:
         return ""
     lines = made.quality.lines
-    failed = [each for each in lines if each.state in (FAIL, LOOK)]
+    failed = made.quality.left
     words = "No comparison fails." if made.quality.passes else "The survey does not meet it."
     rows = "".join(
         f'<tr><th class="text">{text(each.name)}</th><td class="text">{text(each.found)}</td>'
@@ -222,7 +223,7 @@ def _settings(request: DeliveryRequest, made: Made, survey: Survey) -> str:
 
 def settings_of(request: DeliveryRequest, cell_size: float) -> dict[str, dict[str, str]]:
     """Return what differs from the defaults, by the name of the step and of the parameter."""
-    how = request.classify(request.content.heights)
+    how = request.classify
     method = method_of(how.parameters).label
     sets: dict[str, ParameterSet] = {
         method: how.parameters,

@@ -66,14 +66,15 @@ class DeliveryOptions(ParameterSet):
             **{name: each.label for name, each in SPECIFICATIONS.items()},
         },
         advanced=True,
-        help="The specification with which the survey is compared. It also sets the cell size of"
+        help="The specification with which a delivery is compared. It also sets the cell size of"
         " the delivery for surveys, and the classes that it asks for.",
     )
     key_points: bool = parameter(
         False,
         label="Mark model key points",
         advanced=True,
-        help="Marks the ground points that a terrain model needs, by the key-point flag of LAS.",
+        help="Marks the ground points of a delivery that a terrain model needs, by the key-point"
+        " flag of LAS.",
     )
     hold_out_share: float | None = parameter(
         0.02,
@@ -83,8 +84,8 @@ class DeliveryOptions(ParameterSet):
         maximum=0.5,
         optional=True,
         advanced=True,
-        help="Leaves out so large a share of the ground points, and states how well the others"
-        " predict them. Empty: this is not measured.",
+        help="Leaves out so large a share of the ground points of a delivery, and states how well"
+        " the others predict them. Empty: this is not measured.",
     )
 
 
@@ -112,6 +113,34 @@ class DeliveryTerrain(MapTerrain):
 
 
 @dataclass(frozen=True)
+class DeliveryWater(Water):
+    """The same as for water, with sizes that can be left open."""
+
+    min_area: float | None = parameter_of(  # type: ignore[assignment]
+        Water,
+        "min_area",
+        label="Smallest water",
+        default=None,
+        optional=True,
+        advanced=True,
+        empty="as the delivery",
+        help="A delivery leaves out smaller water. Empty: 8,000 m² for a survey, 1,000 m² for a"
+        " flood model.",
+    )
+    min_width: float | None = parameter_of(  # type: ignore[assignment]
+        Water,
+        "min_width",
+        default=None,
+        optional=True,
+        advanced=True,
+        empty="as the delivery",
+        help="A delivery leaves out rivers that are narrower on average. Empty: 30 m for a survey,"
+        " 5 m for a flood model.",
+    )
+    water_cell: float | None = parameter_of(Water, "water_cell", label="Cell size of the water")
+
+
+@dataclass(frozen=True)
 class DeliveryRequest(Request):
     """A request for a delivery.
 
@@ -130,8 +159,8 @@ class DeliveryRequest(Request):
         Cell size, light and so on of the rasters. Defaults get the values of the delivery.
     contours : Contours
         How contour lines are drawn.
-    water : Water
-        Which water is found. Defaults get the values of the delivery.
+    water : DeliveryWater
+        Which water is found. Sizes that are None are those of the delivery.
     accuracy : Accuracy
         What the errors at checkpoints are compared with.
     checkpoints : Checkpoints or None
@@ -158,7 +187,7 @@ class DeliveryRequest(Request):
     terrain: DeliveryTerrain = field(default_factory=DeliveryTerrain)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     contours: Contours = field(default_factory=Contours)
-    water: Water = field(default_factory=Water)
+    water: DeliveryWater = field(default_factory=DeliveryWater)
     accuracy: Accuracy = field(default_factory=Accuracy)
     checkpoints: Checkpoints | None = None
     area: Area | None = None
@@ -202,8 +231,9 @@ class DeliveryRequest(Request):
         """How the quality is measured."""
         return QualityOptions(specification=self.specification)
 
-    def classify(self, with_heights: bool) -> ClassifyRequest:
-        """Return the request to classify; `with_heights`: in a run that also writes heights."""
+    @property
+    def classify(self) -> ClassifyRequest:
+        """The request to classify the points, and to add their heights if they are wanted."""
         return ClassifyRequest(
             files=self.files,
             tiles=self.tiles,
@@ -219,7 +249,9 @@ class DeliveryRequest(Request):
             area=self.area,
             corrections=self.corrections,
             above_ground=self.above_ground,
-            output=Output(area_only=self.area is not None, height_above_ground=with_heights),
+            output=Output(
+                area_only=self.area is not None, height_above_ground=self.content.heights
+            ),
         )
 
     def _method(self) -> ParameterSet:
@@ -239,7 +271,10 @@ class DeliveryRequest(Request):
     def water_wanted(self) -> Water | None:
         """Which water is found; None if none is looked for, as the user gives it."""
         values = self.content.water
-        return None if values is None or self.constraints.water else _or_else(self.water, values)
+        if values is None or self.constraints.water:
+            return None
+        given = {name: value for name, value in vars(self.water).items() if value is not None}
+        return Water(**{**values, **given})
 
     @property
     def water_classes(self) -> WaterClasses | None:

@@ -16,15 +16,14 @@ from ..engine.key_points import KeyPointMark
 from ..engine.manifest import folders_of
 from ..engine.one_file import Summary
 from ..engine.options import TileInput
-from ..engine.requests import HeightRequest, KeyPointRequest, TerrainRequest, WaterClassRequest
-from ..engine.runs import classify, heights, terrain, write
+from ..engine.requests import KeyPointRequest, TerrainRequest, WaterClassRequest
+from ..engine.runs import classify, terrain, write
 from ..engine.workers import Workers
 from ..products.checkpoint_outputs import CheckOutputs
 from ..products.checkpoint_results import Check
 from ..products.checkpoints import CheckOptions, CheckRequest, check_files
 from ..products.constraints import Constraints
 from ..products.contours import Interval, write_contours
-from ..products.line_files import feature_writer
 from ..products.quality import QualityRequest, survey_quality
 from ..products.quality_figures import Quality
 from ..products.raster_files import RasterFiles
@@ -36,6 +35,7 @@ from ..survey.overview import overview_of
 from .deliveries import WITH_BUILDINGS
 from .folder import KEY_POINTS, QUALITY, WATER, DeliveryFolder
 from .request import DeliveryRequest
+from .water import vector_format, write_water
 
 _BUILDING = 6
 # Contour lines in a CRS whose heights are feet: so many feet are about half a metre.
@@ -61,6 +61,7 @@ class Made:
     layers: dict[str, Path] = field(default_factory=dict)
     cell_size: float = 1.0
     constraints: Constraints | None = None
+    found: SurveyWater | None = None
     quality: Quality | None = None
     check: Check | None = None
     water: WaterSummary | None = None
@@ -131,24 +132,17 @@ class DeliverySteps:
 
     def _classify(self, progress: Progress) -> None:
         """Classify the points, and add their heights, as the delivery asks."""
-        ways: list[Callable[..., Any]] = [self._classified]
-        if self.request.content.heights and not self.is_one:
-            ways.append(self._with_heights)
-        sources, made = list(self.sources), self.made
-        for number, (way, part) in enumerate(zip(ways, progress.shares(3.0, 1.0)), 1):
-            is_last = number == len(ways)
-            place = self._points if is_last else self._waiting / str(number)
-            place.mkdir(parents=True, exist_ok=True)
-            done = way(sources, self._target(place, is_last), is_last, part)
-            if self.is_one:
-                made.cloud = self._target(place, is_last)
-                sources = [made.cloud]
-            else:
-                made.cloud, sources = Path(done.vpc), [Path(done.vpc)]
-                made.failures |= done.failures
-            made.point_count, made.ground_count = _counts_of(done)
-            made.class_counts = done.class_counts or made.class_counts
-        made.files = [self._cloud] if self.is_one else _files_of(done)
+        made, target = self.made, self._target
+        (target.parent if self.is_one else target).mkdir(parents=True, exist_ok=True)
+        how = self.request.classify
+        as_survey = not self.is_one
+        done = classify(self.sources, target, how, progress, self.workers, as_survey=as_survey)
+        made.cloud = target if self.is_one else Path(done.vpc)
+        made.files = [target] if self.is_one else _files_of(done)
+        if not self.is_one:
+            made.failures |= done.failures
+        made.point_count, made.ground_count = _counts_of(done)
+        made.class_counts = done.class_counts
 
     @property
     def _points(self) -> Path:
@@ -156,41 +150,20 @@ class DeliverySteps:
         return (self.work if self.is_one else self.folder).points
 
     @property
-    def _waiting(self) -> Path:
-        """The folder of files for further steps, which is removed at the end."""
-        return (self.work if self.is_one else self.folder).waiting
-
-    def _target(self, place: Path, is_last: bool) -> Path:
-        """Return the output of a step: a file, or the folder of many."""
+    def _target(self) -> Path:
+        """The classified points: a file, or the folder of many."""
         if not self.is_one:
-            return place
+            return self._points
         source, kind = self.sources[0], self.request.tiles.format
-        if kind == "same" or not is_last:
-            return place / source.name
-        return place / f"{split_name(source)[0]}.{kind}"
+        name = source.name if kind == "same" else f"{split_name(source)[0]}.{kind}"
+        return self._points / name
 
-    def _classified(
-        self, sources: list[Path], target: Path, is_last: bool, progress: Progress
-    ) -> Any:
-        how = self.request.classify(self.is_one and self.request.content.heights)
-        how = replace(how, tiles=self._tiles(is_last))
-        return classify(sources, target, how, progress, self.workers, as_survey=not self.is_one)
-
-    def _with_heights(
-        self, sources: list[Path], target: Path, is_last: bool, progress: Progress
-    ) -> Any:
-        how = HeightRequest(ground=self.request.ground, **self._further(is_last))
-        return heights(sources, target, how, progress, self.workers, not self.is_one)
-
-    def _tiles(self, is_last: bool) -> Any:
-        tiles = self.request.tiles
-        return tiles if is_last else replace(tiles, format="same", overview=False)
-
-    def _further(self, is_last: bool) -> dict[str, Any]:
-        """Return the options of a step that reads the outputs of another."""
+    @property
+    def _further(self) -> dict[str, Any]:
+        """The options of a step that reads the classified points."""
         request = self.request
         return {
-            "files": TileInput(), "tiles": self._tiles(is_last), "resources": request.resources,
+            "files": TileInput(), "tiles": request.tiles, "resources": request.resources,
             "crs": request.crs,
         }  # fmt: skip
 
@@ -225,7 +198,7 @@ class DeliverySteps:
             return
         asked = WaterClassRequest(
             parameters=how, ground=self.request.ground, water=WaterPolygons(known.water),
-            **self._further(True),
+            **self._further,
         )  # fmt: skip
         done = self._change(asked, WATER, second)
         self.made.class_counts = done.class_counts
@@ -234,7 +207,7 @@ class DeliverySteps:
     def _mark(self, progress: Progress) -> None:
         """Mark the key points: among the ground that water and its shore leave."""
         mark = KeyPointMark(mark_as="flag")
-        how = KeyPointRequest(ground=self.request.ground, mark=mark, **self._further(True))
+        how = KeyPointRequest(ground=self.request.ground, mark=mark, **self._further)
         self._change(how, KEY_POINTS, progress)
 
     def _change(
@@ -274,12 +247,7 @@ class DeliverySteps:
         self.made.water = found.summary
         progress.info(f"Water: {found.summary.text}.")
         if found.bodies:
-            water, lines = (
-                self.work.path / f"{name}{vector_format()}" for name in ("water", "breaklines")
-            )
-            found.write(water, lines, progress)
-            self.made.layers |= {"water": water, "breaklines": lines}
-            known = found.constraints
+            self.made.found, known = found, found.constraints
             rivers = (*request.constraints.rivers, *known.rivers)
             self.made.constraints = replace(request.constraints, water=known.water, rivers=rivers)
 
@@ -295,7 +263,7 @@ class DeliverySteps:
             constraints=made.constraints or request.constraints, area=request.area,
             raster_target=request.raster_target, roads=request.selection.roads,
         )  # fmt: skip
-        first, second = progress.shares(len(paths) + 2.0, 2.0 * content.with_buildings)
+        first, second, third = progress.shares(len(paths) + 2.0, 2.0 * content.with_buildings, 0.5)
         terrain([self._cloud], how, first, self.workers)
         made.layers |= paths
         if content.with_buildings:
@@ -305,6 +273,7 @@ class DeliverySteps:
             how = replace(how, rasters=RasterFiles(dsm=path), surface=surface)
             terrain([self._cloud], how, second, self.workers)
             made.layers[WITH_BUILDINGS] = path
+        made.layers |= write_water(self._cloud, request, made.found, how, self.work.path, third)
 
     def _trace(self, progress: Progress) -> None:
         """Draw contour lines."""
@@ -349,12 +318,3 @@ def _counts_of(done: Any) -> tuple[int, int]:
     if isinstance(done, Summary):
         return done.area_count, done.area_ground_count
     return done.point_count, done.ground_count
-
-
-def vector_format() -> str:
-    """Return the ending of vector files: GeoPackage if it can be written, else GeoJSON."""
-    try:
-        feature_writer(Path("x.gpkg"), "lines")
-    except BareEarthError:
-        return ".geojson"
-    return ".gpkg"

@@ -34,6 +34,8 @@ class DeliverySummary:
         Points of each class.
     cell_size : float
         Side of a cell of the terrain model, in metres or in the unit that was asked for.
+    cell_text : str
+        The same in words, with its unit.
     failures : dict of str to str
         Why some of many files are left out, by their paths.
     warnings : list of str
@@ -59,6 +61,7 @@ class DeliverySummary:
     ground_count: int
     class_counts: dict[int, int]
     cell_size: float
+    cell_text: str
     failures: dict[str, str]
     warnings: list[str]
     seconds: dict[str, float]
@@ -71,10 +74,36 @@ class DeliverySummary:
     def text(self) -> str:
         """The result in words."""
         share = self.ground_count / max(self.point_count, 1)
-        return (
-            f"{self.ground_count:,} of {self.point_count:,} points are ground ({share:.1%}). Open"
-            f" {self.page}."
-        )
+        return f"{self.ground_count:,} of {self.point_count:,} points are ground ({share:.1%})."
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Return titles and values of the figures that matter most, as text."""
+        classes = ", ".join(f"{value}: {count:,}" for value, count in self.class_counts.items())
+        found = [("classes", classes)]
+        if self.water is not None:
+            found.append(("water", self.water.text))
+        found += self._accuracy()
+        lines, left = self.quality.lines, self.quality.left
+        if lines:
+            names = ", ".join(f"{each.name} ({each.state})" for each in left)
+            passed = f"{len(lines) - len(left)} of {len(lines)} pass"
+            found.append(("comparisons", f"{passed}; not: {names}" if left else passed))
+        return [*found, ("cell size", self.cell_text), ("page", self.page)]
+
+    def _accuracy(self) -> list[tuple[str, str]]:
+        """Return the rows of the errors at checkpoints and at points that were held out."""
+        check = self.check
+        if check is None:
+            return []
+        figures = {
+            "checkpoints": check.nva or check.vva,
+            "held out": check.hold_out and check.hold_out.all,
+        }
+        return [(name, each.text) for name, each in figures.items() if each is not None]
+
+    def lines(self) -> list[str]:
+        """Return the figures as lines of text."""
+        return [f"{title:<11} {value}" for title, value in self.rows()]
 
     def as_dict(self) -> dict[str, Any]:
         """Return all figures as plain values."""

@@ -19,6 +19,7 @@ from ..products.height_above_ground import height_above_ground, with_roads
 from ..rasters.sampling import HeightRaster, HeightSampler
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundCounts
+from ..survey.point_counts import by_class, count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
@@ -63,6 +64,8 @@ class HeightSummary:
         Name of that unit.
     unit_size : float
         Metres in it.
+    class_counts : dict of int to int
+        Points of each class in the output.
     """
 
     name: str
@@ -72,6 +75,12 @@ class HeightSummary:
     maximum: float
     unit: str
     unit_size: float = 1.0
+    class_counts: dict[int, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        # The keys of the JSON record are strings.
+        counts = {int(each): count for each, count in self.class_counts.items()}
+        object.__setattr__(self, "class_counts", counts)
 
     @property
     def text(self) -> str:
@@ -167,6 +176,7 @@ class HeightsOfPoints(PointResult):
         self._kept = allocate(bool) if step.ground_only else None
         self._lowest, self._highest = np.inf, -np.inf
         self._ground_count, self._unit, self._unknown_count = 0, 1.0, 0
+        self._counts = np.zeros(256, dtype=np.int64)
         self._sampler = None if step.dtm is None else HeightSampler(step.dtm)
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
@@ -178,9 +188,12 @@ class HeightsOfPoints(PointResult):
         heights = np.round(values / unit, 6) + 0.0
         self.heights[where] = heights
         ground = self._step.ground.points_of(part, self._step.ground.ground_classes)
+        classes = part.classification
         if self._kept is not None:
             # Known ground can have other classes than the first.
-            self._kept[where] = part.classification == self._step.ground.ground_classes[0]
+            kept = part.classification == self._step.ground.ground_classes[0]
+            self._kept[where], classes = kept, part.classification[kept]
+        self._counts += count_classes(classes)
         self._ground_count += int(np.count_nonzero(ground))
         self._unit = unit
         self._unknown_count += int(np.count_nonzero(np.isnan(heights)))
@@ -225,8 +238,8 @@ class HeightsOfPoints(PointResult):
         if self._lowest > self._highest:
             extremes = np.nan, np.nan
         written = len(self.heights) if self._kept is None else int(np.count_nonzero(self._kept))
-        unit = unit_name(self._unit), self._unit
-        return HeightSummary(name, written, self._ground_count, *extremes, *unit)
+        unit, counts = (unit_name(self._unit), self._unit), by_class(self._counts)
+        return HeightSummary(name, written, self._ground_count, *extremes, *unit, counts)
 
 
 def _above_raster(part: PointCloud, raster: HeightSampler) -> np.ndarray:

@@ -14,7 +14,7 @@ from ..core.files import replacing, split_name
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..las.cloud import survey_frame
-from ..products.constraints import parts_of
+from ..products.fixed_terrain import parts_of
 from ..products.raster_block import BlockRasters
 from ..survey.files import Survey
 from .block_grid import BlockGrid, BlockIndex, places_of, sources_of

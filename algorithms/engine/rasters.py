@@ -19,7 +19,8 @@ from ..grids.cell_window import CellWindow
 from ..grids.cells import first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..las.cloud import PointCloud, survey_frame
-from ..products.constraints import NO_CONSTRAINTS, Constraints, FixedTerrain, fixed_terrain
+from ..products.constraints import NO_CONSTRAINTS, Constraints
+from ..products.fixed_terrain import FixedTerrain, fixed_terrain
 from ..products.height_above_ground import with_roads
 from ..products.mosaic import Mosaic, gathered_strips
 from ..products.outlines import Held, Outlines, mosaics_of

@@ -53,6 +53,7 @@ class Accuracy(ParameterSet):
         unit="m",
         minimum=0.0,
         maximum=10.0,
+        advanced=True,
         help="RMSE of the heights of the checkpoints themselves, as their survey states it. The"
         " standard adds it to that of the data: square root of the sum of the squares.",
     )
@@ -85,6 +86,11 @@ class Figures:
     minimum: float
     maximum: float
     percentile_95: float
+
+    @property
+    def text(self) -> str:
+        """The figures that matter most, in words."""
+        return f"RMSE {self.total_rmse:.3f} m, mean {self.mean:+.3f} m, of {self.count:,}"
 
     @classmethod
     def of(cls, errors: np.ndarray, survey_error: float = 0.0) -> Figures | None:

@@ -111,6 +111,11 @@ class Quality:
         """Whether no line fails."""
         return all(each.state != FAIL for each in self.lines)
 
+    @property
+    def left(self) -> list[Line]:
+        """The lines that do not pass: those that fail, and those that a person must look at."""
+        return [each for each in self.lines if each.state != PASS]
+
     def as_dict(self) -> dict[str, Any]:
         """Return the figures as plain values."""
         found = asdict(self)

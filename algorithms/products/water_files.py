@@ -30,7 +30,7 @@ FIELDS: dict[str, type] = {
     "CERTAINTY": float, "GRADE": str, "AREA": float, "WIDTH": float, "CLASS9": float,
     "RETURNS": float,
 }  # fmt: skip
-# Fields of the breaklines: ID is that of the polygon.
+# Fields of the breaklines: ID is that of the polygon, or the number of a breakline of the user.
 LINE_FIELDS: dict[str, type] = {"ID": int, "KIND": str}
 
 
@@ -201,20 +201,47 @@ class SurveyWater:
         BareEarthError
             If a file cannot be written.
         """
-        named = self.crs.wkt, self.crs.epsg
-        layers = [(target, self.polygons, Layer("water", "Polygon", FIELDS, *named))]
-        if breaklines is not None:
-            layer = Layer("breaklines", "LineString Z", LINE_FIELDS, *named)
-            layers.append((breaklines, self.lines, layer))
-        with contextlib.ExitStack() as opened:
-            folders = []
-            for output, features, layer in layers:
-                folders.append(opened.enter_context(temporary_folder(output.parent)))
-                write = feature_writer(output, "water")
-                write(folders[-1] / output.name, features(), layer, progress)
-            progress(1.0)  # the last moment to cancel
-            for (output, _, _), folder in zip(layers, folders):
-                replace_with_files_of(folder, output, files_beside(output))
+        lines = None if breaklines is None else (breaklines, self.lines())
+        write_features(self.crs, (target, self.polygons()), lines, progress)
+
+
+def write_features(
+    crs: Crs,
+    polygons: tuple[Path, Iterable[Feature]] | None,
+    lines: tuple[Path, Iterable[Feature]] | None,
+    progress: Progress = SILENT,
+) -> None:
+    """Write polygons of water with `FIELDS`, and breaklines with `LINE_FIELDS`; all or none.
+
+    Parameters
+    ----------
+    crs : Crs
+        The CRS of the points.
+    polygons, lines : tuple of Path and iterable of Feature, or None
+        The file and its features; None for none.
+    progress : Progress
+        Receives progress and messages.
+
+    Raises
+    ------
+    BareEarthError
+        If a file cannot be written.
+    """
+    layers = []
+    if polygons is not None:
+        layers.append((*polygons, Layer("water", "Polygon", FIELDS, crs.wkt, crs.epsg)))
+    if lines is not None:
+        layer = Layer("breaklines", "LineString Z", LINE_FIELDS, crs.wkt, crs.epsg)
+        layers.append((*lines, layer))
+    with contextlib.ExitStack() as opened:
+        folders = []
+        for output, features, layer in layers:
+            folders.append(opened.enter_context(temporary_folder(output.parent)))
+            write = feature_writer(output, "water")
+            write(folders[-1] / output.name, features, layer, progress)
+        progress(1.0)  # the last moment to cancel
+        for (output, _, _), folder in zip(layers, folders):
+            replace_with_files_of(folder, output, files_beside(output))
 
 
 def _add(

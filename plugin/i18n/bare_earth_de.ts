@@ -44,6 +44,14 @@
         <translation>Eine eigene Klasse</translation>
     </message>
     <message>
+        <source>A delivery leaves out rivers that are narrower on average. Empty: 30 m for a survey, 5 m for a flood model.</source>
+        <translation>Eine Lieferung lässt Flüsse weg, die im Mittel schmaler sind. Leer: 30 m bei einer Vermessung, 5 m bei einem Hochwassermodell.</translation>
+    </message>
+    <message>
+        <source>A delivery leaves out smaller water. Empty: 8,000 m² for a survey, 1,000 m² for a flood model.</source>
+        <translation>Eine Lieferung lässt kleinere Gewässer weg. Leer: 8.000 m² bei einer Vermessung, 1.000 m² bei einem Hochwassermodell.</translation>
+    </message>
+    <message>
         <source>A land cover is vegetated if a word of its name begins or ends with one of these.</source>
         <translation>Eine Bodenbedeckung gilt als bewachsen, wenn ein Wort ihres Namens mit einem dieser Wörter beginnt oder endet.</translation>
     </message>
@@ -284,6 +292,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Cell size of the terrain model</source>
         <translation>Zellgröße des Geländemodells</translation>
+    </message>
+    <message>
+        <source>Cell size of the water</source>
+        <translation>Zellgröße der Gewässer</translation>
     </message>
     <message>
         <source>Cells of objects</source>
@@ -834,6 +846,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>lazrs holen</translation>
     </message>
     <message>
+        <source>Given</source>
+        <translation>Vorgegeben</translation>
+    </message>
+    <message>
         <source>Gives class 9 to ground points in water, and class 20 to those beside its shore.</source>
         <translation>Gibt Bodenpunkten im Wasser die Klasse 9 und denen neben dem Ufer die Klasse 20.</translation>
     </message>
@@ -1178,6 +1194,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Weglassen; sie behalten ihre Klasse</translation>
     </message>
     <message>
+        <source>Leaves out so large a share of the ground points of a delivery, and states how well the others predict them. Empty: this is not measured.</source>
+        <translation>Lässt einen so großen Anteil der Bodenpunkte einer Lieferung weg und gibt an, wie gut die übrigen sie vorhersagen. Leer: Das wird nicht gemessen.</translation>
+    </message>
+    <message>
         <source>Leaves out so large a share of the ground points, such as 0.02, and measures how well the others predict them, on open land, under trees and on steep land. This needs no checkpoints, but it does not tell how right the heights are.</source>
         <translation>Lässt einen so großen Anteil der Bodenpunkte weg, etwa 0,02, und misst, wie gut die übrigen sie vorhersagen: auf freiem Land, unter Bäumen und an steilen Stellen. Das braucht keine Kontrollpunkte, sagt aber nicht, wie richtig die Höhen sind.</translation>
     </message>
@@ -1264,6 +1284,14 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Mark key points by</source>
         <translation>Schlüsselpunkte kennzeichnen durch</translation>
+    </message>
+    <message>
+        <source>Mark model key points</source>
+        <translation>Modell-Schlüsselpunkte kennzeichnen</translation>
+    </message>
+    <message>
+        <source>Marks the ground points of a delivery that a terrain model needs, by the key-point flag of LAS.</source>
+        <translation>Kennzeichnet die Bodenpunkte einer Lieferung, die ein Geländemodell braucht, mit dem Kennzeichen der Schlüsselpunkte in LAS.</translation>
     </message>
     <message>
         <source>Maximum building size</source>
@@ -1906,6 +1934,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Kleinste Fläche</translation>
     </message>
     <message>
+        <source>Smallest water</source>
+        <translation>Kleinstes Gewässer</translation>
+    </message>
+    <message>
         <source>Smallest width of a river</source>
         <translation>Kleinste Breite eines Flusses</translation>
     </message>
@@ -2206,6 +2238,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Der Anteil falscher Punkte in jeder Zelle eines Rasters, 0 bis 1.</translation>
     </message>
     <message>
+        <source>The specification with which a delivery is compared. It also sets the cell size of the delivery for surveys, and the classes that it asks for.</source>
+        <translation>Die Spezifikation, mit der eine Lieferung verglichen wird. Sie bestimmt auch die Zellgröße der Lieferung für Vermessungen und die Klassen, die sie verlangt.</translation>
+    </message>
+    <message>
         <source>The specification with which the survey is compared.</source>
         <translation>Die Spezifikation, mit der die Befliegung verglichen wird.</translation>
     </message>
@@ -2220,6 +2256,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>The terrain model, lit by one light or by four.</source>
         <translation>Das Geländemodell, von einem Licht oder von vieren beleuchtet.</translation>
+    </message>
+    <message>
+        <source>The usual one of the delivery</source>
+        <translation>Die übliche der Lieferung</translation>
     </message>
     <message>
         <source>The value of cells without data. Choose one that no height has. Empty: NaN. The hillshade has 0.</source>

@@ -44,6 +44,14 @@
         <translation>Une classe à part</translation>
     </message>
     <message>
+        <source>A delivery leaves out rivers that are narrower on average. Empty: 30 m for a survey, 5 m for a flood model.</source>
+        <translation>Une livraison omet les rivières plus étroites en moyenne. Vide : 30 m pour un levé, 5 m pour un modèle d'inondation.</translation>
+    </message>
+    <message>
+        <source>A delivery leaves out smaller water. Empty: 8,000 m² for a survey, 1,000 m² for a flood model.</source>
+        <translation>Une livraison omet les eaux plus petites. Vide : 8 000 m² pour un levé, 1 000 m² pour un modèle d'inondation.</translation>
+    </message>
+    <message>
         <source>A land cover is vegetated if a word of its name begins or ends with one of these.</source>
         <translation>Une occupation du sol compte comme végétation si un mot de son nom commence ou finit par l'un de ceux-ci.</translation>
     </message>
@@ -284,6 +292,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Cell size of the terrain model</source>
         <translation>Taille de cellule du modèle de terrain</translation>
+    </message>
+    <message>
+        <source>Cell size of the water</source>
+        <translation>Taille de cellule de l'eau</translation>
     </message>
     <message>
         <source>Cells of objects</source>
@@ -834,6 +846,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Obtenir lazrs</translation>
     </message>
     <message>
+        <source>Given</source>
+        <translation>Fournie</translation>
+    </message>
+    <message>
         <source>Gives class 9 to ground points in water, and class 20 to those beside its shore.</source>
         <translation>Donne la classe 9 aux points de sol dans l'eau, et la classe 20 à ceux qui longent la rive.</translation>
     </message>
@@ -1178,6 +1194,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Laisser de côté ; ils gardent leur classe</translation>
     </message>
     <message>
+        <source>Leaves out so large a share of the ground points of a delivery, and states how well the others predict them. Empty: this is not measured.</source>
+        <translation>Met de côté cette part des points de sol d'une livraison et indique comment les autres la prédisent. Vide : ce n'est pas mesuré.</translation>
+    </message>
+    <message>
         <source>Leaves out so large a share of the ground points, such as 0.02, and measures how well the others predict them, on open land, under trees and on steep land. This needs no checkpoints, but it does not tell how right the heights are.</source>
         <translation>Met de côté cette part des points de sol, par exemple 0,02, et mesure comment les autres la prédisent : en terrain ouvert, sous les arbres et dans les pentes. Aucun point de contrôle n'est nécessaire, mais cela ne dit pas si les altitudes sont justes.</translation>
     </message>
@@ -1264,6 +1284,14 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Mark key points by</source>
         <translation>Marquer les points clés par</translation>
+    </message>
+    <message>
+        <source>Mark model key points</source>
+        <translation>Marquer les points clés du modèle</translation>
+    </message>
+    <message>
+        <source>Marks the ground points of a delivery that a terrain model needs, by the key-point flag of LAS.</source>
+        <translation>Marque les points de sol d'une livraison dont un modèle de terrain a besoin, par l'indicateur de point clé de LAS.</translation>
     </message>
     <message>
         <source>Maximum building size</source>
@@ -1906,6 +1934,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Surface minimale</translation>
     </message>
     <message>
+        <source>Smallest water</source>
+        <translation>Plus petite étendue d'eau</translation>
+    </message>
+    <message>
         <source>Smallest width of a river</source>
         <translation>Largeur minimale d'une rivière</translation>
     </message>
@@ -2206,6 +2238,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>La part de points faux dans chaque cellule d'un raster, de 0 à 1.</translation>
     </message>
     <message>
+        <source>The specification with which a delivery is compared. It also sets the cell size of the delivery for surveys, and the classes that it asks for.</source>
+        <translation>La spécification à laquelle une livraison est comparée. Elle fixe aussi la taille de cellule de la livraison pour les levés, et les classes qu'elle demande.</translation>
+    </message>
+    <message>
         <source>The specification with which the survey is compared.</source>
         <translation>La spécification à laquelle le levé est comparé.</translation>
     </message>
@@ -2220,6 +2256,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>The terrain model, lit by one light or by four.</source>
         <translation>Le modèle de terrain, éclairé par une lumière ou par quatre.</translation>
+    </message>
+    <message>
+        <source>The usual one of the delivery</source>
+        <translation>Celle habituelle de la livraison</translation>
     </message>
     <message>
         <source>The value of cells without data. Choose one that no height has. Empty: NaN. The hillshade has 0.</source>

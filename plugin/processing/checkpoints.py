@@ -52,16 +52,17 @@ _FIELDS = {
 _VISIBLE = ("Z_FIELD", "COVER_FIELD")
 
 
-def add_checkpoints(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of the layer to a dialog."""
-    algorithm.addParameter(
-        QgsProcessingParameterFeatureSource(_LAYER, "Checkpoints", [compat.POINTS], None, True),
+def add_checkpoints(algorithm: QgsProcessingAlgorithm, advanced: bool = False) -> None:
+    """Add the fields of the layer to a dialog, all of them as advanced ones if wanted."""
+    layer = QgsProcessingParameterFeatureSource(_LAYER, "Checkpoints", [compat.POINTS], None, True)
+    text = (
         "Points that were surveyed on the ground, of any CRS, or a table (.csv) in the CRS of the"
-        " point cloud. May stay empty if points are held out.",
+        " point cloud. May stay empty if points are held out."
     )
+    _add(algorithm, layer, text, not advanced)
     for name, (_, label, text) in _FIELDS.items():
         field = QgsProcessingParameterField(name, label, None, _LAYER, optional=True)
-        _add(algorithm, field, text, name in _VISIBLE)
+        _add(algorithm, field, text, name in _VISIBLE and not advanced)
 
 
 def add_judgement(algorithm: QgsProcessingAlgorithm) -> None:

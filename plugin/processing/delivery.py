@@ -14,13 +14,21 @@ from qgis.core import (
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.delivery.deliveries import DELIVERIES
 from ...algorithms.delivery.folder import DeliveryFolder
-from ...algorithms.delivery.request import NO_DELIVERY, DeliveryChoice, DeliveryTerrain
+from ...algorithms.delivery.request import (
+    NO_DELIVERY,
+    DeliveryChoice,
+    DeliveryOptions,
+    DeliveryTerrain,
+    DeliveryWater,
+)
 from ...algorithms.engine.options import TileOutput
+from ...algorithms.products.accuracy import Accuracy
 from .. import compat
 from ..i18n import mark
 from ..styles import layers
 from .area import area_options, given_options
 from .base import BareEarthAlgorithm, command_line
+from .checkpoints import add_checkpoints, checkpoints_of
 from .classified import show_classified
 from .feedback import FeedbackProgress, Refusal
 from .outputs import given_path, point_cloud_formats
@@ -29,12 +37,15 @@ if TYPE_CHECKING:
     from ...algorithms.delivery.summary import DeliverySummary
 
 FOLDER, PAGE = "DELIVERY_FOLDER", "PAGE"
+# The parameters of deliveries alone.
+SETS = DeliveryOptions, DeliveryWater, Accuracy
 # Cell size of rasters that are not a delivery, in metres.
 _USUAL_CELL = 1.0
 
 
 def add_delivery(algorithm: BareEarthAlgorithm) -> None:
-    """Add the field of the folder of a delivery, and its page."""
+    """Add the fields of the checkpoints and the folder of a delivery, and its page."""
+    add_checkpoints(algorithm, advanced=True)
     algorithm.addParameter(
         QgsProcessingParameterFolderDestination(
             FOLDER, "Folder of the delivery", None, True, False
@@ -62,7 +73,7 @@ def without_delivery(chosen: Sequence[ParameterSet]) -> list[ParameterSet]:
     return [
         each.with_cells(_USUAL_CELL) if isinstance(each, DeliveryTerrain) else each
         for each in chosen
-        if not isinstance(each, DeliveryChoice)
+        if not isinstance(each, (DeliveryChoice, *SETS))
     ]
 
 
@@ -98,10 +109,12 @@ def make_delivery(
     sets.append(TileOutput(format=point_cloud_formats()[0], overview=True))
     folder = algorithm.parameterAsString(parameters, FOLDER, context)
     words = [name, *map(str, algorithm.inputs), folder]
-    command = command_line("deliver", words, sets, given_options(**limits))
+    crs = algorithm.crs_of(*algorithm.inputs)
+    points, flags = checkpoints_of(algorithm, parameters, context, crs, progress)
+    command = command_line("deliver", words, sets, {**given_options(**limits), **flags})
     area = area_options(limits["area"], progress)
     progress.command(" ".join([command, *area]))
-    request = DeliveryRequest.of(sets, delivery=name, **limits)
+    request = DeliveryRequest.of(sets, delivery=name, checkpoints=points, **limits)
     done = deliver(algorithm.inputs, folder, request, progress)
     progress.share(done.ground_count, done.point_count, bool(request.area))
     _show(algorithm, done, request.content.pictures[0], context)

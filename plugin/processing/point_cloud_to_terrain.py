@@ -31,7 +31,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
     def parameter_sets(self):
         """Return method, cell size and contours, then parameters that rarely need a change."""
         sets = DeliveryChoice, TileMethod, DeliveryTerrain, Contours, Selection, SurfaceModel
-        return *sets, Resources
+        return *sets, Resources, *delivery.SETS
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""

@@ -26,6 +26,7 @@ _THIN = {"line_color": "110,72,36,160", "line_width": "0.2"}
 _THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
 # Fill and outline of water by its grade; the last one is that of all others.
 _WATER = {
+    "given": ("70,140,220,190", "20,80,170"),
     "certain": ("70,140,220,190", "20,80,170"),
     "likely": ("130,185,235,170", "20,80,170"),
     "doubtful": ("190,215,240,150", "150,90,30"),
@@ -84,7 +85,10 @@ def residuals(scale: float) -> Callable[[QgsVectorLayer], None]:
 
 def water(layer: QgsVectorLayer) -> None:
     """Draw water in blue, the paler the less certain."""
-    words = {"certain": tr("Certain"), "likely": tr("Likely"), "doubtful": tr("Doubtful")}
+    words = {
+        "given": tr("Given"), "certain": tr("Certain"), "likely": tr("Likely"),
+        "doubtful": tr("Doubtful"),
+    }  # fmt: skip
     root = QgsRuleBasedRenderer.Rule(None)
     for grade, (fill, outline) in _WATER.items():
         symbol = QgsFillSymbol.createSimple(

@@ -21,6 +21,7 @@ from bare_earth.algorithms import (
     DeliveryOptions,
     DeliveryRequest,
     DeliveryTerrain,
+    DeliveryWater,
     RasterFiles,
     Selection,
     TerrainModel,
@@ -39,6 +40,7 @@ from bare_earth.algorithms.delivery.deliveries import DELIVERIES
 from bare_earth.algorithms.grids.lines import along
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.survey.area import Area
+from bare_earth.algorithms.survey.vector_files import read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc
 
 pyproj = pytest.importorskip("pyproj")
@@ -142,7 +144,7 @@ def made(scene, tmp_path_factory):
 
 def files_of(folder):
     found = (each.relative_to(folder).as_posix() for each in folder.rglob("*") if each.is_file())
-    return {each for each in found if not each.startswith("points/")}
+    return {each for each in found if not each.startswith(("points/", ".bare-earth/"))}
 
 
 def heights(path):
@@ -295,7 +297,7 @@ def test_key_points_are_among_the_ground_that_water_leaves(scene, tmp_path, is_o
     marked = [np.asarray(each.classification)[np.asarray(each.key_point) == 1] for each in clouds]
     assert set(np.concatenate(marked)) == {2} and all(map(len, marked))
     assert {9, 20} <= summary.class_counts.keys() and not list((tmp_path / "out").glob(".w*"))
-    names = {"classified.vpc", "east.laz", "west.laz", ".bare-earth"}
+    names = {"classified.vpc", "east.laz", "west.laz"}
     written = {each.name for each in (tmp_path / "out" / "points").iterdir()}
     assert written == ({"whole.laz"} if is_one else names)
 
@@ -310,14 +312,14 @@ def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scen
     points = tmp_path / "out" / "points"
     tiles = {"east.copc.laz", "west.copc.laz"}
     lists = {"classified.vpc", "classified-overview.copc.laz"}
-    assert {each.name for each in points.iterdir()} == tiles | lists | {".bare-earth"}
+    assert {each.name for each in points.iterdir()} == tiles | lists
     assert {each for each in read_vpc(summary.cloud)} == {points / each for each in tiles}
     assert (
         np.asarray(laspy.read(points / "classified-overview.copc.laz").classification) == 9
     ).any()
     files = json.loads((tmp_path / "out" / "delivery.json").read_text())["files"]
     assert {each for each in files if not (tmp_path / "out" / each).is_file()} == set()
-    assert {each for each in os.listdir(tmp_path / "out") if each.startswith(".")} == set()
+    assert {each for each in os.listdir(tmp_path / "out") if each[0] == "."} == {".bare-earth"}
 
 
 def test_water_that_was_found_gives_classes_in_one_file_and_in_two(made):
@@ -597,3 +599,174 @@ def test_the_command_delivers_and_prints_the_figures(scene, tmp_path, capsys):
     assert told["cell_size"] == 2.0 and told["check"] is None and told["quality"]["points"]
     assert set(told["layers"]) == {"dtm", "dsm", "hillshade", "contours"}
     assert all(os.path.exists(each) for each in told["layers"].values())
+
+
+def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
+    summary, _ = made("survey")
+    target = tmp_path / "out"
+    assert main(["deliver", "survey", str(scene[1]), str(target)]) == 0
+    first, *rows = capsys.readouterr().out.splitlines()
+    assert first.startswith(f"{target}: {summary.ground_count:,} of {summary.point_count:,} points")
+    told = {each[:11].rstrip(): each[12:] for each in rows}
+    assert list(told) == ["classes", "water", "held out", "comparisons", "cell size", "page"]
+    counts = (f"{value}: {count:,}" for value, count in summary.class_counts.items())
+    assert told["classes"] == ", ".join(counts) and told["cell size"] == "1 m"
+    assert told["held out"] == summary.check.hold_out.all.text and told["water"]
+    # The scene is sparse, and the specification asks for 2 points in a square metre.
+    assert told["page"] == str(target / "index.html") and Path(told["page"]).exists()
+    states = {each.name: each.state for each in summary.quality.lines}
+    passed = list(states.values()).count("pass")
+    share, _, names = told["comparisons"].partition("; not: ")
+    assert share == f"{passed} of {len(states)} pass" and states["Density"] == "fail"
+    assert names == ", ".join(f"{name} ({it})" for name, it in states.items() if it != "pass")
+
+
+def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
+    x, y = np.array([5.0, 60.0, 70.0]), np.array([5.0, 50.0, 85.0])
+    rows = zip(x + EAST, y + NORTH, ground_at(x, y))
+    table = "\n".join(["x,y,z", *(",".join(map(str, each)) for each in rows)])
+    (tmp_path / "points.csv").write_text(table)
+    words = ["--checkpoints", str(tmp_path / "points.csv"), "--hold-out-share", "none"]
+    assert main(["deliver", "drone-site", str(scene[1]), str(tmp_path / "out"), *words]) == 0
+    rows = capsys.readouterr().out.splitlines()[1:]
+    titles = [each[:11].rstrip() for each in rows]
+    assert titles == ["classes", "checkpoints", "cell size", "page"]
+    assert re.search(r"^checkpoints RMSE 0\.\d{3} m, mean [+-]0\.\d{3} m, of 3$", rows[1])
+
+
+def test_many_files_with_heights_are_done_already_after_a_finished_delivery(scene, tmp_path):
+    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="forestry", options=small)
+    first = deliver(scene[2], target, how)
+    before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
+    assert len(before) == 2
+    for each in before:
+        assert "HeightAboveGround" in laspy.read(each).point_format.dimension_names
+    said = Said()
+    second = deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)), said)
+    assert "2 files are done already." in said.texts
+    assert {each: each.stat().st_mtime_ns for each in before} == before
+    assert second.class_counts == first.class_counts and {3, 5, 6} & first.class_counts.keys()
+    assert second.ground_count == first.ground_count == first.class_counts[2]
+
+
+def test_records_of_many_files_are_not_among_the_points(scene, tmp_path):
+    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="drone-site", options=small)
+    deliver(scene[2], target, how)
+    handed = {"classified.vpc", "east.laz", "west.laz"}
+    assert set(os.listdir(target / "points")) == handed
+    assert set(os.listdir(target / ".bare-earth")) == {"east.laz.json", "west.laz.json"}
+    files = json.loads((target / "delivery.json").read_text())["files"]
+    assert {each for each in files if each.startswith("points/")} == {
+        f"points/{each}" for each in handed
+    }
+    # A run that goes on finds them, also after one that was stopped; one file has none.
+    again, said = replace(how, tiles=TileOutput(resume=True)), Said()
+    with pytest.raises(FinishedFilesStay):
+        deliver(scene[2], target, again, Stops(0.5))
+    deliver(scene[2], target, again, said)
+    assert "2 files are done already." in said.texts
+    assert set(os.listdir(target / "points")) == handed and (target / ".bare-earth").is_dir()
+    deliver(scene[1], target, how)
+    assert os.listdir(target / "points") == ["whole.laz"]
+    assert not (target / ".bare-earth").exists()
+
+
+def square(west, south, east, north):
+    corners = np.array([(west, south), (east, south), (east, north), (west, north)])
+    return (np.add(corners, (EAST, NORTH)),)
+
+
+def features(path):
+    """Return the values of the fields, and the coordinates of each feature."""
+    known, _, _, columns = pytest.importorskip("pyogrio").raw.read(path)
+    rows = [dict(zip(known["fields"].tolist(), each)) for each in zip(*columns)]
+    assert known["crs"] == "EPSG:25832"
+    is_water = Path(path).stem == "water"
+    shapes = [each[0] for each in read_boundary(path)] if is_water else read_lines(path)
+    return [(row, at) for row, at in zip(rows, shapes, strict=True)]
+
+
+def line(*corners):
+    return np.add(corners, (EAST, NORTH, 0.0))
+
+
+@pytest.mark.parametrize("is_one", [True, False])
+def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp_path, is_one):
+    # A lake, a river across both files, water without ground near it; a dyke, and an edge.
+    lake, river = square(96.0, 25.0, 136.0, 65.0), square(60.0, 3.0, 90.0, 9.0)
+    along_river = line((91.0, 6.0, np.nan), (58.0, 6.0, np.nan))
+    dyke = line((5.0, 45.0, 107.0), (12.0, 45.0, 107.5))
+    edge = line((55.0, 50.0, np.nan), (75.0, 50.0, np.nan))
+    known = Constraints(
+        water=(lake, river, square(400.0, 0.0, 410.0, 10.0)), rivers=(along_river,),
+        breaklines=(dyke, edge),
+    )  # fmt: skip
+    how = DeliveryRequest(
+        delivery="flood", options=DeliveryOptions(hold_out_share=None), constraints=known
+    )
+    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", how)
+    assert {"water", "breaklines"} <= summary.layers.keys()
+    polygons = features(summary.layers["water"])
+    assert [row["KIND"] for row, _ in polygons] == ["lake", "river", "lake"]
+    assert {row["GRADE"] for row, _ in polygons} == {"given"}
+    assert [row["AREA"] for row, _ in polygons] == [1600.0, 180.0, 100.0]
+    assert np.isnan([polygons[2][0]["LEVEL"], polygons[0][0]["SPREAD"]]).all()
+    for (_, at), given in zip(polygons, known.water):
+        assert np.allclose(at[:4], given[0])
+    lines = features(summary.layers["breaklines"])
+    names = [(row["ID"], row["KIND"]) for row, _ in lines]
+    assert names == [
+        (1, "shore"), (2, "shore"), (2, "river"),
+        (1, "breakline"), (2, "breakline"), (2, "breakline"),
+    ]  # fmt: skip
+    # Their heights are those of the terrain model; the level of a lake is one.
+    level = polygons[0][0]["LEVEL"]
+    dtm = heights(tmp_path / "out" / "dtm.tif")
+    rows, columns = np.floor((DEPTH - 45.0, 116.0)).astype(int)
+    assert dtm[rows, columns] == pytest.approx(level, abs=0.002)
+    assert np.allclose(lines[0][1][:, 2], level, atol=0.001)
+    x, y, z = (lines[2][1] - (EAST, NORTH, 0.0)).T
+    assert (np.diff(z) <= 0).all() and polygons[1][0]["LEVEL"] >= polygons[1][0]["LEVEL_LOW"]
+    inside = (x > 62.0) & (x < 88.0)
+    rows, columns = (DEPTH - y[inside]).astype(int), x[inside].astype(int)
+    assert np.allclose(dtm[rows, columns], z[inside], atol=0.02) and inside.sum() >= 4
+    assert np.allclose(lines[3][1], dyke)
+    for _, at in lines[4:]:
+        assert len(at) == 5 and np.allclose(at[:, 2], 104.0, atol=0.15)
+    # The polygons can be used again.
+    again = Constraints(water=tuple(read_boundary(summary.layers["water"])[:2]))
+    files = files_of(tmp_path / "out")
+    assert {"water.gpkg", "breaklines.gpkg"} <= files
+    page = (tmp_path / "out" / "index.html").read_text("utf-8")
+    assert 'href="water.gpkg"' in page and 'href="breaklines.gpkg"' in page
+    second = deliver(scene[1], tmp_path / "again", replace(how, constraints=again))
+    (row, _), *_ = features(second.layers["water"])
+    assert row["LEVEL"] == pytest.approx(level, abs=0.02)
+
+
+def test_breaklines_of_the_user_are_delivered_beside_water_that_was_found(scene, tmp_path):
+    dyke = line((5.0, 45.0, 107.0), (12.0, 45.0, 107.5))
+    small = DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="flood", options=small, constraints=Constraints((dyke,)))
+    summary = deliver(scene[1], tmp_path / "out", how)
+    (row, _), *others = features(summary.layers["water"])
+    assert row["GRADE"] != "given" and not others
+    kinds = [row["KIND"] for row, _ in features(summary.layers["breaklines"])]
+    assert kinds == ["shore", "breakline"]
+    # Where no water is wanted, the lines are delivered all the same.
+    how = replace(how, delivery="drone-site")
+    summary = deliver(scene[1], tmp_path / "site", how)
+    assert "water" not in summary.layers and len(features(summary.layers["breaklines"])) == 1
+
+
+def test_sizes_of_water_that_are_given_count_and_others_are_those_of_the_delivery():
+    def wanted(name, **values):
+        water = DeliveryRequest(delivery=name, water=DeliveryWater(**values)).water_wanted
+        return None if water is None else (water.min_area, water.min_width, water.water_cell)
+
+    assert wanted("survey") == (8000.0, 30.0, None) and wanted("forestry", min_area=900.0) is None
+    assert wanted("flood") == (1000.0, 5.0, None)
+    # Also a size that is usual elsewhere.
+    assert wanted("flood", min_area=8000.0, water_cell=2.0) == (8000.0, 5.0, 2.0)

@@ -148,3 +148,39 @@ def test_a_second_run_reloads_the_layers(deliver):
     assert len(project.mapLayers()) == count
     (dtm,) = project.mapLayersByName("Terrain model")
     assert dtm.rasterUnitsPerPixelX() == 2.0
+
+
+def test_specification_hold_out_water_and_checkpoints_are_fields(deliver, scene, tmp_path):
+    from bare_earth.algorithms.cli import main
+
+    places = laspy.read(str(scene.path)).xyz
+    away = np.hypot(*(places[:, :2] - places[:, :2].mean(axis=0)).T)
+    rows = [f"{x},{y},{z},road" for x, y, z in places[np.argsort(away)[:400:100]]]
+    table = tmp_path / "points.csv"
+    table.write_text("\n".join(["east,north,elevation,kind", *rows]))
+    given = dict(SPECIFICATION="linz", HOLD_OUT_SHARE=None, MIN_AREA=900, ACCURACY_CLASS=0.5)
+    given.update(CHECKPOINTS=str(table), COVER_FIELD="kind", SURVEY_ERROR=0.02)
+    _, root, log = deliver("survey", **given)
+    folder = tmp_path / "delivery"
+    assert (folder / "checkpoints.csv").exists() and "Errors at checkpoints" in shown(root)
+    page = (folder / "index.html").read_text(encoding="utf-8")
+    assert "LINZ" in (folder / "quality.html").read_text(encoding="utf-8")
+    assert "Ground points held out" not in page and ", of 4<" in page
+    settings = json.loads((folder / "delivery.json").read_text())["settings"]
+    assert settings["Water"] == {"min_area": "900"}
+    # The command in the log does the same.
+    (command,) = [shlex.split(each) for each in log.said if each.startswith("bare-earth ")]
+    files = sorted(os.listdir(folder))
+    shutil.rmtree(folder)
+    QgsProject.instance().clear()
+    assert main(command[1:]) == 0 and sorted(os.listdir(folder)) == files
+    again = json.loads((folder / "delivery.json").read_text())["settings"]
+    assert again == settings
+
+
+def test_fields_of_a_delivery_have_no_effect_on_own_outputs(deliver, tmp_path):
+    own = str(tmp_path / "own.tif")
+    results, _, _ = deliver(
+        "own", DELIVERY_FOLDER=None, DTM=own, SPECIFICATION="linz", MIN_AREA=900, KEY_POINTS=True
+    )
+    assert results["DTM"] == own and os.path.exists(own) and "PAGE" not in results

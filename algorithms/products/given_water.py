@@ -1,0 +1,170 @@
+"""Water and breaklines of the user as files, with the heights that they have in the terrain."""
+
+from __future__ import annotations
+
+from typing import Iterable, Iterator, NamedTuple
+
+import numpy as np
+
+from ..crs.system import Crs
+from ..grids.lines import along
+from ..las.cloud import PointCloud, survey_frame
+from ..survey.area import Polygon
+from ..survey.ground_classes import GroundClasses
+from .constraints import STATION, Constraints
+from .fixed_terrain import PER_CELL, GivenTerrain, area_of
+from .line_files import Feature
+
+# What stands for the grade of certainty of water that was not found.
+_GRADE = "given"
+
+
+class LevelWater(NamedTuple):
+    """Water of the user with its level, in metres; without ground near it, without a level.
+
+    Attributes
+    ----------
+    rings : tuple of numpy.ndarray of float64, shape (n, 3)
+        Shore and islands, closed; places at most `STATION` apart.
+    rivers : tuple of numpy.ndarray of float64, shape (m, 3)
+        The parts of rivers in it, downstream.
+    area : float
+        In square metres.
+    """
+
+    rings: tuple[np.ndarray, ...]
+    rivers: tuple[np.ndarray, ...]
+    area: float
+
+    @property
+    def levels(self) -> tuple[float, float]:
+        """The highest and the lowest level; NaN if it is not known."""
+        heights = np.concatenate(self.rings)[:, 2]
+        return float(heights.max()), float(heights.min())
+
+    @property
+    def is_known(self) -> bool:
+        """Whether the level is known."""
+        return not np.isnan(self.levels).any()
+
+
+class GivenWater(NamedTuple):
+    """Water and breaklines of the user.
+
+    Attributes
+    ----------
+    polygons : tuple of polygon
+        The water in coordinates of the CRS, as it was given.
+    waters : tuple of LevelWater
+        Its levels.
+    breaklines : tuple of (int, numpy.ndarray of float64, shape (n, 3))
+        The number of each, and its corners in metres. Those that were given without heights come
+        twice: once for each side.
+    crs : Crs
+        The CRS of the points.
+    """
+
+    polygons: tuple[Polygon, ...]
+    waters: tuple[LevelWater, ...]
+    breaklines: tuple[tuple[int, np.ndarray], ...]
+    crs: Crs
+
+    @classmethod
+    def of(
+        cls,
+        constraints: Constraints,
+        clouds: Iterable[PointCloud],
+        crs: Crs,
+        ground: GroundClasses,
+        cell: float,
+    ) -> GivenWater:
+        """Return water and breaklines with the heights that `fixed_terrain` gives them.
+
+        Parameters
+        ----------
+        constraints : Constraints
+            In the CRS of the points.
+        clouds, ground, cell
+            As for `fixed_terrain`.
+        crs : Crs
+            The CRS of the points.
+
+        Raises
+        ------
+        BareEarthError
+            If a file cannot be read.
+        Cancelled
+            If the user asked to stop.
+        """
+        given = GivenTerrain.of(constraints, clouds, survey_frame(crs), ground, cell / PER_CELL)
+        waters = (_with_levels(given, number) for number in range(len(given.waters)))
+        units = crs.horizontal_unit, crs.horizontal_unit, crs.vertical_unit
+        lines = (
+            (number, each)
+            for number, line in enumerate(constraints.breaklines, start=1)
+            for each in _with_heights(line * units, given)
+        )
+        return cls(constraints.water, tuple(waters), tuple(lines), crs)
+
+    def features(self) -> Iterator[Feature]:
+        """Yield the polygons with the fields of found water; what is not known is empty."""
+        up, none = self.crs.vertical_unit, float("nan")
+        for number, (rings, each) in enumerate(zip(self.polygons, self.waters), start=1):
+            kind = "river" if each.rivers else "lake"
+            high, low = (round(level / up, 3) for level in each.levels)
+            area = round(each.area, 3)
+            values = number, kind, high, low, none, none, _GRADE, area, none, none, none
+            yield Feature(values, [_closed(ring[:, :2]) for ring in rings])
+
+    def lines(self) -> Iterator[Feature]:
+        """Yield shores, islands, rivers and breaklines, if their heights are known."""
+        across, up = self.crs.horizontal_unit, self.crs.vertical_unit
+        units = across, across, up
+        for number, each in enumerate(self.waters, start=1):
+            if each.is_known:
+                for place, ring in enumerate(each.rings):
+                    yield Feature((number, "island" if place else "shore"), ring / units)
+                for line in each.rivers:
+                    yield Feature((number, "river"), line / units)
+        for number, line in self.breaklines:
+            yield Feature((number, "breakline"), line / units)
+
+
+def _with_levels(given: GivenTerrain, number: int) -> LevelWater:
+    """Return a polygon of water with its level."""
+    polygon = given.waters[number]
+    area, level = area_of(polygon), given.levels(number)
+
+    def raised(places: np.ndarray) -> np.ndarray:
+        heights = np.full(len(places), np.nan) if level is None else level(places[:, :2])
+        return np.column_stack((places[:, :2], heights))
+
+    rings = tuple(raised(along(ring, STATION, is_closed=True)) for ring in polygon)
+    rivers = [raised(each) for each in given.lines_in(area) if len(each) > 1]
+    downstream = tuple(each if each[0, 2] >= each[-1, 2] else each[::-1] for each in rivers)
+    shore, *islands = (_area(ring) for ring in polygon)
+    return LevelWater(rings, downstream, shore - sum(islands))
+
+
+def _with_heights(line: np.ndarray, given: GivenTerrain) -> Iterator[np.ndarray]:
+    """Yield a breakline if it has heights, otherwise a line for each of its sides."""
+    if not np.isnan(line[:, 2]).any():
+        yield line
+        return
+    line = along(line, STATION)
+    unknown = np.isnan(line[:, 2])
+    for side in np.split(given.ground.beside(line), 2):
+        side[~unknown] = line[~unknown]
+        side = side[~np.isnan(side[:, 2])]
+        if len(side) > 1:
+            yield side
+
+
+def _closed(ring: np.ndarray) -> np.ndarray:
+    return ring if np.array_equal(ring[0], ring[-1]) else np.concatenate((ring, ring[:1]))
+
+
+def _area(ring: np.ndarray) -> float:
+    """Return the area inside a ring in square metres."""
+    x, y = (ring[:, :2] - ring[0, :2]).T
+    return abs(float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))) / 2.0
