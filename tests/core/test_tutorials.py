@@ -102,8 +102,9 @@ def test_a_tutorial_runs_and_says_what_comes_out(job, pages, tmp_path, threads_f
         wrong += [each for each in files if not (Path(each).exists() or (made / each).exists())]
     assert wrong == []
     assert quotes >= 2 and len(named) >= 8
-    # What the reader corrects is wrong before, and the correction helps.
-    assert errors[0] > 0.2 and errors[1] < 0.6 * errors[0], errors
+    # What the reader corrects is wrong before, and the correction helps. The river is found without
+    # the reader, so that only its ends and the waves on the pond are wrong.
+    assert errors[0] > (0.05 if job == "flood" else 0.2) and errors[1] < 0.6 * errors[0], errors
 
 
 def test_the_tutorials_are_those_of_all_deliveries():
