@@ -97,7 +97,7 @@ class DeliverySummary:
             return []
         figures = {
             "checkpoints": check.nva or check.vva,
-            "held out": check.hold_out and check.hold_out.all,
+            "held out": None if check.hold_out is None else check.hold_out.all,
         }
         return [(name, each.text) for name, each in figures.items() if each is not None]
 
