@@ -56,6 +56,9 @@ def write_water(
     Cancelled
         If the user asked to stop.
     """
+    own = request.constraints
+    if found is None and not (own.water or own.breaklines):
+        return {}
     given = _given(cloud, request, how, progress)
     polygons: Iterable[Feature] = found.polygons() if found else given.features()
     lines = chain(found.lines() if found else (), given.lines())
