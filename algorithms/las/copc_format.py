@@ -174,9 +174,12 @@ def _is_kept(record: Vlr | Evlr) -> bool:
 
 def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
     """Return the record of the CRS as well-known text, which COPC requires."""
-    # As in LAS and LAZ, the file states what it stated before.
-    crs = read_crs(dataclasses.replace(layout, stated=None))
-    text = compound_wkt(crs)
+    # As in LAS and LAZ, the file states what it stated before. If that is nothing, it states what
+    # the user stated, since COPC requires a CRS and its header is new in any case.
+    of_file = read_crs(dataclasses.replace(layout, stated=None))
+    text = compound_wkt(of_file)
+    if text is None and of_file.epsg is None and layout.vlr(*GEOKEY_RECORDS) is None:
+        text = compound_wkt(read_crs(layout))
     if text is None:
         if layout.vlr(*GEOKEY_RECORDS) is not None:
             progress.warning(

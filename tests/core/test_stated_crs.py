@@ -120,9 +120,29 @@ def test_every_command_that_reads_points_takes_a_crs(feet, tmp_path):
 
 
 def test_written_clouds_keep_their_records(feet, tmp_path):
-    for name in ("out.laz", "out.copc.laz"):
-        assert said("classify", feet, tmp_path / name, "--crs", "EPSG:2230")[0] == 0
-        assert read_crs(open_las(tmp_path / name)) == Crs()
+    assert said("classify", feet, tmp_path / "out.laz", "--crs", "EPSG:2230")[0] == 0
+    assert read_crs(open_las(tmp_path / "out.laz")) == Crs()
+    las = laspy.read(feet)
+    las.header.add_crs(pyproj.CRS.from_epsg(2231))
+    las.write(tmp_path / "wrong.laz")
+    for name in ("wrong-out.laz", "wrong-out.copc.laz"):
+        words = "classify", tmp_path / "wrong.laz", tmp_path / name, "--crs", "EPSG:2230"
+        assert said(*words)[0] == 0
+        assert read_crs(open_las(tmp_path / name)).epsg == 2231
+
+
+def test_copc_of_a_file_without_a_crs_states_the_given_one(feet, tmp_path):
+    for given, epsg in (("EPSG:2230", 2230), (None, None)):
+        words = (
+            "classify",
+            feet,
+            tmp_path / f"{epsg}.copc.laz",
+            *(("--crs", given) if given else ()),
+        )
+        assert said(*words)[0] == 0
+        made = read_crs(open_las(tmp_path / f"{epsg}.copc.laz"))
+        assert made.epsg == epsg
+        assert made.horizontal_unit == pytest.approx(SURVEY if given else 1.0)
 
 
 def test_a_crs_that_is_given_is_as_one_that_the_file_states(feet, tmp_path):
