@@ -266,10 +266,12 @@ def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> 
         same = next((each for each in groups if is_same_crs(each, crs)), crs)
         groups.setdefault(same, []).append(tile)
     known, unstated = [crs for crs in groups if crs != Crs()], groups.get(Crs(), [])
-    lack = f"{_names(unstated)} {'do' if len(unstated) > 1 else 'does'} not say the CRS:"
+    # Of one file the same words as when it is read.
+    say, their = ("do not say", "their") if len(unstated) > 1 else ("does not say", "its")
+    lack = f"{_names(unstated)} {say} {their} CRS:"
     if not known:
         progress.warning(
-            f"{lack} coordinates are taken as metres. If they are not, give the CRS: {HOW}."
+            f"{lack} {their} coordinates are taken as metres. If they are not, give the CRS: {HOW}."
         )
         return Crs()
     if len(known) > 1 or (unstated and not has_same_units(known[0], Crs())):

@@ -160,7 +160,7 @@ def test_a_missing_crs_is_taken_from_the_others_if_these_are_metres(las):
         tile(las, f"b{number}.las", 100 * number + 100, wkt="")
     assert open_survey([las.folder], progress=heard).crs.name == "site"
     (warning,) = heard.warnings
-    assert warning.startswith("b0.las, b1.las, b2.las and 2 more do not say the CRS")
+    assert warning.startswith("b0.las, b1.las, b2.las and 2 more do not say their CRS")
     tile(las, "a.las", wkt=FEET)
     with pytest.raises(BareEarthError, match=r"none stated: b0\.las"):
         open_survey([las.folder])
