@@ -4,6 +4,7 @@ import json
 import os
 import shlex
 import shutil
+from pathlib import Path
 
 import laspy
 import numpy as np
@@ -104,7 +105,7 @@ def test_a_folder_of_files_is_delivered_as_one_survey(deliver, scene, tmp_path):
     tiles.mkdir()
     shutil.copy(scene.path, tiles)
     results, _, _ = deliver("forestry", INPUT=None, INPUT_FOLDER=str(tiles))
-    (cloud,) = (tmp_path / "delivery" / "points").glob("*.la[sz]")
+    cloud = tmp_path / "delivery" / "points" / Path(scene.path).name
     assert "HeightAboveGround" in list(laspy.read(str(cloud)).point_format.dimension_names)
     assert results["GROUND_COUNT"] == scene.ground_count
 

@@ -44,7 +44,7 @@ def test_a_lake_is_found_and_drawn_in_blue(registry, cloud, tmp_path):
     assert water["LEVEL"] == pytest.approx(50.1, abs=0.15) and water["GRADE"] == "certain"
     assert water.geometry().area() == pytest.approx(results["AREA"], rel=0.02)
     rules = layers["Water"].renderer().rootRule().children()
-    assert [each.label() for each in rules] == ["Certain", "Likely", "Doubtful"]
+    assert [each.label() for each in rules] == ["Given", "Certain", "Likely", "Doubtful"]
     (line,) = layers["Breaklines"].getFeatures()
     assert line.geometry().constGet().is3D() and line["KIND"] == "shore"
     assert line.geometry().constGet().pointN(0).z() == pytest.approx(water["LEVEL"], abs=0.002)
@@ -109,7 +109,7 @@ def test_without_a_layer_the_water_is_found(registry, cloud, tmp_path):
     results = processing.run(CLASSES, {"INPUT": str(cloud), "OUTPUT": output}, feedback=log)
     classes = np.asarray(laspy.read(output).classification)
     assert (classes[-40:] == 9).all() and results["WATER_COUNT"] == (classes == 9).sum()
-    assert "--water automatic" in log.text and "Water: 1 lakes" in log.text
+    assert "--water automatic" in log.text and "Water: 1 lake" in log.text
 
 
 def test_a_layer_without_polygons_is_refused(registry, cloud, tmp_path):
