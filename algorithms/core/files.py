@@ -320,6 +320,21 @@ def _lock(number: int) -> None:
         fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
+@contextlib.contextmanager
+def write_errors_told(target: Path) -> Iterator[None]:
+    """Turn errors of the operating system into a sentence on what cannot be written.
+
+    Raises
+    ------
+    BareEarthError
+        In place of each OSError.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise describe_write_error(target, error) from error
+
+
 def describe_write_error(target: Path, error: OSError | ValueError) -> BareEarthError:
     """Return a sentence for an error of the operating system while writing `target`."""
     reason = str(error)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, describe_write_error, replacing
+from ..core.files import check_output, replacing, write_errors_told
 from ..engine.manifest import folders_of
 from ..survey.files import is_cloud
 
@@ -96,14 +96,12 @@ class DeliveryFolder:
         """Make the folder for files that are finished one by one, and say that more will follow."""
         files = self._files
         during, after = self._places_of_records
-        try:
+        with write_errors_told(self.path):
             self.path.mkdir(exist_ok=True)
             (self.path / PAGE).unlink(missing_ok=True)
             if after.is_dir() and not during.exists():
                 self.points.mkdir(exist_ok=True)
                 os.replace(after, during)
-        except OSError as error:
-            raise describe_write_error(self.path, error) from error
         self._write({"delivery": delivery, "is_finished": False, "files": files})
 
     def settle(self, made: Sequence[Path]) -> None:
@@ -119,15 +117,13 @@ class DeliveryFolder:
         BareEarthError
             If the operating system refuses to write.
         """
-        try:
+        with write_errors_told(self.points):
             # The records first: after a crash, no changed file has the record of an unchanged one.
             for each in sorted(made, key=lambda path: len(path.parts), reverse=True):
                 _, *parts = each.relative_to(self.waiting).parts
                 target = self.points.joinpath(*parts)
                 target.parent.mkdir(parents=True, exist_ok=True)
                 os.replace(each, target)
-        except OSError as error:
-            raise describe_write_error(self.points, error) from error
         shutil.rmtree(self.waiting, ignore_errors=True)
 
     def leave(self) -> bool:
@@ -161,7 +157,7 @@ class DeliveryFolder:
         old = self._files
         new = [each for each in sorted(made.rglob("*")) if each.is_file()]
         names = [each.relative_to(made).as_posix() for each in new]
-        try:
+        with write_errors_told(self.path):
             self.path.mkdir(exist_ok=True)
             # The page last, since it says that the others are there.
             for name in sorted(names, key=lambda each: each == PAGE):
@@ -173,8 +169,6 @@ class DeliveryFolder:
                 (self.path / name).unlink(missing_ok=True)
             self._put_records_away(is_one=(made / POINTS).is_dir())
             self._remove_empty({Path(name).parent for name in old})
-        except OSError as error:
-            raise describe_write_error(self.path, error) from error
         self._write({**record, "is_finished": True, "files": sorted(kept)})
 
     def _put_records_away(self, is_one: bool) -> None:

@@ -23,7 +23,7 @@ from ..survey.shapes import outside
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
-from .steps import Allocate, PointResult, PointStep, RememberedClasses
+from .steps import Allocate, CountedClasses, PointResult, PointStep, RememberedClasses
 from .store import BlockPoints, Corner, Marks, Store
 
 # The buffer of a block in metres, and the memory that it takes. A face of a roof that reaches
@@ -32,7 +32,7 @@ _BLOCKS = Blocks.of(100.0, Cost(350.0, 120.0))
 
 
 @dataclass(frozen=True, order=True)
-class AboveGroundSummary:
+class AboveGroundSummary(CountedClasses):
     """The classes of the points above the ground of a file.
 
     Attributes
@@ -50,11 +50,6 @@ class AboveGroundSummary:
     ground_count: int
     changed_count: int
     class_counts: dict[int, int] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        # The keys of the JSON record are strings.
-        counts = {int(value): count for value, count in self.class_counts.items()}
-        object.__setattr__(self, "class_counts", counts)
 
     @property
     def text(self) -> str:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.errors import BareEarthError, Cancelled
-from ..core.files import describe_write_error
+from ..core.files import write_errors_told
 from ..core.progress import Progress
 from ..core.temporary import make_temporary, remove_temporary
 from ..core.threads import SharedThreads
@@ -247,10 +247,8 @@ def _check_encryption(address: str) -> None:
 
 def _marked(folder: Path) -> Path:
     """Make the file that shows that the run is active."""
-    try:
+    with write_errors_told(folder):
         return make_temporary(folder / "run")
-    except OSError as error:
-        raise describe_write_error(folder, error) from error
 
 
 def _facts(marker: str) -> _Facts:

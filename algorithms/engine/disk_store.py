@@ -13,7 +13,7 @@ from typing import BinaryIO, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.files import describe_write_error, reach_disk, unnamed_file
+from ..core.files import reach_disk, unnamed_file, write_errors_told
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
@@ -74,7 +74,7 @@ class DiskStore:
         self._target, self._frame = Path(target), frame
         self._side, self._start = blocks.leaf_side, blocks.start
         self._lock, self._files = threading.Lock(), contextlib.ExitStack()
-        with self._told():
+        with write_errors_told(self._target):
             self._records, self._orders, self._values = (self._file() for _ in range(3))
         self._parts: list[_Part] = []
         self._runs = LeafIndex()
@@ -89,13 +89,6 @@ class DiskStore:
         with self._lock:
             self._files.close()
 
-    @contextlib.contextmanager
-    def _told(self) -> Iterator[None]:
-        try:
-            yield
-        except OSError as error:
-            raise describe_write_error(self._target, error) from error
-
     def append(self, part: PointCloud, marks: Marks) -> None:
         """Add the selected points of the next part."""
         which = np.flatnonzero(marks.selected)
@@ -107,7 +100,7 @@ class DiskStore:
             records[name] = getattr(part, name)[which]
         records["flags"] = _flags(part, marks, which)
         self.has_known |= bool((records["flags"] & _KNOWN).any())
-        with self._told():
+        with write_errors_told(self._target):
             self._records.write(records.tobytes())
             self._orders.write(which.astype(_INDEX).tobytes())
         self._runs.add(found.codes, found.counts, self._count)
@@ -119,7 +112,7 @@ class DiskStore:
         rows, columns, totals = self._runs.finish()
         x, y = (number * self._side + self._start for number in (columns, rows))
         self.leaves = Leaves(x, y, self._side, totals)
-        with self._told():
+        with write_errors_told(self._target):
             reach_disk(self._records)
             reach_disk(self._orders)
             self._values.truncate(self._count * self._kind.itemsize)
@@ -160,7 +153,7 @@ class DiskStore:
         if not len(positions):
             return
         cuts = np.flatnonzero(np.diff(positions) > _GAP) + 1
-        with self._told():
+        with write_errors_told(self._target):
             for where, some in zip(np.split(positions, cuts), np.split(values, cuts)):
                 first, last = int(where[0]), int(where[-1]) + 1
                 held = _read(self._values, self._kind, first, last).copy()
@@ -219,17 +212,14 @@ class ValuesOnDisk:
 
     def __init__(self, target: Path, kind: type, count: int) -> None:
         size = max(count, 1) * np.dtype(kind).itemsize
-        try:
-            with unnamed_file(target.parent) as file:
-                if hasattr(os, "posix_fallocate"):
-                    os.posix_fallocate(file.fileno(), 0, size)
-                else:
-                    for start in range(0, size, _STEP):
-                        file.write(bytes(min(_STEP, size - start)))
-                    file.flush()
-                self._map = mmap.mmap(file.fileno(), size)
-        except OSError as error:
-            raise describe_write_error(target, error) from error
+        with write_errors_told(target), unnamed_file(target.parent) as file:
+            if hasattr(os, "posix_fallocate"):
+                os.posix_fallocate(file.fileno(), 0, size)
+            else:
+                for start in range(0, size, _STEP):
+                    file.write(bytes(min(_STEP, size - start)))
+                file.flush()
+            self._map = mmap.mmap(file.fileno(), size)
         self.values: np.ndarray = np.frombuffer(self._map, kind, count)
 
     def leave_memory(self) -> None:

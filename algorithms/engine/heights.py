@@ -24,7 +24,7 @@ from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
 from .output import HEIGHT_DIMENSION, height_dimension
-from .steps import Allocate, PointResult, PointStep
+from .steps import Allocate, CountedClasses, PointResult, PointStep
 from .store import BlockPoints, Corner, Marks, Store
 
 # The buffer of a block in metres, and the memory that it takes.
@@ -49,7 +49,7 @@ class HeightOutput(ParameterSet):
 
 
 @dataclass(frozen=True, order=True)
-class HeightSummary:
+class HeightSummary(CountedClasses):
     """The heights above ground of a file.
 
     Attributes
@@ -76,11 +76,6 @@ class HeightSummary:
     unit: str
     unit_size: float = 1.0
     class_counts: dict[int, int] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        # The keys of the JSON record are strings.
-        counts = {int(each): count for each, count in self.class_counts.items()}
-        object.__setattr__(self, "class_counts", counts)
 
     @property
     def text(self) -> str:

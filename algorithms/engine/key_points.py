@@ -20,7 +20,7 @@ from ..survey.point_counts import by_class, count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Resources
-from .steps import Allocate, PointResult, PointStep, RememberedClasses
+from .steps import Allocate, CountedClasses, PointResult, PointStep, RememberedClasses
 from .store import BlockPoints, Corner, Marks, Store
 
 # Values that a store holds for key points, and for other ground points.
@@ -58,7 +58,7 @@ class KeyPointMark(ParameterSet):
 
 
 @dataclass(frozen=True, order=True)
-class KeyPointSummary:
+class KeyPointSummary(CountedClasses):
     """The numbers of key points of a file.
 
     Attributes
@@ -76,11 +76,6 @@ class KeyPointSummary:
     ground_count: int
     key_point_count: int
     class_counts: dict[int, int] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        # The keys of the JSON record are strings.
-        counts = {int(each): count for each, count in self.class_counts.items()}
-        object.__setattr__(self, "class_counts", counts)
 
     @property
     def text(self) -> str:

@@ -10,7 +10,7 @@ from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
-from ..core.files import describe_write_error, reach_disk, unnamed_file
+from ..core.files import reach_disk, unnamed_file, write_errors_told
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 
@@ -44,7 +44,7 @@ class PartsOnDisk:
         self._target, self._end, self.is_complete = target, 0, False
         self._parts: list[tuple[PointCloud, int, list[_Column]]] = []
         self._files = contextlib.ExitStack()
-        with self._told():
+        with write_errors_told(self._target):
             self._file = self._files.enter_context(unnamed_file(target.parent))
 
     def __enter__(self) -> PartsOnDisk:
@@ -53,17 +53,10 @@ class PartsOnDisk:
     def __exit__(self, *exception: object) -> None:
         self._files.close()
 
-    @contextlib.contextmanager
-    def _told(self) -> Iterator[None]:
-        try:
-            yield
-        except OSError as error:
-            raise describe_write_error(self._target, error) from error
-
     def add(self, part: PointCloud) -> None:
         """Add the next part."""
         columns = []
-        with self._told():
+        with write_errors_told(self._target):
             for name, values in vars(part).items():
                 if isinstance(values, np.ndarray):
                     columns.append(_Column(name, values.dtype, self._end))
@@ -72,7 +65,7 @@ class PartsOnDisk:
 
     def finish(self) -> None:
         """Finish adding."""
-        with self._told():
+        with write_errors_told(self._target):
             reach_disk(self._file)
         self.is_complete = True
 

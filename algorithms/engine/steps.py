@@ -154,6 +154,17 @@ class PointStep(Step):
         raise NotImplementedError
 
 
+class CountedClasses:
+    """Base of summaries, which are frozen dataclasses, with the number of points of each class."""
+
+    class_counts: dict[int, int]
+
+    def __post_init__(self) -> None:
+        # The keys of the JSON record are strings.
+        counts = {int(value): count for value, count in self.class_counts.items()}
+        object.__setattr__(self, "class_counts", counts)
+
+
 class PointResult:
     """The values of the points of a file."""
 

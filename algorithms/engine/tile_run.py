@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Iterable, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.files import alone_in, describe_write_error
+from ..core.files import alone_in, write_errors_told
 from ..core.progress import SILENT, Progress
 from ..core.temporary import remove_leftovers
 from ..las.cloud import survey_frame
@@ -312,8 +312,6 @@ def _record_of(
 
 def _make(folder: Path, *within: Path) -> None:
     """Make the folder of the outputs, and folders within it."""
-    try:
+    with write_errors_told(folder):
         for each in (folder, *within):
             each.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise describe_write_error(folder, error) from error

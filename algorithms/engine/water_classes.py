@@ -17,12 +17,12 @@ from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.point_counts import by_class, count_classes
 from .blocks import Blocks
 from .memory import Resources
-from .steps import Allocate, PointResult, PointStep, RememberedClasses
+from .steps import Allocate, CountedClasses, PointResult, PointStep, RememberedClasses
 from .store import Marks, Store
 
 
 @dataclass(frozen=True, order=True)
-class WaterClassSummary:
+class WaterClassSummary(CountedClasses):
     """The points of a file that became water or ignored ground.
 
     Attributes
@@ -40,11 +40,6 @@ class WaterClassSummary:
     water_count: int
     ignored_count: int
     class_counts: dict[int, int] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        # The keys of the JSON record are strings.
-        counts = {int(value): count for value, count in self.class_counts.items()}
-        object.__setattr__(self, "class_counts", counts)
 
     @property
     def text(self) -> str:
