@@ -156,21 +156,31 @@ class FilePoints:
             held = _BYTES_A_POINT_KEPT + (0 if records is None else records.shape[1])
         return max(self._given.bytes - held * self.count, 0)
 
-    def parts(self, progress: Progress = SILENT) -> Iterator[tuple[slice, PointCloud]]:
-        """Yield the points part by part with their indices; the parts are always the same."""
+    def parts(
+        self, progress: Progress = SILENT, is_last: bool = False
+    ) -> Iterator[tuple[slice, PointCloud]]:
+        """Yield the points part by part with their indices; the parts are always the same.
+
+        Parameters
+        ----------
+        progress : Progress
+            Receives progress and messages.
+        is_last : bool
+            Whether they are not needed again, so that it is not worth keeping them on disk.
+        """
         if self.is_in_memory:
             for where, part in self.cloud.parts():
                 yield where, part
                 progress(where.stop / max(self.count, 1))
             return
         start = 0
-        for part in self._read(progress):
+        for part in self._read(progress, is_last):
             self.cloud = self.cloud or part
             yield slice(start, start + part.count), part
             start += part.count
 
-    def _read(self, progress: Progress) -> Iterator[PointCloud]:
-        """Yield the parts of the file, and keep them on disk the first time."""
+    def _read(self, progress: Progress, is_last: bool) -> Iterator[PointCloud]:
+        """Yield the parts of the file; keep them on disk the first time, unless it is the last."""
         if self._kept is not None and self._kept.is_complete:
             start = 0
             for part in self._kept:
@@ -180,7 +190,7 @@ class FilePoints:
             return
         told = progress.quiet() if self._is_told else progress
         self._is_told = True
-        if may_keep(self._source, self._target.parent):
+        if not is_last and may_keep(self._source, self._target.parent):
             self._kept = self._files.enter_context(PartsOnDisk(self._target))
         for part in read_parts(self._source, told):
             if self._kept is not None:

@@ -312,7 +312,7 @@ class TileJob:
             points = FilePoints(cloud, resources, self.target)
         with points:
             result = step.result(path, points.allocate)
-            for where, part in points.parts():
+            for where, part in points.parts(is_last=True):
                 step.count(part, counts)
                 result.add(where, part, kept.of(where, part))
             kept.check()

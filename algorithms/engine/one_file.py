@@ -315,7 +315,8 @@ def rasters_of_file(
         points = FilePoints.opened(las, beside, resources, False, first)
         outputs.enter_context(points)
         (step,) = located([step], points.place, progress)
-        parts = points.parts(progress.part(0.1, 0.13))
+        # Only constraints need the points once more.
+        parts = points.parts(progress.part(0.1, 0.13), is_last=not step.constraints.any)
         (store,) = points.gathered([(step, step.counts())], parts, progress.part(0.13, 0.15))
         parts = (part for _, part in points.parts())
         return _draw(step, points, parts, store, outputs, progress.part(0.15, 1.0))
