@@ -308,16 +308,33 @@ def alone_in(folder: Path) -> Iterator[None]:
         yield
 
 
-def _lock(number: int) -> None:
-    """Lock an open file, or fail at once if it is locked."""
+@contextlib.contextmanager
+def one_at_a_time(path: Path) -> Iterator[None]:
+    """Wait until no other thread or process is in such a block for the same path.
+
+    If the file system has no locks, nobody waits.
+
+    Parameters
+    ----------
+    path : Path
+        A file that is made and locked; it stays.
+    """
+    with contextlib.ExitStack() as opened:
+        with contextlib.suppress(OSError):
+            _lock(opened.enter_context(open(path, "ab")).fileno(), waits=True)
+        yield
+
+
+def _lock(number: int, waits: bool = False) -> None:
+    """Lock an open file; if it is locked, wait or fail at once."""
     if sys.platform == "win32":
         import msvcrt
 
-        msvcrt.locking(number, msvcrt.LK_NBLCK, 1)
+        msvcrt.locking(number, msvcrt.LK_LOCK if waits else msvcrt.LK_NBLCK, 1)
     else:
         import fcntl
 
-        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        fcntl.flock(number, fcntl.LOCK_EX | (0 if waits else fcntl.LOCK_NB))
 
 
 @contextlib.contextmanager

@@ -9,21 +9,19 @@ from pathlib import Path
 import numpy as np
 
 from ..core.points import Box
-from ..core.progress import SILENT, Progress
+from ..core.progress import Progress
 from ..las.cloud import PointCloud
-from ..las.edits import Edits
 from ..products.above_ground import AboveGround, classes_above_ground
 from ..products.height_above_ground import with_roads
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections, changed_since
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import DECIDED, ROADS, is_one_of
-from ..survey.point_counts import by_class, count_classes
 from ..survey.shapes import outside
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
-from .steps import Allocate, CountedClasses, PointResult, PointStep, RememberedClasses
+from .steps import Allocate, CountedClasses, PointResult, PointStep, with_classes
 from .store import BlockPoints, Corner, Marks, Store
 
 # The buffer of a block in metres, and the memory that it takes. A face of a roof that reaches
@@ -123,54 +121,40 @@ class ClassifyAboveGround(PointStep):
         """Store the class of each wanted point; 0 in blocks without ground."""
         fill(store, self.blocks, partial(_classes, self.parameters), resources, progress)
 
-    def result(self, path: Path, allocate: Allocate) -> ClassesOfPoints:
-        """Return an object that collects the classes of a file."""
-        return ClassesOfPoints(self, allocate)
+    def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Return points with their classes; a value of 0 leaves the class as it is."""
+        classes = np.where(values > 0, values, part.classification).astype(np.uint8)
+        return with_classes(part, classes)
+
+    def result(self, path: Path, allocate: Allocate) -> ChangedClasses:
+        """Return an object that counts what changes in a file."""
+        return ChangedClasses(self)
 
 
-class ClassesOfPoints(PointResult):
-    """The new classes of the points of a file.
+class ChangedClasses(PointResult):
+    """The numbers of points of a file whose class changes.
 
     Parameters
     ----------
     step : ClassifyAboveGround
         The step.
-    allocate : callable
-        Returns an array of one value for each point.
-
-    Attributes
-    ----------
-    classification : numpy.ndarray of uint8, shape (n,)
-        The class of every point, in file order.
-    class_counts : numpy.ndarray of int64, shape (256,)
-        Points of each class.
     """
 
-    def __init__(self, step: ClassifyAboveGround, allocate: Allocate) -> None:
-        self._step, self._memory = step, RememberedClasses(allocate)
-        self.classification = allocate(np.uint8)
-        self.class_counts = np.zeros(256, dtype=np.int64)
-        self._changed_count = 0
+    def __init__(self, step: ClassifyAboveGround) -> None:
+        self._step, self._count, self._changed_count = step, 0, 0
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
-        """Set the classes of some points; a value of 0 leaves the class as it is."""
-        classes = np.where(values > 0, values, part.classification).astype(np.uint8)
-        self.classification[where] = classes
-        self._memory.add(where, part, classes)
-        self.class_counts += count_classes(classes)
-        self._changed_count += int(np.count_nonzero(classes != part.classification))
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Count some points; return them with their classes."""
+        after = self._step.applied(part, values)
+        self._count += part.count
+        self._changed_count += int(np.count_nonzero(after.classification != part.classification))
+        return after
 
-    def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return the classes."""
-        return self._memory.added_to(Edits(classification=self.classification))
-
-    def summary(self, name: str) -> AboveGroundSummary:
+    def summary(self, name: str, class_counts: dict[int, int]) -> AboveGroundSummary:
         """Return the numbers of points."""
-        counts = by_class(self.class_counts)
-        ground = sum(counts.get(value, 0) for value in set(self._step.ground.ground_classes))
-        return AboveGroundSummary(
-            name, len(self.classification), ground, self._changed_count, counts
-        )
+        classes = set(self._step.ground.ground_classes)
+        ground = sum(class_counts.get(value, 0) for value in classes)
+        return AboveGroundSummary(name, self._count, ground, self._changed_count, class_counts)
 
 
 def _classes(

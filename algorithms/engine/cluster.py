@@ -19,7 +19,6 @@ from ..core.temporary import make_temporary, remove_temporary
 from ..core.threads import SharedThreads
 from ..las.backends import require
 from .blockwise import JobProgress
-from .cloud_cache import CloudCache
 from .jobs import JobResult, Share, attempt
 from .memory import Resources, free_memory
 from .workers import SCHEDULER_GONE, Job, Running, Workers
@@ -63,6 +62,8 @@ class Cluster(Workers):
     patience : float
         Seconds after which a run ends when there is no worker any more.
     """
+
+    are_local = False
 
     def __init__(
         self, address: str, resources: Resources = Resources(), patience: float = 60.0
@@ -274,4 +275,4 @@ class _Listening(Progress):
 
 
 def _on_cluster(job: Job, share: Resources, mark: str) -> JobResult:
-    return attempt(job, Share(share, CloudCache(), SharedThreads(1)), _Listening(mark))
+    return attempt(job, Share(share, SharedThreads(1)), _Listening(mark))

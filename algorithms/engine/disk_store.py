@@ -18,7 +18,6 @@ from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from .blocks import Blocks
-from .parts_on_disk import without_points
 from .store import (
     BlockPoints,
     Corner,
@@ -104,7 +103,9 @@ class DiskStore:
             self._records.write(records.tobytes())
             self._orders.write(which.astype(_INDEX).tobytes())
         self._runs.add(found.codes, found.counts, self._count)
-        self._parts.append(_Part(without_points(part), self._count, part.count))
+        # By indices, since an empty slice would keep the points in memory.
+        nothing = part.take(np.zeros(0, dtype=np.intp))
+        self._parts.append(_Part(nothing, self._count, part.count))
         self._count += len(which)
 
     def finish(self, progress: Progress = SILENT) -> None:

@@ -8,19 +8,22 @@ from typing import Any, Iterable, Iterator, Sequence
 
 import numpy as np
 
+from ..core.files import unnamed_file, write_errors_told
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.reading import read_cloud, read_parts
+from ..las.records import needed
+from ..las.unpacked import has_room, unpack
 from ..survey.point_counts import PointCounts
 from ..survey.shapes import Place
 from .disk_store import DiskStore, ValuesOnDisk
 from .memory import GIGABYTE, GivingBack, Resources
 from .memory_store import MemoryStore
-from .parts_on_disk import PartsOnDisk, may_keep
-from .steps import PointResult, PointStep, Step
+from .steps import PointStep, Step
 from .store import Marks, Store
+from .values import StoreValues, numbered
 
 # Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
 _BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
@@ -68,6 +71,8 @@ class FilePoints:
         Threads and memory.
     target : Path, optional
         The output. Temporary files are made in its folder.
+    needs_records : bool
+        Whether whole records are needed for writing.
 
     Attributes
     ----------
@@ -77,21 +82,29 @@ class FilePoints:
         Its points.
     cloud : PointCloud or None
         All points, if they are in memory; otherwise some of them, after the first were read.
+    file : LasFile or None
+        The opened file.
     resources : Resources
         What the blocks may use.
     """
 
     def __init__(
-        self, cloud: PointCloud | LasFile, resources: Resources, target: Path | None = None
+        self,
+        cloud: PointCloud | LasFile,
+        resources: Resources,
+        target: Path | None = None,
+        needs_records: bool = True,
     ) -> None:
         self.path, self.count, self.resources = cloud.path, cloud.count, resources
         self._given = resources
         self.is_in_memory = isinstance(cloud, PointCloud)
-        self.cloud = cloud if self.is_in_memory else None
-        self._source, self._target = cloud, target
+        self.cloud: Any = cloud if self.is_in_memory else None
+        self.file: Any = cloud.file if self.is_in_memory else cloud
+        self._target, self._needs_records = target, needs_records
         self._files, self._is_told = contextlib.ExitStack(), False
-        self._kept: PartsOnDisk | None = None
         self._mapped: list[ValuesOnDisk] = []
+        # Points of each part that a store gets.
+        self._part_counts = [self.count]
         if not self.is_in_memory:
             left = max(self.memory_left, resources.bytes // 2)
             self.resources = Resources.of(resources.threads, min(left, _MOST_FOR_BLOCKS))
@@ -102,7 +115,7 @@ class FilePoints:
         las: LasFile,
         target: Path,
         resources: Resources,
-        keep_records: bool = True,
+        needs_records: bool = True,
         progress: Progress = SILENT,
     ) -> FilePoints:
         """Read a file, if it fits into memory.
@@ -111,10 +124,8 @@ class FilePoints:
         ----------
         las : LasFile
             The file.
-        target, resources
-            As for the class.
-        keep_records : bool
-            Whether whole records are kept for writing, if they fit into memory as well.
+        target, resources, needs_records
+            As for the class. If they are needed, whole records are kept in memory if they fit.
         progress : Progress
             Receives progress and messages.
         """
@@ -123,9 +134,9 @@ class FilePoints:
                 f"The {las.count:,} points do not fit into the memory that may be used: they are"
                 " read twice, and wait in a temporary file in the output folder."
             )
-            return cls(las, resources, target)
+            return cls(las, resources, target, needs_records)
         length = las.record_length
-        keep = keep_records and length <= _LONGEST_KEPT
+        keep = needs_records and length <= _LONGEST_KEPT
         keep = keep and fits_in_memory(las.count, resources, length)
         return cls(read_cloud(las, progress, keep_records=keep), resources, target)
 
@@ -143,7 +154,7 @@ class FilePoints:
             if self.count:
                 counts.see(self.cloud)
             return Place(str(self.path), self.cloud.crs, counts.bounds)
-        las = self._source
+        las = self.file
         # The header of one file can be wrong: without a sound extent nothing is refused.
         return Place(str(self.path), read_crs(las), las.outer_box if las.states_extent else None)
 
@@ -173,31 +184,27 @@ class FilePoints:
                 yield where, part
                 progress(where.stop / max(self.count, 1))
             return
-        start = 0
-        for part in self._read(progress, is_last):
-            self.cloud = self.cloud or part
-            yield slice(start, start + part.count), part
-            start += part.count
-
-    def _read(self, progress: Progress, is_last: bool) -> Iterator[PointCloud]:
-        """Yield the parts of the file; keep them on disk the first time, unless it is the last."""
-        if self._kept is not None and self._kept.is_complete:
-            start = 0
-            for part in self._kept:
-                yield part
-                start += part.count
-                progress(start / max(self.count, 1))
-            return
+        if not is_last and self._may_unpack():
+            self._unpack(progress.part(0.0, 0.7))
+            progress = progress.part(0.7, 1.0)
         told = progress.quiet() if self._is_told else progress
         self._is_told = True
-        if not is_last and may_keep(self._source, self._target.parent):
-            self._kept = self._files.enter_context(PartsOnDisk(self._target))
-        for part in read_parts(self._source, told):
-            if self._kept is not None:
-                self._kept.add(part)
-            yield part
-        if self._kept is not None:
-            self._kept.finish()
+        for where, part in numbered(read_parts(self.file, told)):
+            self.cloud = self.cloud or part
+            yield where, part
+
+    def _may_unpack(self) -> bool:
+        """Return whether the file is compressed, and the disk has room for its records."""
+        las = self.file
+        is_packed = las.is_compressed and las.unpacked is None
+        return is_packed and has_room(self._target.parent, las.count)
+
+    def _unpack(self, progress: Progress) -> None:
+        """Decompress the file into a temporary one, from which it is read from now on."""
+        columns = None if self._needs_records else needed(self.file)
+        with write_errors_told(self._target):
+            file = self._files.enter_context(unnamed_file(self._target.parent))
+            self.file = unpack(self.file, file, columns, progress)
 
     def sparing(self, progress: Progress) -> Progress:
         """Return a progress that keeps memory small while it is called, if points are on disk."""
@@ -261,14 +268,16 @@ class FilePoints:
     def _on_disk(
         self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress
     ) -> list[Store]:
-        crs = read_crs(self._source)
+        crs = read_crs(self.file)
         stores = [
             self._files.enter_context(
                 DiskStore(self._target, survey_frame(crs, step.origin), step.blocks, step.kind)
             )
             for step, _ in steps
         ]
+        self._part_counts = []
         for _, part in parts:
+            self._part_counts.append(part.count)
             for (step, counts), store in zip(steps, stores):
                 store.append(part, step.marks(part, counts))
         for (step, counts), store in zip(steps, stores):
@@ -276,52 +285,6 @@ class FilePoints:
             store.finish()
         return stores
 
-    def values(
-        self, store: Store, progress: Progress = SILENT
-    ) -> Iterator[tuple[slice, PointCloud, np.ndarray]]:
-        """Yield the points part by part with their indices and their values in a store."""
-        for number, (where, part) in enumerate(self.parts(self.sparing(progress))):
-            yield where, part, store.values(0)[where] if self.is_in_memory else store.values(number)
-
-    def find(
-        self, step: PointStep, counts: Any, progress: Progress = SILENT, then: Sequence[Step] = ()
-    ) -> tuple[PointResult, list[Store]]:
-        """Find a value of each point.
-
-        Parameters
-        ----------
-        step : PointStep
-            The step that finds it.
-        counts : object
-            The counts of the step.
-        progress : Progress
-            Receives progress and messages.
-        then : sequence of Step
-            Further steps, which get the points with the new values.
-
-        Returns
-        -------
-        result : PointResult
-            The values.
-        stores : list of Store
-            The points for each of the further steps.
-
-        Raises
-        ------
-        BareEarthError
-            If there is nothing to do, or the file cannot be read.
-        Cancelled
-            If the user asked to stop.
-        """
-        parts = self.parts(self.sparing(progress.part(0.0, 0.08)))
-        (store,) = self.gathered([(step, counts)], parts, progress.part(0.08, 0.12))
-        step.work(store, self.resources, progress.part(0.12, 0.94))
-        result = step.result(self.path, self.allocate)
-
-        def found() -> Parts:
-            for where, part, values in self.values(store, progress.part(0.94, 0.97)):
-                result.add(where, part, values)
-                yield where, result.part(where, part)
-
-        steps = [(each, each.counts()) for each in then]
-        return result, self.gathered(steps, found(), progress.part(0.97, 1.0))
+    def values(self, step: PointStep, store: Store) -> StoreValues:
+        """Return the values that a step has stored in a store of `gathered`."""
+        return StoreValues(step, store, self._part_counts)

@@ -19,7 +19,6 @@ from ..products.height_above_ground import height_above_ground, with_roads
 from ..rasters.sampling import HeightRaster, HeightSampler
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundCounts
-from ..survey.point_counts import by_class, count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Cost, Resources
@@ -94,8 +93,6 @@ class MeasureHeights(PointStep):
         Which points are ground.
     output : HeightOutput
         Whether the heights are an extra dimension or replace z; both in the vertical unit.
-    ground_only : bool
-        Whether only ground points are written.
     area : Area or None
         Where heights are wanted; everywhere if it is None.
     roads : tuple of int
@@ -106,7 +103,6 @@ class MeasureHeights(PointStep):
 
     ground: GroundClasses = field(default_factory=GroundClasses)
     output: HeightOutput = field(default_factory=HeightOutput)
-    ground_only: bool = False
     area: Area | None = None
     roads: tuple[int, ...] = ()
     dtm: HeightRaster | None = None
@@ -116,6 +112,11 @@ class MeasureHeights(PointStep):
     blocks = _BLOCKS
     summary_type = HeightSummary
     vpc_name = "heights.vpc"
+
+    @property
+    def gives_classes(self) -> bool:
+        """Whether classes change: they do not."""
+        return False
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return all points, which of them are ground, and which lie in the area."""
@@ -168,13 +169,11 @@ class HeightsOfPoints(PointResult):
         self._step, self._as_z = step, step.output.output_as == "z"
         # Single precision is enough for a dimension. Heights that replace z are rounded as z is.
         self.heights = allocate(np.float64 if self._as_z else np.float32)
-        self._kept = allocate(bool) if step.ground_only else None
         self._lowest, self._highest = np.inf, -np.inf
         self._ground_count, self._unit, self._unknown_count = 0, 1.0, 0
-        self._counts = np.zeros(256, dtype=np.int64)
         self._sampler = None if step.dtm is None else HeightSampler(step.dtm)
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Convert heights from metres to the vertical unit, without noise from rounding."""
         unit = part.crs.vertical_unit
         if self._sampler is not None:
@@ -183,17 +182,12 @@ class HeightsOfPoints(PointResult):
         heights = np.round(values / unit, 6) + 0.0
         self.heights[where] = heights
         ground = self._step.ground.points_of(part, self._step.ground.ground_classes)
-        classes = part.classification
-        if self._kept is not None:
-            # Known ground can have other classes than the first.
-            kept = part.classification == self._step.ground.ground_classes[0]
-            self._kept[where], classes = kept, part.classification[kept]
-        self._counts += count_classes(classes)
         self._ground_count += int(np.count_nonzero(ground))
         self._unit = unit
         self._unknown_count += int(np.count_nonzero(np.isnan(heights)))
         self._lowest = min(self._lowest, float(np.fmin.reduce(heights, initial=np.inf)))
         self._highest = max(self._highest, float(np.fmax.reduce(heights, initial=-np.inf)))
+        return part
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the heights as z or as a dimension.
@@ -207,8 +201,8 @@ class HeightsOfPoints(PointResult):
             self._tell_of_unknown(cloud.path, self._step.dtm, progress)
         if self._as_z:
             z, offset = _z_of(cloud, self.heights)
-            return Edits(z=z, z_offset=offset, kept=self._kept)
-        return Edits(extra=height_dimension(cloud, self.heights), kept=self._kept)
+            return Edits(z=z, z_offset=offset)
+        return Edits(extra=height_dimension(cloud, self.heights))
 
     def _tell_of_unknown(self, path: Path, raster: HeightRaster, progress: Progress) -> None:
         """Tell of points at which a raster has no value, or refuse the file."""
@@ -227,14 +221,14 @@ class HeightsOfPoints(PointResult):
             f"{unknown:,} of {count:,} points have no height (NaN): the raster has no value there."
         )
 
-    def summary(self, name: str) -> HeightSummary:
+    def summary(self, name: str, class_counts: dict[int, int]) -> HeightSummary:
         """Return the lowest and the highest height."""
         extremes = self._lowest, self._highest
         if self._lowest > self._highest:
             extremes = np.nan, np.nan
-        written = len(self.heights) if self._kept is None else int(np.count_nonzero(self._kept))
-        unit, counts = (unit_name(self._unit), self._unit), by_class(self._counts)
-        return HeightSummary(name, written, self._ground_count, *extremes, *unit, counts)
+        unit = unit_name(self._unit), self._unit
+        count = len(self.heights)
+        return HeightSummary(name, count, self._ground_count, *extremes, *unit, class_counts)
 
 
 def _above_raster(part: PointCloud, raster: HeightSampler) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Runs the jobs of a survey: first the blocks, and each tile as soon as its blocks are done."""
+"""Runs the jobs of a survey, each as soon as the files that it needs are there."""
 
 from __future__ import annotations
 
@@ -6,12 +6,10 @@ import collections
 import re
 from concurrent.futures import BrokenExecutor, CancelledError, Future
 from pathlib import Path
-from typing import Any, Mapping, Sequence
+from typing import Any, Collection, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
-from ..survey.files import Survey
-from .block_grid import BlockGrid, BlockIndex, grouped, least_memory, points_in
 from .jobs import BlockJob, JobResult, Taken, TileJob
 from .memory import GIGABYTE
 from .polling import ended
@@ -40,6 +38,8 @@ class JobQueue:
         Who runs them.
     progress : Progress
         Used in the calling thread only.
+    kept : collection of Path
+        Results of blocks that are used later. The others are removed after their last use.
 
     Attributes
     ----------
@@ -56,7 +56,12 @@ class JobQueue:
     """
 
     def __init__(
-        self, blocks: list[BlockJob], tiles: list[TileJob], workers: Workers, progress: Progress
+        self,
+        blocks: Sequence[BlockJob],
+        tiles: Sequence[TileJob],
+        workers: Workers,
+        progress: Progress,
+        kept: Collection[Path] = (),
     ) -> None:
         self.done: list[Any] = []
         self.empty_count = 0
@@ -64,20 +69,40 @@ class JobQueue:
         self.lost: list[str] = []
         self.taken: list[Taken] = []
         self._workers, self._progress = workers, progress
-        self._blocks, self._ready = collections.deque(blocks), collections.deque()
         # Jobs that were running when a worker died. They are repeated one by one, to find the one
         # that kills its worker. The last one that was repeated:
         self._suspects: collections.deque[Job] = collections.deque()
         self._repeated: Job | None = None
+        # Jobs that wait for nothing: the blocks of the first step, and all others.
+        self._blocks: collections.deque[Job] = collections.deque()
+        self._ready: collections.deque[Job] = collections.deque()
+        # Results of blocks that are not there yet, that could not be made, and how many jobs use
+        # each.
         self._missing = {file for job in blocks for file in job.files}
-        self._waiting = list(tiles)
-        self._uses = collections.Counter(file for job in tiles for file in job.files)
+        self._never: set[Path] = set()
+        self._uses = collections.Counter(kept)
+        # The jobs that wait for a result, and for how many results they wait.
+        self._waiting: dict[Path, list[Job]] = collections.defaultdict(list)
+        self._lacks: dict[Job, int] = {}
+        for job in (*blocks, *tiles):
+            self._add(job, self._blocks if isinstance(job, BlockJob) else self._ready)
         self._running: dict[Running, Job] = {}
         # Messages with their files ("" for blocks), by kind, text without numbers, and whether they
         # are about files.
         self._heard: dict[tuple[str, str, bool], dict[str, str]] = {}
         self._total = max(sum(map(_weight, (*blocks, *tiles))), 1e-9)
         self._finished = 0.0
+
+    def _add(self, job: Job, ready: collections.deque[Job]) -> None:
+        """Queue a job, or let it wait for the results that it needs."""
+        self._uses.update(job.needs)
+        lacking = [file for file in job.needs if file in self._missing]
+        for file in lacking:
+            self._waiting[file].append(job)
+        if lacking:
+            self._lacks[job] = len(lacking)
+        else:
+            ready.append(job)
 
     def work(self) -> None:
         """Run all jobs, and stop the workers.
@@ -95,7 +120,6 @@ class JobQueue:
             self._workers.stop()
 
     def _run(self) -> None:
-        self._find_ready()
         for future in ended(self._start, self._look):
             running = next((each for each in self._running if each.future is future), None)
             if running is not None:  # otherwise it is suspected meanwhile
@@ -158,28 +182,39 @@ class JobQueue:
 
     def _end_blocks(self, job: BlockJob, outcome: JobResult) -> None:
         if outcome.failure is not None and len(job.places) > 1:
-            parts = job.split()
-            self._blocks.extendleft(parts)
-            self._total += sum(map(_weight, parts))
+            self._split(job, outcome)
             return
-        self._missing -= set(job.files)
         if outcome.failure is not None:
             self.lost.append(outcome.failure)
-            waiting, self._waiting = self._waiting, []
-            for each in waiting:
-                if job.files[0] in each.files:
-                    self._end_tile(each, outcome)
-                else:
-                    self._waiting.append(each)
-        self._find_ready()
+            self._never.update(job.files)
+        self._missing -= set(job.files)
+        for user in [user for file in job.files for user in self._waiting.pop(file, ())]:
+            if user not in self._lacks:  # it is given up
+                continue
+            self._lacks[user] -= 1
+            if outcome.failure is not None:
+                del self._lacks[user]
+                self._give_up(user, outcome)
+            elif not self._lacks[user]:
+                del self._lacks[user]
+                self._ready.append(user)
+        self._release(job)
 
-    def _find_ready(self) -> None:
-        """Queue the tiles whose blocks are done."""
-        waiting = []
-        for each in self._waiting:
-            is_ready = self._missing.isdisjoint(each.files)
-            (self._ready if is_ready else waiting).append(each)
-        self._waiting = waiting
+    def _split(self, job: BlockJob, outcome: JobResult) -> None:
+        """Try the blocks of a job one by one, but for those that need what could not be done."""
+        for part in job.split():
+            self._total += _weight(part)
+            if self._never.isdisjoint(part.needs):
+                self._add(part, self._blocks)
+            else:
+                self._uses.update(part.needs)
+                self._end_blocks(part, outcome)
+        self._release(job)
+
+    def _give_up(self, job: Job, outcome: JobResult) -> None:
+        """End a job that needs what could not be done."""
+        self._finished += _weight(job)
+        (self._end_tile if isinstance(job, TileJob) else self._end_blocks)(job, outcome)
 
     def _end_tile(self, job: TileJob, outcome: JobResult) -> None:
         if outcome.failure is not None:
@@ -189,7 +224,11 @@ class JobQueue:
         else:
             self.done.append(outcome.result)
             self._progress.info(outcome.result.text)
-        for file in job.files:
+        self._release(job)
+
+    def _release(self, job: Job) -> None:
+        """Remove the results of blocks that nobody else needs."""
+        for file in job.needs:
             self._uses[file] -= 1
             if not self._uses[file] and file not in self._missing:
                 file.unlink(missing_ok=True)
@@ -246,51 +285,3 @@ def _without_numbers(text: str) -> str:
 def _weight(job: Job) -> float:
     """Return the cost of a job, as a number of points to read and write."""
     return float(job.tile.count) if isinstance(job, TileJob) else _BLOCK_WEIGHT * job.count
-
-
-def block_jobs(
-    kind: type[BlockJob],
-    grid: BlockGrid,
-    survey: Survey,
-    files: Mapping[BlockIndex, Path],
-    sources: Mapping[BlockIndex, Sequence[Path]],
-    folder: Path,
-    tile_count: int,
-    workers: Workers,
-    **more: Any,
-) -> list[BlockJob]:
-    """Return the jobs of some blocks, and start the workers.
-
-    Parameters
-    ----------
-    kind : type
-        Type of the jobs.
-    grid, survey
-        The blocks, and the files.
-    files : mapping of BlockIndex to Path
-        The file for the result of each block.
-    sources : mapping of BlockIndex to sequence of Path
-        The input files that each block needs.
-    folder : Path
-        Folder of the outputs, which all workers see.
-    tile_count : int
-        How many files will be written with the results.
-    workers : Workers
-        The workers.
-    **more
-        Further attributes of the jobs.
-    """
-    least = max((least_memory(grid, survey, each) for each in files), default=0)
-    workers.start(folder, least, len(files), tile_count)
-    groups = grouped(grid, survey, list(files), workers.at_once, workers.share.bytes)
-    return [
-        kind(
-            grid,
-            tuple(group),
-            tuple(files[each] for each in group),
-            tuple(sorted(set().union(*(sources[each] for each in group)))),
-            points_in(survey, grid.window(group)),
-            **more,
-        )
-        for group in groups
-    ]

@@ -6,31 +6,31 @@ They run in threads, in processes, or on other computers that see the same folde
 from __future__ import annotations
 
 import contextlib
-import os
 import time
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
 from ..core.errors import BareEarthError, Cancelled
-from ..core.files import replacing
 from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
-from ..las.writing import layers_kept, write_changed
+from ..las.opening import open_las
+from ..survey.window import may_touch, read_window
 from .block_grid import BlockGrid, BlockIndex, code, memory_held
-from .cloud_cache import CloudCache
 from .disk_store import DiskStore
 from .file_points import FilePoints, held_by_file
 from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
 from .memory_store import MemoryStore
 from .steps import PointStep
-
-_FAILURE = "no ground"
+from .tile_output import TileOutput, copies_all_else
+from .unpacking import Unpacking
+from .values import BlockFiles, BlockValues, seen
 
 
 @dataclass(frozen=True)
@@ -84,8 +84,6 @@ class Share(NamedTuple):
     ----------
     resources : Resources
         Threads of its own, and memory.
-    cache : CloudCache
-        Files in memory, shared by the jobs of a process.
     threads : SharedThreads
         All threads of the run, of which it may use those that are free.
     is_alone : bool
@@ -93,12 +91,11 @@ class Share(NamedTuple):
     """
 
     resources: Resources
-    cache: CloudCache
     threads: SharedThreads
     is_alone: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BlockJob:
     """A job that works on the points of some blocks.
 
@@ -114,6 +111,12 @@ class BlockJob:
         The input files that may have points for these blocks.
     count : float
         Estimated number of points in the blocks.
+    before : tuple of BlockFiles
+        What the steps before have found round these blocks.
+    finished : frozenset of Path
+        Those of the sources that hold this already.
+    unpacking : Unpacking or None
+        Where sources wait uncompressed, if they do.
     """
 
     grid: BlockGrid
@@ -121,12 +124,23 @@ class BlockJob:
     files: tuple[Path, ...]
     sources: tuple[Path, ...]
     count: float
+    before: tuple[BlockFiles, ...]
+    finished: frozenset[Path]
+    unpacking: Unpacking | None
+
+    @property
+    def needs(self) -> list[Path]:
+        """The files that must be there before it starts."""
+        return [file for found in self.before for file in found.files.values()]
 
     def split(self) -> list[BlockJob]:
         """Return one job for each block."""
-        count = self.count / len(self.places)
-        pairs = zip(self.places, self.files)
-        return [replace(self, places=(a,), files=(b,), count=count) for a, b in pairs]
+        count, jobs = self.count / len(self.places), []
+        for place, file in zip(self.places, self.files):
+            window = self.grid.window([place])
+            before = tuple(found.within(window) for found in self.before)
+            jobs.append(replace(self, places=(place,), files=(file,), count=count, before=before))
+        return jobs
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
@@ -142,12 +156,21 @@ class BlockJob:
         held = memory_held(self.grid, self.count)
         return held if held <= resources.bytes else resources.bytes
 
-    def clouds(self, cache: CloudCache, progress: Progress) -> Iterator[PointCloud]:
-        """Yield the points of each file that the blocks need."""
+    def clouds(self, progress: Progress) -> Iterator[PointCloud]:
+        """Yield the points of each file that the blocks need, with what was found before."""
         window = self.grid.window(self.places)
         for source, part in zip(self.sources, progress.shares(*[1.0] * len(self.sources))):
             try:
-                cloud = cache.window(source, window, part.quiet(), self.grid.stated)
+                las = open_las(source, self.grid.stated)
+                if not may_touch(las, window):
+                    continue
+                if self.unpacking is not None:
+                    las = self.unpacking.of(las, part.part(0.0, 0.7).quiet())
+                change = None
+                if self.before and source not in self.finished:
+                    values = [BlockValues(found, las, are_all=False) for found in self.before]
+                    change = partial(seen, values)
+                cloud = read_window(las, window, part.quiet(), trust_header=True, change=change)
             except BareEarthError as error:
                 progress.warning(
                     f"{source.name} is left out: the results beside it are made without its"
@@ -168,7 +191,7 @@ class BlockJob:
             yield store
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PointJob(BlockJob):
     """A job that finds a value for each point of some blocks, and stores it by block and file.
 
@@ -184,7 +207,7 @@ class PointJob(BlockJob):
         """Do it."""
         failure = ""
         with self.store(share, self.step.kind) as store:
-            parts = self._fill(store, share.cache, progress.part(0.0, 0.3))
+            parts = self._fill(store, progress.part(0.0, 0.3))
             store.finish(progress.part(0.3, 0.35))
             if any(part.has_work for part in parts):
                 try:
@@ -192,16 +215,15 @@ class PointJob(BlockJob):
                 except BareEarthError as error:
                     failure = str(error)
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
-            for number, file in enumerate(self.files):
-                self._write(file, number, parts, store, failure)
+            found = BlockFiles(self.grid, self.step, dict(zip(self.places, self.files)))
+            for number, place in enumerate(self.places, start=1):
+                found.write(place, self._values(number, parts, store, failure), failure)
 
-    def _fill(
-        self, store: MemoryStore | DiskStore, cache: CloudCache, progress: Progress
-    ) -> list[_Part]:
+    def _fill(self, store: MemoryStore | DiskStore, progress: Progress) -> list[_Part]:
         """Add the points that the blocks need to a store; return what else is known of them."""
         parts, counts = [], self.step.counts()
         here = np.array([code(place) for place in self.places])
-        for cloud in self.clouds(cache, progress):
+        for cloud in self.clouds(progress):
             codes = self.grid.codes(cloud)
             places = np.zeros(cloud.count, dtype=np.uint8)
             for number, block in enumerate(here.tolist(), start=1):
@@ -211,29 +233,21 @@ class PointJob(BlockJob):
             if marks.wanted is not None:
                 wanted &= marks.wanted
             store.append(cloud, marks._replace(wanted=wanted))
-            parts.append(_Part(_key(cloud.path), places, bool((wanted & marks.selected).any())))
+            parts.append(_Part(cloud.path, places, bool((wanted & marks.selected).any())))
         return parts
 
-    def _write(
-        self,
-        file: Path,
-        number: int,
-        parts: list[_Part],
-        store: MemoryStore | DiskStore,
-        failure: str,
-    ) -> None:
-        """Write the values of a block: for each file those of its points in it, in file order."""
-        kept = {}
+    def _values(
+        self, number: int, parts: list[_Part], store: MemoryStore | DiskStore, failure: str
+    ) -> dict[Path, np.ndarray]:
+        """Return the values of a block: for each file those of its points in it, in file order."""
+        found = {}
         for which, part in enumerate(parts):
-            here = part.places == number + 1
+            here = part.places == number
             if failure:
-                kept[part.key] = np.zeros(np.count_nonzero(here), dtype=self.step.kind)
+                found[part.path] = np.zeros(np.count_nonzero(here), dtype=self.step.kind)
             else:
-                kept[part.key] = store.values(which)[here]
-        if failure:
-            kept[_FAILURE] = np.array(failure)
-        with replacing(file) as temporary:
-            np.savez(temporary, **kept)
+                found[part.path] = store.values(which)[here]
+        return found
 
 
 class _Part(NamedTuple):
@@ -241,53 +255,47 @@ class _Part(NamedTuple):
 
     Attributes
     ----------
-    key : str
-        Name of its values.
+    path : Path
+        The file.
     places : numpy.ndarray of uint8, shape (n,)
         Number of the block that holds each point, from 1; 0 for other blocks.
     has_work : bool
         Whether any point is to get a value.
     """
 
-    key: str
+    path: Path
     places: np.ndarray
     has_work: bool
 
 
-def _key(path: Path) -> str:
-    """Return a name for the values of a file, whose own name may have unsuitable characters."""
-    return os.fsencode(path.name).hex()
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TileJob:
     """A job that writes a file with the values that were found for its points.
 
     Attributes
     ----------
-    grid : BlockGrid
-        The blocks of the survey.
-    step : PointStep
-        The step that found the values.
     tile : LasFile
         The input.
     target : Path
         The output.
-    places : tuple of BlockIndex
-        The blocks that may hold its points.
-    files : tuple of Path
-        The file with the result of each block.
+    values : tuple of BlockFiles
+        What each step has found in the blocks that may hold its points.
     fingerprint : Fingerprint
         What the output is made from; written after the output.
+    unpacking : Unpacking or None
+        Where the input waits uncompressed, if it does.
     """
 
-    grid: BlockGrid
-    step: PointStep
     tile: LasFile
     target: Path
-    places: tuple[BlockIndex, ...]
-    files: tuple[Path, ...]
+    values: tuple[BlockFiles, ...]
     fingerprint: Fingerprint
+    unpacking: Unpacking | None
+
+    @property
+    def needs(self) -> list[Path]:
+        """The files that must be there before it starts."""
+        return [file for found in self.values for file in found.files.values()]
 
     @property
     def title(self) -> str:
@@ -300,89 +308,27 @@ class TileJob:
 
     def run(self, share: Share, progress: Progress) -> Any:
         """Write the file. Return the summary of the step, or None if there is nothing to write."""
-        step, las, path, resources = self.step, self.tile, self.tile.path, share.resources
-        counts, kept = step.counts(), TileValues(self)
-        is_copied = layers_kept(las, self.target) is not None
-        reading = progress.part(0.0, 0.4).quiet()
-        # Where whole records are needed, the file is read again.
-        cloud = share.cache.whole(las, reading) if is_copied else None
-        if cloud is None:
-            points = FilePoints.opened(las, self.target, resources, not is_copied, reading)
-        else:
-            points = FilePoints(cloud, resources, self.target)
-        with points:
-            result = step.result(path, points.allocate)
+        steps, las, reading = [found.step for found in self.values], self.tile, progress
+        if self.unpacking is not None:
+            las, reading = self.unpacking.of(las, progress.part(0.0, 0.3)), progress.part(0.3, 0.4)
+        values = [BlockValues(found, las) for found in self.values]
+        needs_records, counts = not copies_all_else(las, self.target, steps), steps[0].counts()
+        reading = reading.quiet()
+        with FilePoints.opened(las, self.target, share.resources, needs_records, reading) as points:
+            output = TileOutput(points, values)
             for where, part in points.parts(is_last=True):
-                step.count(part, counts)
-                result.add(where, part, kept.of(where, part))
-            kept.check()
-            step.tell_of_tile(counts, path, progress)
-            result.check(kept.failure)
-            if result.is_empty:
+                steps[0].count(part, counts)
+                output.add(where, part)
+            for found in values:
+                found.check()
+            steps[0].tell_of_tile(counts, las.path, progress)
+            output.check()
+            if output.is_empty:
                 return None
-            edits = result.edits(points.cloud, progress)
-            last = progress.part(0.4, 1.0)
-            write_changed(las, self.target, edits, last, points.cloud, points.memory_left)
-        summary = result.summary(self.target.name)
+            output.write(self.target, progress.part(0.4, 1.0))
+        summary = output.summary(self.target.name)
         write_record(self.target, self.fingerprint, asdict(summary))
         return summary
-
-
-class TileValues:
-    """The values of the points of a tile, as the blocks stored them.
-
-    Parameters
-    ----------
-    job : TileJob
-        The tile.
-
-    Attributes
-    ----------
-    failure : str
-        Why a block has no values; empty if all have.
-    """
-
-    def __init__(self, job: TileJob) -> None:
-        self._grid, self._path, self._count = job.grid, job.tile.path, job.tile.count
-        self._kind, self.failure = job.step.kind, ""
-        self._left: dict[int, np.ndarray] = {}
-        for place, file in zip(job.places, job.files):
-            with np.load(file, allow_pickle=False) as kept:
-                if _key(self._path) in kept:
-                    self._left[code(place)] = kept[_key(self._path)]
-                    self.failure = self.failure or str(kept.get(_FAILURE, ""))
-
-    def of(self, where: slice, part: PointCloud) -> np.ndarray:
-        """Return the values of the next points.
-
-        Raises
-        ------
-        BareEarthError
-            If points lie outside the extent in the header.
-        """
-        if where.stop > self._count:
-            raise self._changed()
-        codes, values = self._grid.codes(part), np.zeros(part.count, dtype=self._kind)
-        for each in np.unique(codes):
-            here, left = np.flatnonzero(codes == each), self._left.get(int(each))
-            if left is None:
-                raise BareEarthError(
-                    f"The header of {self._path} states a smaller extent than its points have."
-                    " Write the file again with a program that corrects the header."
-                )
-            if len(left) < len(here):
-                raise self._changed()
-            values[here], self._left[int(each)] = left[: len(here)], left[len(here) :]
-        return values
-
-    def check(self) -> None:
-        """Refuse a tile if some values were not used."""
-        if any(map(len, self._left.values())):
-            raise self._changed()
-
-    def _changed(self) -> BareEarthError:
-        """Return the error for a file that has changed."""
-        return BareEarthError(f"{self._path} changed while it was worked on. Classify it again.")
 
 
 def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> JobResult:

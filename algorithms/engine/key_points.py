@@ -16,11 +16,10 @@ from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..las.records import check_class
 from ..survey.ground_classes import GroundClasses, GroundCounts
-from ..survey.point_counts import by_class, count_classes
 from .blocks import Blocks
 from .blockwise import fill
 from .memory import Resources
-from .steps import Allocate, CountedClasses, PointResult, PointStep, RememberedClasses
+from .steps import Allocate, CountedClasses, PointResult, PointStep, with_classes
 from .store import BlockPoints, Corner, Marks, Store
 
 # Values that a store holds for key points, and for other ground points.
@@ -113,6 +112,11 @@ class FindKeyPoints(PointStep):
         """The blocks in which key points are found."""
         return Blocks.of(reach(self.parameters))
 
+    @property
+    def gives_classes(self) -> bool:
+        """Whether key points get a class, and not a flag."""
+        return self.mark.by_class
+
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return the ground points."""
         self.check_tile(part)
@@ -133,6 +137,16 @@ class FindKeyPoints(PointStep):
         """Find the key points."""
         fill(store, self.blocks, partial(_keys, self.parameters), resources, progress)
 
+    def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Return points with their classes, if key points get a class."""
+        if not self.gives_classes:
+            return part
+        classes = part.classification.copy()
+        before = (values == _OTHER) & (classes == self.mark.key_class)
+        classes[before] = self.ground.ground_classes[0]
+        classes[values == _KEY] = self.mark.key_class
+        return with_classes(part, classes)
+
     def result(self, path: Path, allocate: Allocate) -> KeyPointsOfPoints:
         """Return an object that collects the key points of a file."""
         return KeyPointsOfPoints(self, allocate)
@@ -151,39 +165,27 @@ class KeyPointsOfPoints(PointResult):
 
     def __init__(self, step: FindKeyPoints, allocate: Allocate) -> None:
         self._step = step
-        # Classes, or new values of the flag.
-        self._values = allocate(np.uint8 if step.mark.by_class else np.int8)
-        self._memory = RememberedClasses(allocate)
-        self._counts = np.zeros(256, dtype=np.int64)
-        self._ground_count = self._key_point_count = 0
+        self._flags = None if step.gives_classes else allocate(np.int8)
+        self._count = self._ground_count = self._key_point_count = 0
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
-        """Set the class or the flag of some points."""
-        keys, others, mark = values == _KEY, values == _OTHER, self._step.mark
-        classes = part.classification
-        if mark.by_class:
-            classes = classes.copy()
-            classes[others & (classes == mark.key_class)] = self._step.ground.ground_classes[0]
-            classes[keys] = mark.key_class
-            self._values[where] = classes
-            self._memory.add(where, part, classes)
-        else:
-            self._values[where] = np.where(keys, 1, np.where(others, 0, -1))
-        self._counts += count_classes(classes)
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Count some points, and set their flags if they get no class."""
+        keys = values == _KEY
+        if self._flags is not None:
+            self._flags[where] = np.where(keys, 1, np.where(values == _OTHER, 0, -1))
+        self._count += part.count
         self._ground_count += int(np.count_nonzero(values))
         self._key_point_count += int(np.count_nonzero(keys))
+        return self._step.applied(part, values)
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return the classes or the flags."""
-        if self._step.mark.by_class:
-            return self._memory.added_to(Edits(classification=self._values))
-        return Edits(key_points=self._values)
+        """Return the flags."""
+        return Edits(key_points=self._flags)
 
-    def summary(self, name: str) -> KeyPointSummary:
+    def summary(self, name: str, class_counts: dict[int, int]) -> KeyPointSummary:
         """Return the numbers of points."""
-        counts = by_class(self._counts)
-        points = self._ground_count, self._key_point_count
-        return KeyPointSummary(name, len(self._values), *points, counts)
+        numbers = self._count, self._ground_count, self._key_point_count
+        return KeyPointSummary(name, *numbers, class_counts)
 
 
 def _keys(

@@ -18,7 +18,7 @@ from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..survey.area import Area
-from ..survey.corrections import NO_CORRECTIONS, Corrections
+from ..survey.corrections import NO_CORRECTIONS, ByHand, Corrections
 from ..survey.kept_classes import overlapping
 from ..survey.point_chooser import PointChooser
 from ..survey.point_counts import PointCounts, by_class, count_classes
@@ -27,8 +27,8 @@ from .blocks import Blocks
 from .explanation import Explanation
 from .ground import Label, blocks_of, label_ground
 from .memory import Resources
-from .output import Output, height_dimension
-from .steps import Allocate, PointResult, PointStep, RememberedClasses
+from .output import Output
+from .steps import Allocate, PointResult, PointStep, with_classes
 from .store import Marks, Store
 
 
@@ -118,10 +118,30 @@ class LabelGround(PointStep):
         reach = method_of(self.parameters).reach(self.parameters)
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
+    @property
+    def only_classes(self) -> bool:
+        """Whether the output differs only in its classes."""
+        return not (self.output.changes_points or self.selection.remember_classes)
+
     def marks(self, part: PointCloud, counts: PointCounts) -> Marks:
         """Return which points take part, are known ground, and lie in the area."""
         inside, selected, known = self.chooser.choose(part, counts)
         return Marks(selected, known, inside)
+
+    def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Return points with their new classes; points that are not written become withheld."""
+        return self.decided(part, values, self.chooser.inside(part), self.chooser.by_hand(part))
+
+    def decided(
+        self, part: PointCloud, values: np.ndarray, inside: np.ndarray, by_hand: ByHand | None
+    ) -> PointCloud:
+        """Return the same, given which points lie in the area, and the corrections by hand."""
+        ground, low, decks, high = (values == label for label in Label)
+        classes = self.selection.classes(part, ground, low, inside, decks, by_hand, high)
+        part = with_classes(part, classes, self.selection.remember_classes)
+        if self.output.area_only:
+            part = dataclasses.replace(part, withheld=part.withheld | ~inside)
+        return part
 
     def tell(self, counts: PointCounts, path: Path, progress: Progress) -> None:
         """Report how many points take part; refuse a file without any."""
@@ -187,7 +207,7 @@ class LabelGround(PointStep):
 
 
 class ClassifiedPoints(PointResult):
-    """The new classes of the points of a file.
+    """The numbers of classified points of a file, and which points are written.
 
     Parameters
     ----------
@@ -200,74 +220,52 @@ class ClassifiedPoints(PointResult):
 
     Attributes
     ----------
-    classification : numpy.ndarray of uint8, shape (n,)
-        The new class of every point, in file order.
-    class_counts : numpy.ndarray of int64, shape (256,)
-        Numbers of written points of each class.
-    area_ground_count, area_low_count, area_deck_count, area_high_count : int
-        Numbers of points in the area with the class of the ground, of low outliers, of points on
+    kept : numpy.ndarray of bool, shape (n,), or None
+        Which points are written; None for all.
+    area_count, area_ground_count, area_low_count, area_deck_count, area_high_count : int
+        Numbers of points in the area: of all, with the class of the ground, of low outliers, on
         bridge decks, and of high outliers.
     """
 
     def __init__(self, step: LabelGround, path: Path, allocate: Allocate) -> None:
-        self._step, self._path = step, path
-        self.classification = allocate(np.uint8)
-        self._inside = allocate(bool) if step.output.area_only else None
-        self._memory = RememberedClasses(allocate, step.selection.remember_classes)
-        self.class_counts = np.zeros(256, dtype=np.int64)
-        self.area_ground_count = self.area_low_count = self.area_deck_count = 0
-        self.area_high_count = 0
-        self._area_count = self._by_hand_count = self._overlap_count = 0
+        self._step, self._path, output = step, path, step.output
+        self.kept = allocate(bool) if output.ground_only or output.area_only else None
+        self.area_count = self.area_ground_count = self.area_low_count = 0
+        self.area_deck_count = self.area_high_count = 0
+        self._count = self._ground_count = self._by_hand_count = self._overlap_count = 0
         self._counts_before = np.zeros(256, dtype=np.int64)
         self._has_ground = False
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
-        """Set the classes of some points from their labels, and count them."""
-        selection, chooser = self._step.selection, self._step.chooser
-        inside = chooser.inside(part)
-        ground, low, decks, high = (values == label for label in Label)
-        by_hand = chooser.by_hand(part)
-        classes = selection.classes(part, ground, low, inside, decks, by_hand, high)
-        self.classification[where] = classes
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Count some points, given their labels; return them with their classes."""
+        chooser = self._step.chooser
+        inside, by_hand = chooser.inside(part), chooser.by_hand(part)
+        after = self._step.decided(part, values, inside, by_hand)
+        ground = after.classification == self._step.selection.to_class
+        if self.kept is not None:
+            self.kept[where] = inside if self._step.output.area_only else True
+            if self._step.output.ground_only:
+                self.kept[where] &= ground
+        self._has_ground |= bool((values == Label.GROUND).any())
         self._counts_before += count_classes(part.classification)
         self._overlap_count += int(np.count_nonzero(overlapping(part)))
-        self._memory.add(where, part, classes)
-        if self._inside is not None:
-            self._inside[where] = inside
-        self.class_counts += count_classes(classes if self._inside is None else classes[inside])
-        self._area_count += int(np.count_nonzero(inside))
         if by_hand is not None:
             self._by_hand_count += int(np.count_nonzero(by_hand.known & inside))
-        self._has_ground |= bool(ground.any())
-        ground = classes == selection.to_class
+        self._count += part.count
+        self._ground_count += int(np.count_nonzero(ground))
+        self.area_count += int(np.count_nonzero(inside))
         self.area_ground_count += int(np.count_nonzero(ground & inside))
-        self.area_low_count += int(np.count_nonzero(low & inside))
-        self.area_deck_count += int(np.count_nonzero(decks & inside))
-        self.area_high_count += int(np.count_nonzero(high & inside))
-
-    def part(self, where: slice, part: PointCloud) -> PointCloud:
-        """Return points with their new classes; points that are not written become withheld."""
-        part = dataclasses.replace(part, classification=self.classification[where])
-        part = self._memory.part(where, part)
-        if self._inside is not None:
-            part = dataclasses.replace(part, withheld=part.withheld | ~self._inside[where])
-        return part
-
-    def refine(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
-        """Set further classes of some points, and count them; 0 leaves a class as it is."""
-        before = self.classification[where].copy()
-        classes = np.where(values > 0, values, before).astype(np.uint8)
-        self.classification[where] = classes
-        self._memory.add(where, part, classes)
-        counted = slice(None) if self._inside is None else self._inside[where]
-        self.class_counts += count_classes(classes[counted]) - count_classes(before[counted])
+        self.area_low_count += int(np.count_nonzero((values == Label.LOW) & inside))
+        self.area_deck_count += int(np.count_nonzero((values == Label.BRIDGE) & inside))
+        self.area_high_count += int(np.count_nonzero((values == Label.HIGH) & inside))
+        return after
 
     @property
     def is_empty(self) -> bool:
         """Whether no point is to be written."""
-        if self._inside is None:
+        if not self._step.output.area_only:
             return False
-        return not (self.area_ground_count if self._step.output.ground_only else self._area_count)
+        return not (self.area_ground_count if self._step.output.ground_only else self.area_count)
 
     def check(self, why: str = "") -> None:
         """Refuse to write a file without ground.
@@ -276,7 +274,7 @@ class ClassifiedPoints(PointResult):
         """
         if self._has_ground:
             return
-        if self._step.area is None or (why and self._area_count):
+        if self._step.area is None or (why and self.area_count):
             raise BareEarthError(why or f"No ground was found in {self._path}.")
 
     def tell(self, progress: Progress) -> None:
@@ -297,50 +295,42 @@ class ClassifiedPoints(PointResult):
                 f"{self.area_deck_count:,} points lie on decks of bridges: they are not ground."
             )
 
-    def edits(
-        self,
-        cloud: PointCloud,
-        progress: Progress = SILENT,
-        heights: np.ndarray | None = None,
-    ) -> Edits:
-        """Return the new classes and all other changes of the output.
+    def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
+        """Return which points are written.
 
         Raises
         ------
         BareEarthError
             If no point would be written, or no height can be measured.
         """
-        output, kept = self._step.output, self._inside
-        if kept is not None:
-            count = np.count_nonzero(~kept)
-            progress.info(f"{count:,} points outside of the area are left out of the output.")
-        if output.needs_ground:
-            ground = self.classification == self._step.selection.to_class
-            written = ground if kept is None else ground & kept
-            if not written.any():
-                raise BareEarthError(
-                    f"{cloud.path} has no ground points, so there are no ground points to write,"
-                    " and no heights above ground. Check the parameters and the selection of"
-                    " points."
-                )
-            if output.ground_only:
-                count = np.count_nonzero(~ground if kept is None else kept & ~ground)
-                kept = written
-                progress.info(f"{count:,} points that are not ground are left out of the output.")
-        extra = None if heights is None else height_dimension(cloud, heights)
-        return self._memory.added_to(Edits(self.classification, extra=extra, kept=kept))
+        output, count, ground = self._step.output, self._count, self._ground_count
+        if output.area_only:
+            count, ground = self.area_count, self.area_ground_count
+            progress.info(
+                f"{self._count - count:,} points outside of the area are left out of the output."
+            )
+        if output.needs_ground and not ground:
+            raise BareEarthError(
+                f"{cloud.path} has no ground points, so there are no ground points to write,"
+                " and no heights above ground. Check the parameters and the selection of"
+                " points."
+            )
+        if output.ground_only:
+            progress.info(
+                f"{count - ground:,} points that are not ground are left out of the output."
+            )
+        return Edits(kept=self.kept)
 
-    def summary(self, name: str) -> ClassifiedSummary:
+    def summary(self, name: str, class_counts: dict[int, int]) -> ClassifiedSummary:
         """Return the numbers of points."""
-        written = len(self.classification) if self._inside is None else self._area_count
-        ground = int(self.class_counts[self._step.selection.to_class])
+        area_only = self._step.output.area_only
         return ClassifiedSummary(
             name,
-            written,
-            ground,
-            self._area_count,
+            self.area_count if area_only else self._count,
+            class_counts.get(self._step.selection.to_class, 0),
+            self.area_count,
             self._by_hand_count,
             self._overlap_count,
             by_class(self._counts_before),
-            by_class(self.class_counts),
+            class_counts,
         )

@@ -6,7 +6,7 @@ import hashlib
 import json
 import os
 from pathlib import Path
-from typing import Any, Dict, Iterable, List
+from typing import Any, Dict, Iterable, List, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import replacing
@@ -45,16 +45,20 @@ def stamp_of(path: Path) -> Stamp:
 
 
 def fingerprint_of(
-    grid: BlockGrid, step: Step, tile: Path, sources: Iterable[Stamp], target: Path
+    grids: Sequence[BlockGrid],
+    steps: Sequence[Step],
+    tile: Path,
+    sources: Iterable[Stamp],
+    target: Path,
 ) -> Fingerprint:
     """Return everything that an output depends on.
 
     Parameters
     ----------
-    grid : BlockGrid
-        The blocks of the survey.
-    step : Step
-        The step that computes it.
+    grids : sequence of BlockGrid
+        The blocks of each step.
+    steps : sequence of Step
+        The steps that compute it.
     tile : Path
         The input.
     sources : iterable of Stamp
@@ -63,7 +67,7 @@ def fingerprint_of(
         The output.
     """
     return {
-        **_settings(grid, step),
+        "steps": _settings(grids, steps),
         "input": tile.name,
         "output": target.name,
         "files": list(sources),
@@ -71,11 +75,18 @@ def fingerprint_of(
 
 
 def block_file(
-    grid: BlockGrid, step: Step, folder: Path, place: BlockIndex, sources: Iterable[Stamp]
+    grids: Sequence[BlockGrid],
+    steps: Sequence[Step],
+    folder: Path,
+    place: BlockIndex,
+    sources: Iterable[Stamp],
 ) -> Path:
-    """Return the file for the result of a block; its name depends on all inputs of the result."""
+    """Return the file for the result of a block of the last of some steps.
+
+    Its name depends on all that the result depends on.
+    """
     content = {
-        **_settings(grid, step),
+        "steps": _settings(grids, steps),
         "place": list(place),
         "files": list(sources),
     }
@@ -83,17 +94,20 @@ def block_file(
     return folder / f"{place.column}_{place.row}_{digest[:20]}.npz"
 
 
-def _settings(grid: BlockGrid, step: Step) -> dict[str, Any]:
+def _settings(grids: Sequence[BlockGrid], steps: Sequence[Step]) -> list[dict[str, Any]]:
+    """Return the settings of steps and their blocks, and the version."""
     from ..core.version import __version__
 
-    blocks = grid.blocks
-    return {
-        "version": __version__,
-        **step.settings,
-        "origin": list(grid.frame.origin),
-        "units": [grid.frame.horizontal_unit, grid.frame.vertical_unit],
-        "blocks": [blocks.side, blocks.buffer, blocks.most_points],
-    }
+    return [
+        {
+            "version": __version__,
+            **step.settings,
+            "origin": list(grid.frame.origin),
+            "units": [grid.frame.horizontal_unit, grid.frame.vertical_unit],
+            "blocks": [grid.blocks.side, grid.blocks.buffer, grid.blocks.most_points],
+        }
+        for grid, step in zip(grids, steps)
+    ]
 
 
 def write_record(target: Path, fingerprint: Fingerprint, summary: dict[str, Any]) -> None:

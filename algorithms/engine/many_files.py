@@ -11,27 +11,34 @@ from pathlib import Path
 from typing import Any, Iterable, Iterator, Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
-from ..core.files import check_output, is_same_file, split_name, temporary_folder
+from ..core.files import (
+    alone_in,
+    check_output,
+    is_same_file,
+    split_name,
+    temporary_folder,
+    write_errors_told,
+)
 from ..core.progress import SILENT, Progress
+from ..core.temporary import remove_leftovers
 from ..crs.measurable import require_measurable
+from ..las.unpacked import has_room
 from ..las.writing import check_writable
 from ..products.raster_files import RasterFiles
 from ..survey.files import Survey, open_survey
 from ..survey.shapes import Place
 from ..survey.vpc import check_vpc, write_vpc
 from .blocks import Blocks
+from .job_queue import JobQueue
 from .jobs import Taken
 from .manifest import folders_of
-from .output import Output
+from .plan import Plan
 from .raster_jobs import make_rasters
 from .rasters import MakeRasters, RasterSize
 from .requests import ClassifyRequest, Request, TerrainRequest
 from .steps import PointStep, located
-from .tile_run import TileRun, tasks_of
+from .unpacking import Unpacking
 from .workers import Threads, Workers
-
-# Folder of files that a further step will read.
-_WAITING = "waiting"
 
 
 @dataclass(frozen=True)
@@ -118,14 +125,8 @@ def classify_files(
     """
     if request.explain is not None:
         raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
-    steps: list[PointStep] = [replace(request.step, cut=blocks)]
-    if request.above_ground.wanted:
-        steps.append(request.above_ground_step)
-    if request.output.height_above_ground:
-        steps[0] = replace(
-            request.step, cut=blocks, output=Output(area_only=request.output.area_only)
-        )
-        steps.append(replace(request.height_step, ground_only=request.output.ground_only))
+    first, *others = request.steps
+    steps: list[PointStep] = [replace(first, cut=blocks), *others]
     rasters = request.raster_step if request.rasters.wanted else None
     if request.output.ground_only and rasters is not None and not rasters.covers_ground:
         raise BareEarthError(
@@ -157,7 +158,7 @@ def write_files(
     folder : Path
         The folder for the outputs, which get the names of the inputs. It is made if it is missing.
     steps : sequence of PointStep
-        Each reads the outputs of the one before.
+        The steps. Each sees what those before it have found.
     request : Request
         Options for files, format, resuming, threads and memory.
     progress : Progress
@@ -167,7 +168,7 @@ def write_files(
     vpc : Path, optional
         The virtual point cloud of the results; by default in the folder.
     rasters : MakeRasters, optional
-        Rasters to make from the outputs of the last step.
+        Rasters to make from the outputs.
 
     Raises
     ------
@@ -208,7 +209,10 @@ class _SurveyRun:
         self._vpc = self._folder / steps[0].vpc_name if vpc is None else Path(vpc)
         # Inputs that cannot be done, and why, by their names.
         self._failures: dict[str, tuple[Path, str]] = {}
-        self._empty_count, self._jobs = 0, list[Taken]()
+        # Summaries of the finished files, sorted by their names.
+        self._done: list[Any] = []
+        self._kept_count = self._empty_count = 0
+        self._jobs: list[Taken] = []
 
     def open(self, sources: Sequence[Path], progress: Progress) -> None:
         """Open the inputs, and refuse now what would fail at the end."""
@@ -224,62 +228,76 @@ class _SurveyRun:
         self._steps = located([*self._steps, *made], _place_of(survey), progress)
         self._rasters = self._steps.pop() if made else None
         self._steps[0].check_survey(survey.box)
-        targets = _targets_of(survey, self._folder, self._request.tiles.format)
+        self._targets = _targets_of(survey, self._folder, self._request.tiles.format)
         if self._rasters is not None:
             self._rasters.placed(survey.crs, survey.box)
-            others = self._vpc, *targets, *targets.values()
+            others = self._vpc, *self._targets, *self._targets.values()
             _check_rasters(self._rasters, survey, self._folder, others)
         self._survey = survey
         self._inputs = {each.path.name: each.path for each in survey.tiles}
         self._failures = {each.path.name: (each.path, each.reason) for each in survey.broken}
 
-    @property
-    def _places(self) -> list[Path]:
-        """The folder for the outputs of each step."""
-        beside = folders_of(self._folder)[1]
-        waiting = [beside / f"{_WAITING}-{number}" for number in range(len(self._steps) - 1)]
-        return [*waiting, self._folder]
-
-    def _targets(self, survey: Survey, place: Path) -> dict[Path, Path]:
-        """Return the output of each file in a folder."""
-        kind = self._request.tiles.format if place is self._folder else "same"
-        return _targets_of(survey, place, kind)
-
     def work(self, workers: Workers, progress: Progress) -> None:
-        """Run one step after the other; each reads the outputs of the one before."""
-        resume, survey, places = self._request.tiles.resume, self._survey, self._places
-        of_steps = [self._targets(survey, place) for place in places]
-        tasks = tasks_of(survey, self._steps, of_steps, resume)
-        parts = progress.shares(*[1.0] * len(self._steps))
-        for number, (step, place, part) in enumerate(zip(self._steps, places, parts)):
-            is_last = place is self._folder
-            run = TileRun(survey, place, self._targets(survey, place), step, part, tasks[number])
-            run.work(workers, resume, self._rasters if is_last else None)
-            self._last = run
-            self._jobs += run.taken
-            for path, reason in run.failures.items():
-                self._failures[path.name] = self._inputs[path.name], reason
-            if not number:
-                self._empty_count = run.empty_count
-                if (run.done or run.empty_count) and not tasks[-1].kept:
-                    step.tell_of_survey(run.done, progress)
-            if is_last:
-                return
-            if run.done:
-                made = [place / each.name for each in run.done]
-                survey = open_survey(made, progress=SILENT, stated=self._request.stated)
-            elif tasks[-1].kept:  # all that was left to do has failed
-                tasks = [replace(each, only=frozenset()) for each in tasks]
-            else:
-                return
+        """Do what is to be done, in a folder of which no other run makes use meanwhile.
+
+        Raises
+        ------
+        BareEarthError
+            If the folder cannot be written, or a raster cannot be made.
+        Cancelled
+            If the user asked to stop.
+        """
+        resume, (_, records, waiting) = self._request.tiles.resume, folders_of(self._folder)
+        plan = Plan(self._survey, self._targets, self._steps, waiting, progress.part(0.0, 0.02))
+        with write_errors_told(self._folder):
+            for folder in (self._folder, records):
+                folder.mkdir(parents=True, exist_ok=True)
+        with alone_in(records):
+            self._clear(results=not resume)
+            with write_errors_told(self._folder):
+                waiting.mkdir(exist_ok=True)
+            plan.keep_finished(resume, progress)
+            self._run(plan, waiting, workers, progress.part(0.02, 1.0))
+            self._clear(results=True)
+
+    def _run(self, plan: Plan, waiting: Path, workers: Workers, progress: Progress) -> None:
+        """Run the jobs of a plan, and make the rasters."""
+        kept = plan.files_kept() if self._rasters is not None else []
+        unpacking = None
+        if workers.are_local and has_room(waiting, self._survey.count):
+            unpacking = Unpacking(waiting, is_whole=True)
+        blocks, tiles = plan.jobs(workers, self._folder, unpacking)
+        end = 0.8 if self._rasters else 1.0
+        queue = JobQueue(blocks, tiles, workers, progress.part(0.0, end), kept)
+        queue.work()
+        self._done, self._kept_count = sorted([*plan.kept, *queue.done]), len(plan.kept)
+        self._empty_count = plan.empty_count + queue.empty_count
+        self._jobs = queue.taken
+        for path, reason in {**plan.failures, **queue.failures}.items():
+            self._failures[path.name] = path, reason
+        if self._done or self._empty_count:
+            self._steps[0].tell_of_survey(self._done, progress)
+        if self._done and self._rasters is not None:
+            paths = [self._folder / each.name for each in self._done]
+            made = open_survey(paths, progress=progress.quiet(), stated=self._survey.stated)
+            results, part = plan.results(made), progress.part(end, 1.0)
+            make_rasters(made, waiting, self._rasters, workers, part, results, unpacking)
+
+    def _clear(self, results: bool) -> None:
+        """Remove what killed runs left, and the results of blocks if `results`."""
+        folders = folders_of(self._folder)
+        if results:
+            shutil.rmtree(folders[2], ignore_errors=True)
+        for each in folders:
+            remove_leftovers(each)
 
     def finish(self, progress: Progress) -> SurveySummary:
         """Report the files that are left out, and list the others in a virtual point cloud."""
-        run, request = self._last, self._request
+        request = self._request
         reasons = {str(path): reason for path, reason in sorted(self._failures.values())}
         for path, reason in reasons.items():
             progress.warning(f"{path} is left out. {reason}")
-        if not run.done:
+        if not self._done:
             raise BareEarthError(
                 f"None of the {len(reasons):,} files could be done."
                 if reasons
@@ -290,20 +308,18 @@ class _SurveyRun:
                 f"{self._empty_count:,} files are not written: they have no points to write in the"
                 " area."
             )
-        for place in self._places[:-1]:
-            shutil.rmtree(place, ignore_errors=True)
-        made, part = [self._folder / each.name for each in run.done], progress.part(0.98, 1.0)
+        made, part = [self._folder / each.name for each in self._done], progress.part(0.98, 1.0)
         write_vpc(self._vpc, made, part, request.tiles.overview, request.stated)
         unknown = self._failures.keys() - self._inputs.keys()
         return SurveySummary(
             tile_count=len(self._inputs) - self._empty_count + len(unknown),
-            done_count=len(run.done),
-            kept_count=run.kept_count,
-            point_count=sum(each.point_count for each in run.done),
-            ground_count=sum(getattr(each, "ground_count", 0) for each in run.done),
+            done_count=len(self._done),
+            kept_count=self._kept_count,
+            point_count=sum(each.point_count for each in self._done),
+            ground_count=sum(getattr(each, "ground_count", 0) for each in self._done),
             failures=reasons,
             vpc=str(self._vpc),
-            tiles=tuple(run.done),
+            tiles=tuple(self._done),
             jobs=tuple(self._jobs),
         )
 
@@ -348,7 +364,10 @@ def rasters_of_files(
     with temporary_folder(beside) as folder:
         part = progress.part(0.05, 1.0)
         (step,) = located([request.raster_step], _place_of(survey), progress)
-        return make_rasters(survey, folder, step, workers, part)
+        unpacking = None
+        if workers.are_local and has_room(folder, survey.count):
+            unpacking = Unpacking(folder, is_whole=False)
+        return make_rasters(survey, folder, step, workers, part, unpacking=unpacking)
 
 
 def _place_of(survey: Survey) -> Place:

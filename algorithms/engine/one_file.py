@@ -1,11 +1,14 @@
-"""Classification, heights, key points and rasters of one file."""
+"""Classification, heights, key points and rasters of one file.
+
+It is a survey of one tile, whose values stay in the stores of this process.
+"""
 
 from __future__ import annotations
 
 import contextlib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterable
+from typing import Any, Iterator, Sequence
 
 import numpy as np
 
@@ -16,27 +19,25 @@ from ..core.threads import import_early, may_use
 from ..crs.measurable import require_measurable
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
-from ..las.extrabytes import remembers
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
-from ..las.writing import check_cloud, layers_kept, write_changed
+from ..las.writing import check_cloud
 from ..rasters.writing import check_raster_output, replacing_raster
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
 from .file_points import FilePoints
-from .labelling import ClassifiedPoints, LabelGround
+from .labelling import LabelGround
 from .memory import Resources
 from .rasters import MakeRasters, RasterSize, write_rasters
-from .requests import (
-    AboveGroundRequest,
-    ClassifyRequest,
-    HeightRequest,
-    KeyPointRequest,
-    TerrainRequest,
-    WaterClassRequest,
-)
+from .requests import ClassifyRequest, PointRequest, Request, TerrainRequest
 from .steps import PointStep, Step, located
+from .store import Store
+from .tile_output import TileOutput, copies_all_else
+from .values import PointValues, with_values
+
+# Shares of the progress bar: of reading, of each step, and of writing.
+_READING, _FILTER, _STEP, _WRITING = 1.5, 5.0, 3.0, 0.8
 
 
 @dataclass(frozen=True)
@@ -111,12 +112,139 @@ def classify_cloud(
     """
     step = LabelGround(parameters, selection, area, corrections=corrections)
     with may_use(resources.thread_count):
-        points = FilePoints(cloud, resources)
-        (step,) = located([step], points.place, progress)
-        result, _ = points.find(step, step.counts(), progress)
-        result.tell(progress)
-        inside, selected, _ = step.chooser.choose(cloud, step.counts())
-    return result.classification, selected & inside
+        run = _FileRun(FilePoints(cloud, resources), [step], progress)
+        run.work(progress.part(0.0, 0.97))
+        output = run.found(progress.part(0.97, 1.0))
+        inside, selected, _ = run.steps[0].chooser.choose(cloud, step.counts())
+    return output.classification, selected & inside
+
+
+class _FileRun:
+    """Steps that work on the points of one file, one after the other.
+
+    Parameters
+    ----------
+    points : FilePoints
+        The points.
+    steps : sequence of Step
+        The steps.
+    progress : Progress
+        Receives messages.
+    outputs : contextlib.ExitStack, optional
+        Receives the rasters, which get their names when it is closed.
+
+    Attributes
+    ----------
+    points : FilePoints
+        The points.
+    outputs : contextlib.ExitStack
+        The rasters.
+    steps : list of Step
+        The steps, in the CRS of the points.
+    counts : list of object
+        What each step counted among the points.
+    size : RasterSize or None
+        The size of the rasters.
+    """
+
+    def __init__(
+        self,
+        points: FilePoints,
+        steps: Sequence[Step],
+        progress: Progress,
+        outputs: contextlib.ExitStack | None = None,
+    ) -> None:
+        self.steps: list[Any] = located(steps, points.place, progress)
+        self.counts = [step.counts() for step in self.steps]
+        self.points, self.outputs = points, outputs or contextlib.ExitStack()
+        self.size: RasterSize | None = None
+        self._values: list[PointValues] = []
+
+    def work(self, progress: Progress) -> None:
+        """Run the steps. Each sees what those before it have found."""
+        start, weights, total = 0, _weights(self.steps), sum(_weights(self.steps))
+        while start < len(self.steps):
+            end = self._end_of_group(start)
+            part = progress.part(sum(weights[:start]) / total, sum(weights[:end]) / total)
+            self._work_group(slice(start, end), part)
+            start = end
+
+    def _end_of_group(self, start: int) -> int:
+        """Return the end of the steps that see the same points, so that these are read once."""
+        for number in range(start, len(self.steps)):
+            step = self.steps[number]
+            if isinstance(step, PointStep) and step.gives_classes:
+                return number + 1
+        return len(self.steps)
+
+    def _work_group(self, group: slice, progress: Progress) -> None:
+        """Run steps that see the same points."""
+        points, steps = self.points, list(zip(self.steps[group], self.counts[group]))
+        reading = points.sparing(progress.part(0.0, 0.08))
+        parts = with_values(points.parts(reading, self._reads_once), self._values)
+        stores = points.gathered(steps, parts, progress.part(0.08, 0.12))
+        shares = progress.part(0.12, 1.0).shares(*_weights(self.steps[group]))
+        for (step, _), share in zip(steps, shares):
+            store = stores.pop(0)
+            if isinstance(step, MakeRasters):
+                self.size = self._draw(step, store, share)
+            else:
+                step.work(store, points.resources, share)
+                self._values.append(points.values(step, store))
+
+    @property
+    def _reads_once(self) -> bool:
+        """Whether the points are read only once, for rasters without constraints."""
+        first, *others = self.steps
+        return isinstance(first, MakeRasters) and not (others or first.constraints.any)
+
+    def _draw(self, step: MakeRasters, store: Store, progress: Progress) -> RasterSize:
+        """Make the rasters of the points of a store."""
+        drawing, writing = progress.shares(4.0, 1.0)
+        frame = survey_frame(self.points.cloud.crs, step.origin)
+        parts = with_values(self.points.parts(), self._values)
+        step = step.seeing((part for _, part in parts), frame, progress)
+        made = step.work(store, self.points.resources, drawing)
+        return write_rasters(made, frame, step, self.outputs, writing)
+
+    def found(self, progress: Progress) -> TileOutput:
+        """Return what the steps found for each point."""
+        output = TileOutput(self.points, self._values)
+        for where, part in self.points.parts(self.points.sparing(progress)):
+            output.add(where, part)
+        output.results[0].tell(progress)
+        return output
+
+    def written(self, target: Path, progress: Progress) -> TileOutput:
+        """Write the points with what the steps found; return that."""
+        output = self.found(progress.part(0.0, 0.2))
+        output.write(target, progress.part(0.2, 1.0))
+        return output
+
+
+def _weights(steps: Sequence[Step]) -> list[float]:
+    """Return the shares of the progress bar of some steps."""
+    weights = []
+    for step in steps:
+        rasters = len(step.files.wanted) if isinstance(step, MakeRasters) else 0
+        weights.append(_FILTER if isinstance(step, LabelGround) else _STEP + rasters)
+    return weights
+
+
+@contextlib.contextmanager
+def _worked(
+    las: LasFile, target: Path, steps: Sequence[Step], resources: Resources, progress: Progress
+) -> Iterator[_FileRun]:
+    """Yield a run whose steps have worked on a file; rasters get their names at the end."""
+    for_points = [step for step in steps if isinstance(step, PointStep)]
+    needs_records = bool(for_points) and not copies_all_else(las, target, for_points)
+    reading, working = progress.shares(_READING, sum(_weights(steps)))
+    with contextlib.ExitStack() as outputs:
+        outputs.enter_context(may_use(resources.thread_count))
+        points = FilePoints.opened(las, target, resources, needs_records, reading)
+        run = _FileRun(outputs.enter_context(points), steps, progress, outputs)
+        run.work(working)
+        yield run
 
 
 def classify_file(
@@ -144,60 +272,24 @@ def classify_file(
     Cancelled
         If the user asked to stop; no output is left behind.
     """
-    las, resources = _checked(source, target, request.resources, request.stated)
+    las = _checked(source, target, request)
     request.rasters.check((source, target))
     if request.explain is not None:
         check_raster_output(request.explain, (source, target))
         check_distinct([*request.rasters.wanted.values(), request.explain])
-    step, products = request.step, _products(request, las, progress)
-    counts = step.counts()
-    # Shares of the progress bar.
-    raster_count = len(request.rasters.wanted)
-    made_too = 3.0 * bool(raster_count) + raster_count, 3.0 * ("heights" in products)
-    made_too = *made_too, 3.0 * ("above" in products)
-    first, finding, drawing, measuring, looking, last = progress.shares(1.5, 5.0, *made_too, 0.8)
-    changes_more = request.output.changes_points or request.selection.remember_classes
-    is_copied = not (changes_more or remembers(las)) and layers_kept(las, target) is not None
-    import_early("scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph")
-    with contextlib.ExitStack() as outputs:
-        outputs.enter_context(may_use(resources.thread_count))
-        points = FilePoints.opened(las, target, resources, not is_copied, first)
-        outputs.enter_context(points)
-        step, *more = located([step, *products.values()], points.place, progress)
-        products = dict(zip(products, more))
-        result, stores = points.find(step, counts, finding, list(products.values()))
-        result.tell(progress)
-        if request.explain is not None and step.explanation is not None:
-            explained = outputs.enter_context(replacing_raster(request.explain))
-            frame = survey_frame(points.cloud.crs)
-            step.explanation.write(explained, frame, progress)
-        waiting, heights = dict(zip(products, stores)), None
-        # All outputs or none: the rasters get their names after the cloud is written.
-        if "rasters" in products:
-            parts = (result.part(*each) for each in points.parts())
-            _draw(products["rasters"], points, parts, waiting["rasters"], outputs, drawing)
-        if "heights" in products:
-            heights = _worked(points, products["heights"], waiting["heights"], measuring).heights
-        if "above" in products:
-            products["above"].work(waiting["above"], points.resources, looking)
-            for each in points.values(waiting["above"]):
-                result.refine(*each)
-        edits = result.edits(points.cloud, progress, heights)
-        last = points.sparing(last)
-        write_changed(las, target, edits, last, points.cloud, points.memory_left)
-    return _summary(result, counts, request)
-
-
-def _products(request: ClassifyRequest, las: LasFile, progress: Progress) -> dict[str, Step]:
-    """Return the steps that use the classified points of a file."""
-    products: dict[str, Step] = {}
+    steps: list[Step] = list(request.steps)
     if request.rasters.wanted:
-        products["rasters"] = _placed(request.raster_step, las, progress)
-    if request.output.height_above_ground:
-        products["heights"] = request.height_step
-    if request.above_ground.wanted:
-        products["above"] = request.above_ground_step
-    return products
+        # Before the heights, since what is known of their points stays in memory.
+        before = len(steps) - request.output.height_above_ground
+        steps.insert(before, _placed(request.raster_step, las, progress))
+    import_early("scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph")
+    with _worked(las, target, steps, request.resources.now(), progress.part(0.0, 0.92)) as run:
+        if request.explain is not None:
+            explained = run.outputs.enter_context(replacing_raster(request.explain))
+            frame = survey_frame(run.points.cloud.crs)
+            run.steps[0].explanation.write(explained, frame, progress)
+        output = run.written(target, progress.part(0.92, 1.0))
+    return _summary(output, run.counts[0])
 
 
 def _placed(step: MakeRasters, las: LasFile, progress: Progress) -> MakeRasters:
@@ -207,49 +299,22 @@ def _placed(step: MakeRasters, las: LasFile, progress: Progress) -> MakeRasters:
     return step.placed(crs, box, progress)
 
 
-def _draw(
-    step: MakeRasters,
-    points: FilePoints,
-    parts: Iterable[PointCloud],
-    store: Any,
-    outputs: contextlib.ExitStack,
-    progress: Progress,
-) -> RasterSize:
-    """Make the rasters of the points of a store; `parts` are all points, with their classes."""
-    drawing, writing = progress.shares(4.0, 1.0)
-    frame = survey_frame(points.cloud.crs, step.origin)
-    step = step.seeing(parts, frame, progress)
-    made = step.work(store, points.resources, drawing)
-    return write_rasters(made, frame, step, outputs, writing)
-
-
-def _worked(points: FilePoints, step: PointStep, store: Any, progress: Progress) -> Any:
-    """Run a further step on the points of a store, and return its result."""
-    step.work(store, points.resources, progress.part(0.0, 0.9))
-    result = step.result(points.path, points.allocate)
-    for where, part, values in points.values(store, progress.part(0.9, 1.0)):
-        result.add(where, part, values)
-    return result
-
-
-def _summary(result: ClassifiedPoints, counts: Any, request: ClassifyRequest) -> Summary:
-    by_class, to_class = result.class_counts, request.selection.to_class
-    written = [to_class] if request.output.ground_only else np.flatnonzero(by_class)
+def _summary(output: TileOutput, counts: Any) -> Summary:
+    """Return the result, given what was counted among the points before."""
+    found = output.results[0]
+    tile = output.summary("")
     return Summary(
         point_count=counts.points,
         area_count=counts.inside,
         selected_count=counts.wanted,
-        ground_count=int(by_class[to_class]),
-        area_ground_count=result.area_ground_count,
-        class_counts={int(value): int(by_class[value]) for value in written},
+        ground_count=tile.ground_count,
+        area_ground_count=found.area_ground_count,
+        class_counts=tile.class_counts,
     )
 
 
 def write_points(
-    source: Path,
-    target: Path,
-    request: HeightRequest | KeyPointRequest | AboveGroundRequest | WaterClassRequest,
-    progress: Progress = SILENT,
+    source: Path, target: Path, request: PointRequest, progress: Progress = SILENT
 ) -> Any:
     """Write a file with the values that a step finds for its points, such as heights.
 
@@ -257,7 +322,7 @@ def write_points(
     ----------
     source, target : Path
         The input, and the output (.las, .laz or .copc.laz).
-    request : HeightRequest, KeyPointRequest, AboveGroundRequest or WaterClassRequest
+    request : PointRequest
         What to find.
     progress : Progress
         Receives progress and messages.
@@ -274,16 +339,10 @@ def write_points(
     Cancelled
         If the user asked to stop; no output is left behind.
     """
-    las, resources = _checked(source, target, request.resources, request.stated)
-    with may_use(resources.thread_count):
-        first = progress.part(0.0, 0.1)
-        with FilePoints.opened(las, target, resources, progress=first) as points:
-            (step,) = located([request.step], points.place, progress)
-            result, _ = points.find(step, step.counts(), progress.part(0.1, 0.9))
-            edits = result.edits(points.cloud, progress)
-            last = points.sparing(progress.part(0.9, 1.0))
-            write_changed(las, target, edits, last, points.cloud, points.memory_left)
-    return result.summary(target.name)
+    las, resources = _checked(source, target, request), request.resources.now()
+    with _worked(las, target, [request.step], resources, progress.part(0.0, 0.9)) as run:
+        output = run.written(target, progress.part(0.9, 1.0))
+    return output.summary(target.name)
 
 
 def rasters_of_file(
@@ -307,24 +366,14 @@ def rasters_of_file(
     Cancelled
         If the user asked to stop; no output is left behind.
     """
-    resources = request.resources.now()
+    resources, las = request.resources.now(), open_las(source, request.stated)
     beside = next(iter(request.rasters.wanted.values()))
-    with may_use(resources.thread_count), contextlib.ExitStack() as outputs:
-        las, first = open_las(source, request.stated), progress.part(0.0, 0.1)
-        step = _placed(request.raster_step, las, progress)
-        points = FilePoints.opened(las, beside, resources, False, first)
-        outputs.enter_context(points)
-        (step,) = located([step], points.place, progress)
-        # Only constraints need the points once more.
-        parts = points.parts(progress.part(0.1, 0.13), is_last=not step.constraints.any)
-        (store,) = points.gathered([(step, step.counts())], parts, progress.part(0.13, 0.15))
-        parts = (part for _, part in points.parts())
-        return _draw(step, points, parts, store, outputs, progress.part(0.15, 1.0))
+    step = _placed(request.raster_step, las, progress)
+    with _worked(las, beside, [step], resources, progress) as run:
+        return run.size
 
 
-def _checked(
-    source: Path, target: Path, resources: Resources, stated: str | None
-) -> tuple[LasFile, Resources]:
-    """Refuse an output that cannot be written. Return the opened input and the resources."""
+def _checked(source: Path, target: Path, request: Request) -> LasFile:
+    """Refuse an output that cannot be written. Return the opened input."""
     check_cloud(source, target)
-    return open_las(source, stated), resources.now()
+    return open_las(source, request.stated)

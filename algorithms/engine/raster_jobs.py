@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Iterator, Mapping, Sequence
+from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -14,19 +14,28 @@ from ..core.files import replacing, split_name
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..las.cloud import survey_frame
-from ..products.fixed_terrain import parts_of
 from ..products.raster_block import BlockRasters
 from ..survey.files import Survey
-from .block_grid import BlockGrid, BlockIndex, places_of, sources_of
+from .block_grid import (
+    BlockGrid,
+    BlockIndex,
+    grouped,
+    least_memory,
+    places_of,
+    points_in,
+    sources_of,
+)
 from .blocks import Block
-from .job_queue import JobQueue, block_jobs
+from .job_queue import JobQueue
 from .jobs import BlockJob, Share
 from .manifest import block_file, stamp_of
+from .plan import Results
 from .rasters import AROUND_AREA, MakeRasters, RasterSize, no_point_in, write_rasters
+from .unpacking import Unpacking
 from .workers import Workers
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RasterJob(BlockJob):
     """A job that makes the rasters of some blocks.
 
@@ -43,7 +52,7 @@ class RasterJob(BlockJob):
         step, counts, has_points = self.step, self.step.counts(), False
         made: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
         with self.store(share) as store:
-            for cloud in self.clouds(share.cache, progress.part(0.0, 0.5)):
+            for cloud in self.clouds(progress.part(0.0, 0.5)):
                 marks = step.marks(cloud, counts)
                 has_points |= bool(marks.selected.any())
                 store.append(cloud, marks)
@@ -135,6 +144,8 @@ def make_rasters(
     step: MakeRasters,
     workers: Workers,
     progress: Progress = SILENT,
+    results: Results | None = None,
+    unpacking: Unpacking | None = None,
 ) -> RasterSize:
     """Make rasters of a survey of classified files.
 
@@ -151,6 +162,10 @@ def make_rasters(
         The workers, which are stopped at the end.
     progress : Progress
         Receives progress and messages.
+    results : Results, optional
+        Where to read the points; by default in the files.
+    unpacking : Unpacking, optional
+        Where files wait uncompressed.
 
     Raises
     ------
@@ -159,10 +174,34 @@ def make_rasters(
     Cancelled
         If the user asked to stop.
     """
+    results = results or Results(survey)
     step = step.placed(survey.crs, survey.box, progress)
     grid = BlockGrid(survey_frame(survey.crs, step.origin), step.blocks, survey.stated)
     seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
-    step = step.seeing(parts_of(survey.tiles, seen), grid.frame, seen)
+    step = step.seeing(results.parts(unpacking, seen), grid.frame, seen)
+    files = _files(survey, grid, step, folder, results)
+    try:
+        jobs = _jobs(survey, grid, step, files, workers, results, unpacking)
+        # What was found stays as long as a cancelled run may go on.
+        kept = {file for job in jobs for file in job.needs}
+        queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8), kept)
+        queue.work()
+        if queue.lost:
+            raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
+        size = _written(survey, grid, step, files.values(), progress.part(0.8, 1.0))
+    except Cancelled:
+        raise
+    except BaseException:
+        _remove(files.values())
+        raise
+    _remove(files.values())
+    return size
+
+
+def _files(
+    survey: Survey, grid: BlockGrid, step: MakeRasters, folder: Path, results: Results
+) -> dict[BlockIndex, Path]:
+    """Return the file for the rasters of each block."""
     places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
     if step.area is not None:
         around = step.area.buffered_box(AROUND_AREA / grid.frame.horizontal_unit)
@@ -170,31 +209,59 @@ def make_rasters(
         places = [each for each in places if each.column in columns and each.row in rows]
         if not places:
             raise no_point_in(step.area)
-    stamps = {each.path: stamp_of(each.path) for each in survey.tiles}
-    sources = {each: sources_of(grid, survey, each) for each in places}
-    files = {
-        each: block_file(grid, step, folder, each, [stamps[path] for path in sources[each]])
-        for each in places
-    }
-    missing = {place: file for place, file in files.items() if not file.exists()}
-    jobs = block_jobs(RasterJob, grid, survey, missing, sources, folder, 0, workers, step=step)
-    stays = False
-    try:
-        queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8))
-        queue.work()
-        if queue.lost:
-            raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
-        made = [each for file in files.values() for each in _stored_in(file)]
-        last = progress.part(0.8, 1.0)
-        per_file = (
-            {split_name(each.path)[0]: each.box for each in survey.tiles} if step.per_file else None
+    stamps = {path: stamp_of(source) for path, source in results.read_from.items()}
+    grids = [*(found.grid for found in results.found), grid]
+    steps = [*(found.step for found in results.found), step]
+    return {
+        place: block_file(
+            grids, steps, folder, place, [stamps[path] for path in sources_of(grid, survey, place)]
         )
-        with contextlib.ExitStack() as outputs:
-            return write_rasters(made, grid.frame, step, outputs, last, per_file)
-    except Cancelled:
-        stays = True
-        raise
-    finally:
-        if not stays:
-            for file in files.values():
-                file.unlink(missing_ok=True)
+        for place in places
+    }
+
+
+def _jobs(
+    survey: Survey,
+    grid: BlockGrid,
+    step: MakeRasters,
+    files: Mapping[BlockIndex, Path],
+    workers: Workers,
+    results: Results,
+    unpacking: Unpacking | None,
+) -> list[RasterJob]:
+    """Start the workers, and return the jobs of the blocks that are not done yet."""
+    missing = [place for place, file in files.items() if not file.exists()]
+    least = max((least_memory(grid, survey, place) for place in missing), default=0)
+    workers.start(next(iter(files.values())).parent, least, len(missing), 0)
+    jobs = []
+    for group in grouped(grid, survey, missing, workers.at_once, workers.share.bytes):
+        window = grid.window(group)
+        paths = {path for place in group for path in sources_of(grid, survey, place)}
+        sources = tuple(sorted(results.read_from[path] for path in paths))
+        before = tuple(found.within(window) for found in results.found)
+        jobs.append(
+            RasterJob(
+                grid, tuple(group), tuple(files[place] for place in group), sources,
+                points_in(survey, window), before, results.finished.intersection(sources),
+                unpacking, step,
+            )
+        )  # fmt: skip
+    return jobs
+
+
+def _written(
+    survey: Survey, grid: BlockGrid, step: MakeRasters, files: Iterable[Path], progress: Progress
+) -> RasterSize:
+    """Write the rasters, given those of all blocks."""
+    made = [each for file in files for each in _stored_in(file)]
+    per_file = None
+    if step.per_file:
+        per_file = {split_name(each.path)[0]: each.box for each in survey.tiles}
+    with contextlib.ExitStack() as outputs:
+        return write_rasters(made, grid.frame, step, outputs, progress, per_file)
+
+
+def _remove(files: Iterable[Path]) -> None:
+    """Remove the rasters of blocks."""
+    for file in files:
+        file.unlink(missing_ok=True)

@@ -33,6 +33,7 @@ from .memory import Resources
 from .options import RasterOutput, TileInput, TileMethod, TileOutput
 from .output import Output
 from .rasters import MakeRasters
+from .steps import PointStep
 from .water_classes import ClassifyWater
 
 _Request = TypeVar("_Request", bound="Request")
@@ -90,6 +91,15 @@ class Request:
                 each = SurfaceModel(max_edge=each.max_edge)
             others[fields.get(type(each), "parameters")] = each
         return cls(**others)
+
+
+class PointRequest(Request):
+    """Base of the requests whose result is a value of each point."""
+
+    @property
+    def step(self) -> PointStep:
+        """The step that finds it."""
+        raise NotImplementedError
 
 
 @dataclass(frozen=True)
@@ -163,6 +173,16 @@ class ClassifyRequest(Request):
         )
 
     @property
+    def steps(self) -> list[PointStep]:
+        """The steps for points. Each sees what those before it have found."""
+        steps: list[PointStep] = [self.step]
+        if self.above_ground.wanted:
+            steps.append(self.above_ground_step)
+        if self.output.height_above_ground:
+            steps.append(self.height_step)
+        return steps
+
+    @property
     def _ground(self) -> GroundClasses:
         known = self.selection.seed_classes or ()
         classes = dict.fromkeys((self.selection.to_class, *known))
@@ -192,7 +212,7 @@ class ClassifyRequest(Request):
 
 
 @dataclass(frozen=True)
-class HeightRequest(Request):
+class HeightRequest(PointRequest):
     """A request to measure heights above ground.
 
     Attributes
@@ -216,7 +236,7 @@ class HeightRequest(Request):
 
 
 @dataclass(frozen=True)
-class KeyPointRequest(Request):
+class KeyPointRequest(PointRequest):
     """A request to mark model key points.
 
     Attributes
@@ -240,7 +260,7 @@ class KeyPointRequest(Request):
 
 
 @dataclass(frozen=True)
-class AboveGroundRequest(Request):
+class AboveGroundRequest(PointRequest):
     """A request to classify the points above the ground.
 
     Attributes
@@ -264,7 +284,7 @@ class AboveGroundRequest(Request):
 
 
 @dataclass(frozen=True)
-class WaterClassRequest(Request):
+class WaterClassRequest(PointRequest):
     """A request to give classes to ground points in water and beside its shore.
 
     Attributes

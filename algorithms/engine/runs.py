@@ -19,6 +19,7 @@ from .requests import (
     ClassifyRequest,
     HeightRequest,
     KeyPointRequest,
+    PointRequest,
     TerrainRequest,
     WaterClassRequest,
 )
@@ -254,7 +255,7 @@ def terrain(
 def write(
     sources: Sources,
     output: str | Path,
-    request: HeightRequest | KeyPointRequest | AboveGroundRequest | WaterClassRequest,
+    request: PointRequest,
     progress: Progress = SILENT,
     workers: Workers | None = None,
     as_survey: bool | None = None,

@@ -20,7 +20,6 @@ from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
-from ..las.extrabytes import REMEMBERED, ExtraDimension
 from ..las.lasfile import LasFile
 from ..survey.corrections import to_remember
 from ..survey.shapes import Geometry, Place
@@ -130,6 +129,20 @@ class PointStep(Step):
     summary_type: type
     vpc_name: str
 
+    @property
+    def gives_classes(self) -> bool:
+        """Whether it changes classes."""
+        return True
+
+    @property
+    def only_classes(self) -> bool:
+        """Whether it changes nothing but classes."""
+        return self.gives_classes
+
+    def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Return points with their values, as further steps and the output have them."""
+        return part
+
     def check_tile(self, tile: LasFile) -> None:
         """Refuse, before any work, a file that cannot hold the result."""
 
@@ -166,14 +179,22 @@ class CountedClasses:
 
 
 class PointResult:
-    """The values of the points of a file."""
+    """What a step found for the points of a file, beside their classes.
+
+    Attributes
+    ----------
+    kept : numpy.ndarray of bool, shape (n,), or None
+        Which points are written; None for all.
+    """
+
+    kept: np.ndarray | None = None
 
     @property
     def is_empty(self) -> bool:
         """Whether no point is to be written."""
         return False
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Add the values of some points.
 
         Parameters
@@ -184,22 +205,40 @@ class PointResult:
             The points.
         values : numpy.ndarray, shape (k,)
             Their values.
+
+        Returns
+        -------
+        PointCloud
+            The points as the step's `applied` returns them.
         """
         raise NotImplementedError
-
-    def part(self, where: slice, part: PointCloud) -> PointCloud:
-        """Return points as the output will have them."""
-        return part
 
     def check(self, why: str = "") -> None:
         """Refuse to write a file without a result; `why` is the reason, if it is known."""
 
-    def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return the changes of the file; `cloud` holds any of its points."""
-        raise NotImplementedError
+    def tell(self, progress: Progress) -> None:
+        """Report what was found in a file."""
 
-    def summary(self, name: str) -> Any:
-        """Return the summary of the output `name`, as the step's `summary_type`."""
+    def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
+        """Return the changes of the file beside the classes; `cloud` holds any of its points.
+
+        Raises
+        ------
+        BareEarthError
+            If the output cannot hold the result.
+        """
+        return Edits()
+
+    def summary(self, name: str, class_counts: dict[int, int]) -> Any:
+        """Return the summary of an output, as the step's `summary_type`.
+
+        Parameters
+        ----------
+        name : str
+            Name of the output.
+        class_counts : dict of int to int
+            Points of each class in the output.
+        """
         raise NotImplementedError
 
 
@@ -217,37 +256,12 @@ def _plain(value: Any) -> Any:
     return str(value) if isinstance(value, Path) else value
 
 
-class RememberedClasses:
-    """The classes of a file that are to be remembered.
+def with_classes(part: PointCloud, classes: np.ndarray, begins: bool = False) -> PointCloud:
+    """Return points with other classes, which are remembered if the file remembers classes.
 
-    Parameters
-    ----------
-    allocate : callable
-        Returns an array of one value for each point.
-    begins : bool
-        Whether classes are remembered even if the file has none remembered yet.
+    If `begins`, they are remembered in any case.
     """
-
-    def __init__(self, allocate: Allocate, begins: bool = False) -> None:
-        self._allocate, self._begins = allocate, begins
-        self._values: np.ndarray | None = None
-
-    def add(self, where: slice, part: PointCloud, classes: np.ndarray) -> None:
-        """Add the new classes of some points."""
-        if self._begins or part.remembered is not None:
-            if self._values is None:
-                self._values = self._allocate(np.uint8)
-            self._values[where] = to_remember(part, classes)
-
-    def part(self, where: slice, part: PointCloud) -> PointCloud:
-        """Return points as they will be read back."""
-        if self._values is None:
-            return part
-        return dataclasses.replace(part, remembered=self._values[where])
-
-    def added_to(self, edits: Edits) -> Edits:
-        """Return edits with the remembered classes."""
-        if self._values is None:
-            return edits
-        dimension = ExtraDimension(REMEMBERED, "Before changes by hand", self._values)
-        return dataclasses.replace(edits, remembered=dimension)
+    remembered = None
+    if begins or part.remembered is not None:
+        remembered = to_remember(part, classes)
+    return dataclasses.replace(part, classification=classes, remembered=remembered)

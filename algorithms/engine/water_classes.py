@@ -7,17 +7,15 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.progress import SILENT, Progress
+from ..core.progress import Progress
 from ..las.cloud import PointCloud
-from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..las.records import check_class
 from ..products.water_classes import NO_WATER, WaterClasses, WaterPolygons, classes_at_water
 from ..survey.ground_classes import GroundClasses, GroundCounts
-from ..survey.point_counts import by_class, count_classes
 from .blocks import Blocks
 from .memory import Resources
-from .steps import Allocate, CountedClasses, PointResult, PointStep, RememberedClasses
+from .steps import Allocate, CountedClasses, PointResult, PointStep, with_classes
 from .store import Marks, Store
 
 
@@ -93,8 +91,8 @@ class ClassifyWater(PointStep):
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
         """Do nothing: each point is decided by its place alone."""
 
-    def classes_of(self, part: PointCloud) -> np.ndarray:
-        """Return the new classes of points; uint8, shape (n,)."""
+    def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Return points with their classes; the values are not used."""
         part.require_projected()
         x, y = (
             np.asarray(column, dtype=np.float64) * scale + offset
@@ -102,45 +100,39 @@ class ClassifyWater(PointStep):
         )
         ground = self.ground.points_of(part, self.ground.ground_classes)
         polygons, unit = self.water.polygons, part.crs.horizontal_unit
-        return classes_at_water(x, y, part.classification, ground, polygons, self.parameters, unit)
+        classes = classes_at_water(
+            x, y, part.classification, ground, polygons, self.parameters, unit
+        )
+        return with_classes(part, classes)
 
     def result(self, path: Path, allocate: Allocate) -> WaterOfPoints:
-        """Return an object that collects the classes of a file."""
-        return WaterOfPoints(self, allocate)
+        """Return an object that counts what changes in a file."""
+        return WaterOfPoints(self)
 
 
 class WaterOfPoints(PointResult):
-    """The new classes of the points of a file.
+    """The numbers of points of a file that become water or ignored ground.
 
     Parameters
     ----------
     step : ClassifyWater
         The step.
-    allocate : callable
-        Returns an array of one value for each point.
     """
 
-    def __init__(self, step: ClassifyWater, allocate: Allocate) -> None:
-        self._step, self._memory = step, RememberedClasses(allocate)
-        self._classes = allocate(np.uint8)
-        self._counts = np.zeros(256, dtype=np.int64)
+    def __init__(self, step: ClassifyWater) -> None:
+        self._step, self._count = step, 0
         self._water_count = self._ignored_count = 0
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> None:
-        """Find the classes of some points; the values are not used."""
-        classes, how = self._step.classes_of(part), self._step.parameters
-        self._classes[where] = classes
-        self._memory.add(where, part, classes)
-        self._counts += count_classes(classes)
-        new = classes[classes != part.classification]
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Count some points; return them with their classes."""
+        after, how = self._step.applied(part, values), self._step.parameters
+        new = after.classification[after.classification != part.classification]
+        self._count += part.count
         self._water_count += int(np.count_nonzero(new == how.water_class))
         self._ignored_count += int(np.count_nonzero(new == how.ignored_class))
+        return after
 
-    def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return the classes."""
-        return self._memory.added_to(Edits(classification=self._classes))
-
-    def summary(self, name: str) -> WaterClassSummary:
+    def summary(self, name: str, class_counts: dict[int, int]) -> WaterClassSummary:
         """Return the numbers of points."""
-        found = self._water_count, self._ignored_count
-        return WaterClassSummary(name, len(self._classes), *found, by_class(self._counts))
+        numbers = self._count, self._water_count, self._ignored_count
+        return WaterClassSummary(name, *numbers, class_counts)

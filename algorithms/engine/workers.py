@@ -14,7 +14,6 @@ from typing import NamedTuple, Union
 from ..core.temporary import remove_leftovers
 from ..core.threads import Counter, SharedThreads
 from .blockwise import JobProgress
-from .cloud_cache import CloudCache
 from .jobs import BlockJob, JobResult, Share, TileJob, attempt
 from .manifest import folders_of
 from .memory import Resources
@@ -48,13 +47,15 @@ class Workers:
         How many jobs run at the same time.
     share : Resources
         What each job may use.
-    for_cache : int
-        Bytes that files in memory may take, for each job that runs.
+    are_local : bool
+        Whether they run on this computer.
     """
+
+    are_local = True
 
     def __init__(self, resources: Resources = Resources()) -> None:
         self.resources = resources
-        self.at_once, self.share, self.for_cache = 1, Resources.of(1, 0), 0
+        self.at_once, self.share = 1, Resources.of(1, 0)
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Prepare for jobs.
@@ -72,10 +73,7 @@ class Workers:
         self.at_once = int(max(1, min(threads, memory // max(least, 1), max(blocks, tiles))))
         # If there are few blocks, each can use the threads that would be idle.
         together = max(1, min(self.at_once, blocks))
-        each = memory // self.at_once
-        # Files in memory get half of what the largest job leaves.
-        self.for_cache = max(0, each - least) // 2
-        self.share = Resources.of(max(1, threads // together), each - self.for_cache)
+        self.share = Resources.of(max(1, threads // together), memory // self.at_once)
 
     def submit(self, job: Job) -> Running:
         """Start a job."""
@@ -105,13 +103,12 @@ class Threads(Workers):
         super().start(folder, least, blocks, tiles)
         self._stop, self._futures = threading.Event(), []
         self._pool = ThreadPoolExecutor(self.at_once, thread_name_prefix="tile")
-        self._cache = CloudCache(self.at_once * self.for_cache)
         self._threads = SharedThreads(self.resources.thread_count)
 
     def submit(self, job: Job) -> Running:
         """Start a job."""
         progress = JobProgress(self._stop)
-        share = Share(self.share, self._cache, self._threads, is_alone=self.at_once == 1)
+        share = Share(self.share, self._threads, is_alone=self.at_once == 1)
         future = self._pool.submit(attempt, job, share, progress)
         self._futures = [each for each in self._futures if not each.done()] + [future]
         return Running(future, progress)
@@ -121,7 +118,6 @@ class Threads(Workers):
         self._stop.set()
         self._pool.shutdown(wait=False, cancel_futures=True)
         wait(self._futures, _PATIENCE)
-        self._cache = CloudCache()
 
 
 class Processes(Workers):
@@ -140,7 +136,7 @@ class Processes(Workers):
 
     def _open(self) -> None:
         free = self._context.Value("i", self.resources.thread_count)
-        values = self._stop, free, self.share.thread_count, self.for_cache
+        values = self._stop, free, self.share.thread_count
         self._pool = ProcessPoolExecutor(self.at_once, self._context, _begin, values)
 
     def submit(self, job: Job) -> Running:
@@ -202,17 +198,16 @@ class _OfProcess(NamedTuple):
     """What the jobs of a process have in common."""
 
     stop: threading.Event
-    cache: CloudCache
     threads: SharedThreads
 
 
 _common: _OfProcess | None = None
 
 
-def _begin(stop: threading.Event, free: Counter, threads: int, for_cache: int) -> None:
+def _begin(stop: threading.Event, free: Counter, threads: int) -> None:
     """Prepare a new process."""
     global _common
-    _common = _OfProcess(stop, CloudCache(for_cache), SharedThreads(free))
+    _common = _OfProcess(stop, SharedThreads(free))
     # Ctrl-C reaches all processes of a terminal. Only the first one reacts, and stops the others.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # The threads that decompress.
@@ -232,6 +227,6 @@ def _end_with_parent() -> None:
 
 
 def _in_process(job: Job, resources: Resources) -> JobResult:
-    common = _common or _OfProcess(threading.Event(), CloudCache(), SharedThreads(1))
-    share = Share(resources, common.cache, common.threads, is_alone=True)
+    common = _common or _OfProcess(threading.Event(), SharedThreads(1))
+    share = Share(resources, common.threads, is_alone=True)
     return attempt(job, share, JobProgress(common.stop))

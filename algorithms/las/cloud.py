@@ -91,16 +91,24 @@ class PointCloud:
         """Number of points."""
         return len(self.x)
 
-    def parts(self) -> Iterator[tuple[slice, PointCloud]]:
-        """Yield indices and points part by part, without the records."""
-        columns = {
+    @property
+    def columns(self) -> dict[str, np.ndarray]:
+        """The arrays of one value for each point, by their names."""
+        return {
             name: value
             for name, value in vars(self).items()
             if isinstance(value, np.ndarray) and name != "records"
         }
+
+    def take(self, which: np.ndarray | slice) -> PointCloud:
+        """Return the points that a mask, indices or a slice select, without the records."""
+        columns = {name: column[which] for name, column in self.columns.items()}
+        return replace(self, records=None, **columns)
+
+    def parts(self) -> Iterator[tuple[slice, PointCloud]]:
+        """Yield indices and points part by part, without the records."""
         for where in parts_of(self.count, _PART):
-            part = {name: column[where] for name, column in columns.items()}
-            yield where, replace(self, records=None, **part)
+            yield where, self.take(where)
 
     @cached_property
     def lowest(self) -> tuple[int, int]:
@@ -209,6 +217,17 @@ class PointCloud:
             If the CRS is not projected, or its lengths are far too long or too short.
         """
         require_measurable(self.path, self.crs, self.file.box if self.file else None)
+
+
+def joined(parts: Sequence[PointCloud]) -> PointCloud:
+    """Return the points of several parts of a file, at least one, as one cloud."""
+    columns: dict[str, list[np.ndarray]] = {}
+    for part in parts:
+        for name, column in part.columns.items():
+            columns.setdefault(name, []).append(column)
+    # One column after the other, so that not all are in memory twice at the same time.
+    whole = {name: np.concatenate(columns.pop(name)) for name in list(columns)}
+    return replace(parts[0], **whole)
 
 
 def survey_frame(crs: Crs, origin: tuple[float, float] = (0.0, 0.0)) -> Frame:

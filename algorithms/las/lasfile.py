@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import BinaryIO, NamedTuple, Sequence
 
 from ..core.points import Box
 from . import header as fields
@@ -75,6 +76,27 @@ class Evlr:
     data: bytes | None
 
 
+class Unpacked(NamedTuple):
+    """The uncompressed records of a file, as `unpack` writes them.
+
+    Attributes
+    ----------
+    file : Path or file
+        Where they are; a file that is open stays so.
+    columns : tuple of str or None
+        The layers that were decompressed, as for `read_records`; None for all.
+    """
+
+    file: Path | BinaryIO
+    columns: tuple[str, ...] | None = None
+
+    def has(self, columns: Sequence[str] | None) -> bool:
+        """Return whether some layers are here; None stands for all."""
+        if self.columns is None:
+            return True
+        return columns is not None and set(columns) <= set(self.columns)
+
+
 @dataclass(frozen=True)
 class LasFile:
     """A LAS, LAZ or COPC file: its header, its records and the position of its points.
@@ -99,6 +121,8 @@ class LasFile:
         State of the file, by which later changes are noticed.
     stated : str or None
         The CRS that the user states in place of its records, as well-known text.
+    unpacked : Unpacked or None
+        Where its records are uncompressed, too.
     """
 
     path: Path
@@ -110,6 +134,7 @@ class LasFile:
     waveform_record: int
     state: FileState
     stated: str | None = None
+    unpacked: Unpacked | None = field(default=None, compare=False)
 
     @property
     def minor_version(self) -> int:

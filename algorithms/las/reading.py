@@ -86,7 +86,7 @@ def read_cloud(
 
 
 def read_parts(
-    path: Path | LasFile, progress: Progress = SILENT, strips: bool = False
+    path: Path | LasFile, progress: Progress = SILENT, strips: bool = False, times: bool = False
 ) -> Iterator[PointCloud]:
     """Read a file part by part, if it may not fit into memory.
 
@@ -94,8 +94,8 @@ def read_parts(
     ----------
     path, progress
         As for `read_cloud`.
-    strips : bool
-        Whether to read the flight strip of each point.
+    strips, times : bool
+        Whether to read the flight strip and the GPS time of each point.
 
     Yields
     ------
@@ -112,9 +112,11 @@ def read_parts(
     layout = open_las(path)
     require_packages(layout)
     crs, start = read_crs(layout, progress), 0
-    for chunk in read_chunks(layout, strips=strips):
+    for chunk in read_chunks(layout, times, strips):
         part = _empty_cloud(layout, len(chunk), crs)
         _fill(part, slice(None), chunk)
+        if times:
+            part.gps_time = np.array(chunk["gps_time"], dtype=np.float64)
         if strips:
             part.strip = np.array(chunk["point_source_id"], dtype=np.uint16)
         yield part

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, BinaryIO, Iterable, Iterator, Sequence
+import contextlib
+from typing import TYPE_CHECKING, BinaryIO, Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -108,19 +109,41 @@ def read_records(
     BareEarthError
         If the file is damaged.
     """
-    with open_source(layout.path) as file:
-        file.seek(layout.points_start)
-        decompressor = _decompressor(layout, file, columns) if layout.is_compressed else None
+    with _reader(layout, columns) as read:
         if into is None:
             buffer = np.empty((min(most, layout.count), layout.record_length), dtype=np.uint8)
         for piece in paced(layout.count, most) if pieces is None else pieces:
             records = buffer[: piece.stop - piece.start] if into is None else into[piece]
             with damage_told(layout.path):
-                if decompressor is not None:
-                    decompressor.decompress_many(records.reshape(-1))
-                elif file.readinto(records.reshape(-1)) != records.size:
-                    raise damaged(layout.path)
+                read(records, piece.start)
             yield records
+
+
+@contextlib.contextmanager
+def _reader(
+    layout: LasFile, columns: Sequence[str] | None
+) -> Iterator[Callable[[np.ndarray, int], None]]:
+    """Yield a function that fills an array with the next records, given the index of the first."""
+    kept, start = layout.unpacked, layout.points_start
+    if kept is not None and kept.has(columns):
+        is_open = hasattr(kept.file, "readinto")
+        opened, start = contextlib.nullcontext(kept.file) if is_open else open_source(kept.file), 0
+    else:
+        opened, kept = open_source(layout.path), None
+    with opened as file:
+        if layout.is_compressed and kept is None:
+            file.seek(start)
+            decompressor = _decompressor(layout, file, columns)
+            yield lambda records, _: decompressor.decompress_many(records.reshape(-1))
+            return
+
+        def read(records: np.ndarray, first: int) -> None:
+            # Several readers can share an open file.
+            file.seek(start + first * layout.record_length)
+            if file.readinto(records.reshape(-1)) != records.size:
+                raise damaged(layout.path)
+
+        yield read
 
 
 def named(layout: LasFile, records: np.ndarray) -> laspy.PackedPointRecord:

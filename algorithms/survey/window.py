@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Dict, Iterable, Iterator, Union
+from typing import Callable, Iterator
 
 import numpy as np
 
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
-from ..las.cloud import PointCloud
+from ..las.cloud import PointCloud, joined
 from ..las.copc_nodes import OctreeError, find_nodes, read_hierarchy, read_nodes
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
-from ..las.reading import cloud_of, columns_of, read_chunks, require_packages
+from ..las.reading import cloud_of, columns_of, read_parts, require_packages
 from .area import Area
 
-if TYPE_CHECKING:
-    import laspy
-
-Columns = Dict[str, np.ndarray]
-Chunk = Union["laspy.PackedPointRecord", Columns]
+# Returns points with other values, given their indices in the file.
+Change = Callable[[slice, PointCloud], PointCloud]
 
 
 def read_window(
@@ -29,13 +27,13 @@ def read_window(
     box: Box,
     progress: Progress = SILENT,
     trust_header: bool = False,
-    whole: PointCloud | None = None,
     times: bool = False,
+    change: Change | None = None,
 ) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file that lie in a rectangle.
 
     Of a COPC file only the nodes of its octree that touch the rectangle are read, unless the octree
-    is damaged. LAS and LAZ files are read completely, in chunks.
+    is damaged. LAS and LAZ files are read completely, part by part.
 
     Parameters
     ----------
@@ -48,10 +46,11 @@ def read_window(
     trust_header : bool
         Whether to skip a LAS or LAZ file if the extent in its header does not touch the rectangle.
         If the header is wrong, points are missed.
-    whole : PointCloud, optional
-        All points of the file, if they were read before.
     times : bool
         Whether to read the GPS times, too.
+    change : callable, optional
+        Returns points with other values than in the file, given their indices in the file and the
+        points. It gets all points of the file in their order.
 
     Returns
     -------
@@ -69,42 +68,43 @@ def read_window(
     area = Area(box=(west, south, east, north))
     layout = open_las(path)
     require_packages(layout)
-    if layout.is_copc and whole is None:
+    if layout.is_copc and layout.unpacked is None and change is None:
         try:
-            return _cloud(layout, _in_nodes(layout, area, progress, times), progress, times)
+            return _joined(layout, area, _in_nodes(layout, area, progress, times), progress.quiet())
         except OctreeError as error:
             progress.warning(f"{error} The whole file is read instead, which takes longer.")
-    if trust_header and not may_touch(layout, box):
-        return _cloud(layout, iter(()), progress, times)
-    chunks = read_chunks(layout, times) if whole is None else _chunks_of(whole, layout)
-    return _cloud(layout, _in_chunks(layout, area, chunks, progress, times), progress, times)
+    parts: Iterator[PointCloud] = iter(())
+    if not trust_header or may_touch(layout, box):
+        parts = _in_file(layout, progress, times, change)
+    return _joined(layout, area, parts, progress)
 
 
-def _in_nodes(layout: LasFile, area: Area, progress: Progress, times: bool) -> Iterator[Columns]:
-    hierarchy = read_hierarchy(layout)
-    nodes = find_nodes(hierarchy, area.bounds)
+def _in_nodes(layout: LasFile, area: Area, progress: Progress, times: bool) -> Iterator[PointCloud]:
+    """Yield the points of the nodes of a COPC file that touch an area."""
+    hierarchy, crs = read_hierarchy(layout), read_crs(layout, progress)
+    nodes, names = find_nodes(hierarchy, area.bounds), columns_of(layout)
+    if times:
+        names["gps_time"] = "gps_time", np.float64
     done, total = 0, int(nodes["count"].sum(dtype=np.int64))
     for chunk in read_nodes(hierarchy, nodes, times=times):
-        yield _inside(layout, area, chunk, times)
+        columns: dict[str, np.ndarray] = {
+            name: np.asarray(chunk[source]).astype(kind) for name, (source, kind) in names.items()
+        }
+        yield cloud_of(layout, crs, **columns)
         done += len(chunk)
         progress(done / total)
 
 
-def _chunks_of(whole: PointCloud, layout: LasFile) -> Iterator[Columns]:
-    """Yield the points of a cloud in parts, with the names of their dimensions in files."""
-    for _, part in whole.parts():
-        yield {source: getattr(part, name) for name, (source, _) in _columns(layout).items()}
-
-
-def _in_chunks(
-    layout: LasFile, area: Area, chunks: Iterable[Chunk], progress: Progress, times: bool
-) -> Iterator[Columns]:
-    done, is_outside = 0, False
-    for chunk in chunks:
-        yield _inside(layout, area, chunk, times)
-        is_outside |= _leaves_header(layout, chunk)
-        done += len(chunk["X"])
-        progress(done / layout.count)
+def _in_file(
+    layout: LasFile, progress: Progress, times: bool, change: Change | None
+) -> Iterator[PointCloud]:
+    """Yield all points of a file part by part; warn if some lie outside the extent it states."""
+    start, is_outside = 0, False
+    for part in read_parts(layout, progress, times=times):
+        where = slice(start, start + part.count)
+        yield part if change is None else change(where, part)
+        start = where.stop
+        is_outside |= _leaves_header(layout, part)
     if is_outside:
         progress.warning(
             f"The header of {layout.path.name} states a smaller extent than its points have: other"
@@ -113,30 +113,9 @@ def _in_chunks(
         )
 
 
-def _inside(layout: LasFile, area: Area, chunk: Chunk, times: bool) -> Columns:
-    """Return the columns of the points of a chunk that lie in the area."""
-    x, y = (
-        np.asarray(chunk[name]) * layout.scale[axis] + layout.offset[axis]
-        for axis, name in enumerate("XY")
-    )
-    which = np.flatnonzero(area.contains(x, y))
-    return {
-        name: np.asarray(chunk[source])[which].astype(kind)
-        for name, (source, kind) in _columns(layout, times).items()
-    }
-
-
-def _columns(layout: LasFile, times: bool = False) -> dict[str, tuple[str, type]]:
-    """Return the columns to read: all except those that are needed only for writing."""
-    columns = columns_of(layout)
-    columns.pop("scanner_channel", None)
-    return {**columns, "gps_time": ("gps_time", np.float64)} if times else columns
-
-
-def _leaves_header(layout: LasFile, chunk: Chunk) -> bool:
+def _leaves_header(layout: LasFile, part: PointCloud) -> bool:
     """Return whether a point lies outside of the extent in the header."""
-    for axis, name in enumerate("XY"):
-        integers = np.asarray(chunk[name])
+    for axis, integers in enumerate((part.x, part.y)):
         scale, offset = layout.scale[axis], layout.offset[axis]
         lowest, highest = (int(pick(integers)) * scale + offset for pick in (np.min, np.max))
         # Programs round the values in headers in different ways.
@@ -152,16 +131,21 @@ def may_touch(layout: LasFile, box: Box) -> bool:
     return not is_one or Area(box=box).may_touch(layout.outer_box)
 
 
-def _cloud(
-    layout: LasFile, parts: Iterator[Columns], progress: Progress, times: bool
+def _joined(
+    layout: LasFile, area: Area, parts: Iterator[PointCloud], progress: Progress
 ) -> PointCloud:
-    names = _columns(layout, times)
-    kept: dict[str, list[np.ndarray]] = {
-        name: [np.empty(0, dtype=kind)] for name, (_, kind) in names.items()
-    }
+    """Return the points of parts that lie in an area, without what only writing needs."""
+    kept = []
     for part in parts:
-        for name, values in part.items():
-            kept[name].append(values)
-    # One column after the other, so that not all columns are in memory twice at the same time.
-    columns = {name: np.concatenate(kept.pop(name)) for name in names}
-    return cloud_of(layout, read_crs(layout, progress), **columns)
+        x, y = (
+            each * layout.scale[axis] + layout.offset[axis]
+            for axis, each in enumerate((part.x, part.y))
+        )
+        kept.append(part.take(np.flatnonzero(area.contains(x, y))))
+    if not kept:
+        names = columns_of(layout)
+        empty: dict[str, np.ndarray] = {
+            name: np.empty(0, dtype=kind) for name, (_, kind) in names.items()
+        }
+        kept = [cloud_of(layout, read_crs(layout, progress), **empty)]
+    return replace(joined(kept), scanner_channel=None)

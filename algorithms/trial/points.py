@@ -136,9 +136,8 @@ class TrialPoints:
             step.work(store, resources, progress.part(0.1, 1.0))
         except BareEarthError as error:
             progress.warning(f"{setting.label}: {error}")
-        classes = np.concatenate(
-            [_classes(step, cloud, store.values(n)) for n, cloud in enumerate(self.clouds)]
-        )
+        found = [step.applied(cloud, store.values(n)) for n, cloud in enumerate(self.clouds)]
+        classes = np.concatenate([cloud.classification for cloud in found])
         ground = classes == step.selection.to_class
         selected = np.concatenate([its_marks.selected for its_marks in marks])
         return Labelled((setting.name, setting.label), classes, ground, selected)
@@ -230,10 +229,3 @@ def _read(
     parts = progress.shares(*[1.0] * len(files))
     clouds = [read_window(las, box, part) for las, part in zip(files, parts)]
     return tuple(cloud for cloud in clouds if cloud.count)
-
-
-def _classes(step: LabelGround, cloud: PointCloud, labels: np.ndarray) -> np.ndarray:
-    """Return the classes that follow from the labels of a cloud."""
-    result = step.result(cloud.path, lambda kind: np.empty(cloud.count, dtype=kind))
-    result.add(slice(None), cloud, labels)
-    return result.classification

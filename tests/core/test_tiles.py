@@ -22,7 +22,8 @@ from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import file_points as file_points_module
 from bare_earth.algorithms.engine import jobs as jobs_module
 from bare_earth.algorithms.engine import labelling as labelling_module
-from bare_earth.algorithms.engine import tile_run as tile_run_module
+from bare_earth.algorithms.engine import plan as plan_module
+from bare_earth.algorithms.engine import tile_output as tile_output_module
 from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.ground import Label, label_ground
@@ -503,7 +504,7 @@ def test_a_process_that_dies_loses_nothing(threads, many, out):
 
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
 def test_a_tile_that_kills_its_process_fails_alone(six, out, monkeypatch):
-    monkeypatch.setattr(tile_run_module, "TileJob", DeadlyJob)
+    monkeypatch.setattr(plan_module, "TileJob", DeadlyJob)
     summary = classify_tiles([six], out, FAST, workers=Processes(Resources(threads=2)))
     assert list(summary.failures) == [str(six / "3.laz")]
     assert "ended unexpectedly" in summary.failures[str(six / "3.laz")]
@@ -516,8 +517,8 @@ def test_a_job_that_fails_fails_its_tile_only(six, out, monkeypatch):
             raise MemoryError
         return write_changed(source, *rest)
 
-    write_changed = jobs_module.write_changed
-    monkeypatch.setattr(jobs_module, "write_changed", failing)
+    write_changed = tile_output_module.write_changed
+    monkeypatch.setattr(tile_output_module, "write_changed", failing)
     summary = classify_tiles([six], out, FAST)
     assert summary.done_count == 5
     assert "not enough memory" in summary.failures[str(six / "4.laz")]
@@ -648,7 +649,7 @@ def test_a_job_may_use_the_threads_that_other_jobs_leave_free(kind, tmp_path):
 
 
 def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, out, monkeypatch):
-    monkeypatch.setattr(tile_run_module, "TileJob", Overtaken)
+    monkeypatch.setattr(plan_module, "TileJob", Overtaken)
     done = classify_tiles([six], out, FAST)
     assert [Path(each).name for each in done.failures] == ["2.laz"]
     assert "changed while it was worked on" in next(iter(done.failures.values()))

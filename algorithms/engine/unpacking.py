@@ -1,0 +1,53 @@
+"""Lets the jobs of a run read compressed files uncompressed, after the first has unpacked them."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import os
+from pathlib import Path
+from typing import NamedTuple
+
+from ..core.errors import BareEarthError
+from ..core.files import one_at_a_time, replacing
+from ..core.progress import Progress
+from ..las.lasfile import LasFile, Unpacked
+from ..las.records import needed
+from ..las.unpacked import unpack
+
+
+class Unpacking(NamedTuple):
+    """Where the records of compressed files wait uncompressed, for all local jobs of a run.
+
+    Attributes
+    ----------
+    folder : Path
+        An existing folder that is removed at the end of the run.
+    is_whole : bool
+        Whether whole records are needed for writing, or only what a cloud holds.
+    """
+
+    folder: Path
+    is_whole: bool
+
+    def of(self, las: LasFile, progress: Progress) -> LasFile:
+        """Return a file that is read uncompressed; the file itself if the disk is full.
+
+        Raises
+        ------
+        Cancelled
+            If the user asked to stop.
+        """
+        if not las.is_compressed or las.unpacked is not None:
+            return las
+        columns = None if self.is_whole else needed(las)
+        key = os.fsencode(las.path.resolve()) + repr(las.state).encode()
+        path = self.folder / f"{hashlib.sha256(key).hexdigest()[:32]}.records"
+        with one_at_a_time(path.with_suffix(".lock")):
+            if not path.exists():
+                try:
+                    with replacing(path) as temporary, temporary.open("w+b") as file:
+                        unpack(las, file, columns, progress)
+                except BareEarthError:  # a damaged file is told when it is read
+                    return las
+        return dataclasses.replace(las, unpacked=Unpacked(path, columns))

@@ -1,0 +1,197 @@
+"""The values that steps have found for the points of a file: in a store, or in files of blocks.
+
+Each step of a run sees the points with what the steps before it have found.
+"""
+
+from __future__ import annotations
+
+import bisect
+import itertools
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Iterable, Iterator, Mapping, Protocol, Sequence
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.files import replacing
+from ..core.points import Box
+from ..las.cloud import PointCloud
+from ..las.lasfile import LasFile
+from .block_grid import BlockGrid, BlockIndex, code
+from .steps import PointStep
+from .store import Store
+
+_FAILURE = "no ground"
+
+
+class PointValues(Protocol):
+    """The value of each point of a file.
+
+    Attributes
+    ----------
+    step : PointStep
+        The step that found them.
+    failure : str
+        Why some points have none; empty if all have.
+    """
+
+    step: PointStep
+    failure: str
+
+    def of(self, where: slice, part: PointCloud) -> np.ndarray:
+        """Return the values of the next points, given their indices in the file."""
+
+
+def numbered(parts: Iterable[PointCloud]) -> Iterator[tuple[slice, PointCloud]]:
+    """Yield the parts of a file with their indices in it."""
+    start = 0
+    for part in parts:
+        yield slice(start, start + part.count), part
+        start += part.count
+
+
+def with_values(
+    parts: Iterable[tuple[slice, PointCloud]], values: Sequence[PointValues]
+) -> Iterator[tuple[slice, PointCloud]]:
+    """Yield the parts of a file, with their indices in it, as the next step sees them."""
+    for where, part in parts:
+        yield where, seen(values, where, part)
+
+
+def seen(values: Sequence[PointValues], where: slice, part: PointCloud) -> PointCloud:
+    """Return a part of a file as the next step sees it."""
+    for found in values:
+        if found.step.gives_classes:
+            part = found.step.applied(part, found.of(where, part))
+    return part
+
+
+class StoreValues:
+    """The values that a store holds, which has all parts of one file.
+
+    Parameters
+    ----------
+    step : PointStep
+        The step that found them.
+    store : Store
+        The store.
+    counts : sequence of int
+        Points of each part that was added to it.
+    """
+
+    failure = ""
+
+    def __init__(self, step: PointStep, store: Store, counts: Sequence[int]) -> None:
+        self.step, self._store = step, store
+        self._starts = [0, *itertools.accumulate(counts)]
+
+    def of(self, where: slice, part: PointCloud) -> np.ndarray:
+        """Return the values of some points, all of which are of one part."""
+        number = bisect.bisect_right(self._starts, where.start) - 1
+        start = self._starts[number]
+        return self._store.values(number)[where.start - start : where.stop - start]
+
+
+@dataclass(frozen=True, eq=False)
+class BlockFiles:
+    """The files with the values that a step has found in some blocks.
+
+    Attributes
+    ----------
+    grid : BlockGrid
+        The blocks of the step.
+    step : PointStep
+        The step.
+    files : dict of BlockIndex to Path
+        The file of each block.
+    """
+
+    grid: BlockGrid
+    step: PointStep
+    files: Mapping[BlockIndex, Path]
+
+    def within(self, box: Box) -> BlockFiles:
+        """Return the files of the blocks that a box in units of the CRS touches."""
+        columns, rows = self.grid.places_in(box)
+        files = {
+            place: file
+            for place, file in self.files.items()
+            if place.column in columns and place.row in rows
+        }
+        return replace(self, files=files)
+
+    def write(self, place: BlockIndex, of_files: Mapping[Path, np.ndarray], failure: str) -> None:
+        """Write the values of a block: for each input those of its points in it, in file order."""
+        content: dict[str, Any] = {_key(path): values for path, values in of_files.items()}
+        if failure:
+            content[_FAILURE] = np.array(failure)
+        with replacing(self.files[place]) as temporary:
+            np.savez(temporary, **content)
+
+
+class BlockValues:
+    """The values of a file, as the blocks stored them.
+
+    Parameters
+    ----------
+    found : BlockFiles
+        The values of its blocks.
+    las : LasFile
+        The file.
+    are_all : bool
+        Whether all blocks of the file are there. Otherwise points in the others have the value 0.
+    """
+
+    def __init__(self, found: BlockFiles, las: LasFile, are_all: bool = True) -> None:
+        self.step, self._grid, self._las, self._are_all = found.step, found.grid, las, are_all
+        self.failure = ""
+        self._left: dict[int, np.ndarray] = {}
+        for place, file in found.files.items():
+            with np.load(file, allow_pickle=False) as kept:
+                if _key(las.path) in kept:
+                    self._left[code(place)] = kept[_key(las.path)]
+                    self.failure = self.failure or str(kept.get(_FAILURE, ""))
+
+    def of(self, where: slice, part: PointCloud) -> np.ndarray:
+        """Return the values of the next points.
+
+        Raises
+        ------
+        BareEarthError
+            If points lie outside the extent in the header.
+        """
+        if where.stop > self._las.count:
+            raise self._changed()
+        codes = self._grid.codes(part)
+        values: np.ndarray = np.zeros(part.count, dtype=self.step.kind)
+        for number in np.unique(codes).tolist():
+            here, left = np.flatnonzero(codes == number), self._left.get(number)
+            if left is None:
+                if self._are_all:
+                    raise BareEarthError(
+                        f"The header of {self._las.path} states a smaller extent than its points"
+                        " have. Write the file again with a program that corrects the header."
+                    )
+                continue
+            if len(left) < len(here):
+                raise self._changed()
+            values[here], self._left[number] = left[: len(here)], left[len(here) :]
+        return values
+
+    def check(self) -> None:
+        """Refuse a file if some values were not used."""
+        if any(map(len, self._left.values())):
+            raise self._changed()
+
+    def _changed(self) -> BareEarthError:
+        """Return the error for a file that has changed."""
+        return BareEarthError(
+            f"{self._las.path} changed while it was worked on. Classify it again."
+        )
+
+
+def _key(path: Path) -> str:
+    """Return a name for the values of a file, whose own name may have unsuitable characters."""
+    return os.fsencode(path.name).hex()

@@ -1,0 +1,63 @@
+"""The records of compressed files, uncompressed on disk, so that a run decompresses each once."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+from typing import BinaryIO, Sequence
+
+from ..core.files import reach_disk
+from ..core.progress import SILENT, Progress
+from .lasfile import LasFile, Unpacked
+from .records import read_records
+
+# Records are kept only if the disk has room for so many bytes a point, several times as many.
+_BYTES_A_POINT = 100
+
+
+def has_room(folder: Path, count: int) -> bool:
+    """Return whether the disk of a folder has room for the records of `count` points."""
+    return shutil.disk_usage(folder).free > _BYTES_A_POINT * count
+
+
+def unpack(
+    layout: LasFile,
+    file: BinaryIO,
+    columns: Sequence[str] | None = None,
+    progress: Progress = SILENT,
+) -> LasFile:
+    """Write the records of a compressed file into an open one.
+
+    Parameters
+    ----------
+    layout : LasFile
+        The file.
+    file : file
+        An empty binary file.
+    columns : sequence of str, optional
+        Layers to decompress, as for `read_records`. The others are undefined.
+    progress : Progress
+        Receives progress.
+
+    Returns
+    -------
+    LasFile
+        The file, whose records are read from the open one. It must stay open.
+
+    Raises
+    ------
+    BareEarthError
+        If the file cannot be read.
+    OSError
+        If the records cannot be written.
+    Cancelled
+        If the user asked to stop.
+    """
+    done = 0
+    for records in read_records(layout, columns=columns):
+        file.write(records.data)
+        done += len(records)
+        progress(done / layout.count)
+    reach_disk(file)
+    return replace(layout, unpacked=Unpacked(file, None if columns is None else tuple(columns)))
