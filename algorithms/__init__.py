@@ -22,25 +22,7 @@ if TYPE_CHECKING:
     from .delivery.request import DeliveryRequest as DeliveryRequest
     from .delivery.request import DeliveryTerrain as DeliveryTerrain
     from .delivery.request import DeliveryWater as DeliveryWater
-    from .engine.heights import HeightOutput as HeightOutput
-    from .engine.key_points import KeyPointMark as KeyPointMark
     from .engine.memory import Resources as Resources
-    from .engine.options import RasterOutput as RasterOutput
-    from .engine.options import TileInput as TileInput
-    from .engine.options import TileOutput as TileOutput
-    from .engine.output import Output as Output
-    from .engine.requests import AboveGroundRequest as AboveGroundRequest
-    from .engine.requests import ClassifyRequest as ClassifyRequest
-    from .engine.requests import HeightRequest as HeightRequest
-    from .engine.requests import KeyPointRequest as KeyPointRequest
-    from .engine.requests import TerrainRequest as TerrainRequest
-    from .engine.requests import WaterClassRequest as WaterClassRequest
-    from .engine.runs import above_ground as above_ground
-    from .engine.runs import classify as classify
-    from .engine.runs import heights as heights
-    from .engine.runs import key_points as key_points
-    from .engine.runs import terrain as terrain
-    from .engine.runs import water_classes as water_classes
     from .filters.grid_minimum import GridMinimum as GridMinimum
     from .filters.slope import SlopeFilter as SlopeFilter
     from .filters.tin import TinDensification as TinDensification
@@ -70,6 +52,24 @@ if TYPE_CHECKING:
     from .products.water_files import WaterRequest as WaterRequest
     from .products.water_files import write_water as find_water  # noqa: F401
     from .rasters.sampling import HeightRaster as HeightRaster
+    from .runs.entry import above_ground as above_ground
+    from .runs.entry import classify as classify
+    from .runs.entry import heights as heights
+    from .runs.entry import key_points as key_points
+    from .runs.entry import terrain as terrain
+    from .runs.entry import water_classes as water_classes
+    from .runs.options import RasterOutput as RasterOutput
+    from .runs.options import TileInput as TileInput
+    from .runs.options import TileOutput as TileOutput
+    from .runs.requests import AboveGroundRequest as AboveGroundRequest
+    from .runs.requests import ClassifyRequest as ClassifyRequest
+    from .runs.requests import HeightRequest as HeightRequest
+    from .runs.requests import KeyPointRequest as KeyPointRequest
+    from .runs.requests import TerrainRequest as TerrainRequest
+    from .runs.requests import WaterClassRequest as WaterClassRequest
+    from .steps.heights import HeightOutput as HeightOutput
+    from .steps.key_points import KeyPointMark as KeyPointMark
+    from .steps.output import Output as Output
     from .survey.area import Area as Area
     from .survey.checkpoint_files import Checkpoints as Checkpoints
     from .survey.checkpoint_files import read_checkpoints as read_checkpoints
@@ -94,30 +94,30 @@ _MODULES = {
     "DeliveryRequest": "delivery.request",
     "DeliveryTerrain": "delivery.request",
     "DeliveryWater": "delivery.request",
-    "HeightOutput": "engine.heights",
-    "KeyPointMark": "engine.key_points",
+    "HeightOutput": "steps.heights",
+    "KeyPointMark": "steps.key_points",
     "Resources": "engine.memory",
-    "RasterOutput": "engine.options",
-    "TileInput": "engine.options",
-    "TileOutput": "engine.options",
-    "Output": "engine.output",
+    "RasterOutput": "runs.options",
+    "TileInput": "runs.options",
+    "TileOutput": "runs.options",
+    "Output": "steps.output",
     "QualityOptions": "products.quality",
     "QualityRequest": "products.quality",
     "quality": "products.quality:survey_quality",
     "RasterFiles": "products.raster_files",
     "RasterTarget": "products.raster_grid",
-    "AboveGroundRequest": "engine.requests",
-    "ClassifyRequest": "engine.requests",
-    "HeightRequest": "engine.requests",
-    "KeyPointRequest": "engine.requests",
-    "TerrainRequest": "engine.requests",
-    "WaterClassRequest": "engine.requests",
-    "above_ground": "engine.runs",
-    "classify": "engine.runs",
-    "heights": "engine.runs",
-    "key_points": "engine.runs",
-    "terrain": "engine.runs",
-    "water_classes": "engine.runs",
+    "AboveGroundRequest": "runs.requests",
+    "ClassifyRequest": "runs.requests",
+    "HeightRequest": "runs.requests",
+    "KeyPointRequest": "runs.requests",
+    "TerrainRequest": "runs.requests",
+    "WaterClassRequest": "runs.requests",
+    "above_ground": "runs.entry",
+    "classify": "runs.entry",
+    "heights": "runs.entry",
+    "key_points": "runs.entry",
+    "terrain": "runs.entry",
+    "water_classes": "runs.entry",
     "compare_settings": "trial.comparing",
     "TrialOptions": "trial.options",
     "GridMinimum": "filters.grid_minimum",

@@ -20,18 +20,18 @@ from typing import Any, Callable, NamedTuple
 
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.output import Output
-from bare_earth.algorithms.engine.rasters import RasterFiles
-from bare_earth.algorithms.engine.requests import (
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.products.assessment import AssessmentOptions, assess_files
+from bare_earth.algorithms.runs.entry import classify, heights, key_points, terrain
+from bare_earth.algorithms.runs.requests import (
     ClassifyRequest,
     HeightRequest,
     KeyPointRequest,
     TerrainRequest,
 )
-from bare_earth.algorithms.engine.runs import classify, heights, key_points, terrain
-from bare_earth.algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
-from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.products.assessment import AssessmentOptions, assess_files
+from bare_earth.algorithms.runs.terrain_maps import MapFiles, MapRequest, make_maps
+from bare_earth.algorithms.steps.output import Output
+from bare_earth.algorithms.steps.rasters import RasterFiles
 
 _RASTERS = ("dtm", "dsm", "chm", "hillshade", "confidence")
 

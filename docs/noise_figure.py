@@ -7,9 +7,9 @@ from drawing import ADDED, GROUND, LINE, OTHER, save, shade
 from matplotlib import pyplot
 
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.dense_surface import DenseSurface
+from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.scenes import make
 

@@ -25,18 +25,18 @@ from .surveys import (
 from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
-    from ..engine.requests import ClassifyRequest
     from ..filters.method import Method
+    from ..runs.requests import ClassifyRequest
 
 
 def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..engine.options import RasterOutput, TileInput, TileOutput
-    from ..engine.output import Output
     from ..products.above_ground import ThenAboveGround
     from ..products.contours import Contours
     from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
+    from ..runs.options import RasterOutput, TileInput, TileOutput
+    from ..steps.output import Output
     from ..survey.selection import Selection
 
     add_inputs(parser)
@@ -97,7 +97,7 @@ def add_method(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Met
 
 
 def _classify(options: argparse.Namespace) -> int:
-    from ..engine.requests import ClassifyRequest
+    from ..runs.requests import ClassifyRequest
     from ..survey.corrections import NO_CORRECTIONS
     from ..survey.vector_files import read_corrections
 
@@ -115,8 +115,8 @@ def _classify(options: argparse.Namespace) -> int:
 
 def _classified(options: argparse.Namespace, request: ClassifyRequest) -> int:
     """Classify, and tell what was done."""
-    from ..engine.one_file import Summary
-    from ..engine.runs import classify
+    from ..runs.entry import classify
+    from ..runs.one_file import Summary
 
     as_survey = options.command == _TILES or bool(options.scheduler) or None
     workers = workers_of(options, request.resources)

@@ -28,10 +28,10 @@ def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..delivery.deliveries import DELIVERIES
     from ..delivery.request import DeliveryOptions, DeliveryTerrain, DeliveryWater
     from ..engine.memory import Resources
-    from ..engine.options import TileInput, TileOutput
     from ..products.accuracy import Accuracy
     from ..products.contours import Contours
     from ..products.surface_model import SurfaceModel
+    from ..runs.options import TileInput, TileOutput
     from ..survey.checkpoint_files import FORMATS
     from ..survey.selection import Selection
 

@@ -29,9 +29,9 @@ def _add_odm(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
 def _odm(options: argparse.Namespace) -> int:
     from ..core.files import check_output, replacing
     from ..engine.memory import Resources
-    from ..engine.requests import ClassifyRequest
-    from ..engine.runs import classify
     from ..filters.smrf import SmrfValues
+    from ..runs.entry import classify
+    from ..runs.requests import ClassifyRequest
     from ..survey.kept_classes import ALL_CLASSES
     from ..survey.selection import Selection
 

@@ -98,7 +98,7 @@ def _relief(options: argparse.Namespace) -> int:
 
 
 def _add_height(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..engine.heights import HeightOutput
+    from ..steps.heights import HeightOutput
 
     _add_files(parser, HeightOutput)
     parser.add_argument(
@@ -109,8 +109,8 @@ def _add_height(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> No
 
 
 def _add_key_points(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..engine.key_points import KeyPointMark
     from ..grids.model_key_points import ModelKeyPoints
+    from ..steps.key_points import KeyPointMark
 
     _add_files(parser, ModelKeyPoints, KeyPointMark)
 
@@ -137,7 +137,7 @@ def _add_water_classes(parser: argparse.ArgumentParser, arguments: Sequence[str]
 def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> None:
     """Add the options of the commands that write classified files anew."""
     from ..engine.memory import Resources
-    from ..engine.options import TileInput, TileOutput
+    from ..runs.options import TileInput, TileOutput
     from ..survey.ground_classes import GroundClasses
 
     add_inputs(parser, "a classified file, or ")
@@ -153,15 +153,15 @@ def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> No
 
 def _write(options: argparse.Namespace) -> int:
     """Write classified files with the heights, key points or further classes."""
-    from ..engine.many_files import SurveySummary
-    from ..engine.requests import (
+    from ..rasters.sampling import HeightRaster
+    from ..runs.entry import write
+    from ..runs.many_files import SurveySummary
+    from ..runs.requests import (
         AboveGroundRequest,
         HeightRequest,
         KeyPointRequest,
         WaterClassRequest,
     )
-    from ..engine.runs import write
-    from ..rasters.sampling import HeightRaster
 
     request: HeightRequest | KeyPointRequest | AboveGroundRequest | WaterClassRequest
     if options.command == "height":
@@ -186,10 +186,10 @@ def _write(options: argparse.Namespace) -> int:
 
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..engine.options import RasterOutput, TileInput
     from ..products.contours import Contours
     from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
+    from ..runs.options import RasterOutput, TileInput
     from ..survey.ground_classes import GroundClasses
 
     add_inputs(parser)
@@ -208,8 +208,8 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
 
 
 def _terrain(options: argparse.Namespace) -> int:
-    from ..engine.requests import TerrainRequest
-    from ..engine.runs import terrain
+    from ..runs.entry import terrain
+    from ..runs.requests import TerrainRequest
 
     known, sets = constraints_of(options, finds_water=True), chosen(options)
     known = with_found_water(options, known, sets)

@@ -15,13 +15,13 @@ from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
     from ..core.parameters import ParameterSet
-    from ..engine.many_files import SurveySummary
     from ..engine.memory import Resources
     from ..engine.workers import Workers
     from ..products.constraints import Constraints
     from ..products.raster_files import RasterFiles
     from ..products.raster_grid import RasterTarget
     from ..products.water_classes import WaterPolygons
+    from ..runs.many_files import SurveySummary
     from ..survey.area import Area
 
 
@@ -76,9 +76,9 @@ def contours_after(
     a temporary file.
     """
     from ..core.files import temporary_folder
-    from ..engine.options import RasterOutput
     from ..products.contours import Contours, check_contours, write_contours
     from ..products.raster_files import virtual_of
+    from ..runs.options import RasterOutput
 
     rasters, how = rasters_of(options), Contours.among(sets)
     rest = [each for each in sets if each is not how]

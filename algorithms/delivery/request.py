@@ -7,8 +7,6 @@ from typing import Any, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
-from ..engine.output import Output
-from ..engine.requests import ClassifyRequest, Request
 from ..filters import DEFAULT_METHOD, METHODS
 from ..products.above_ground import ThenAboveGround
 from ..products.accuracy import Accuracy
@@ -21,6 +19,8 @@ from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
 from ..products.water import Water
 from ..products.water_classes import WaterClasses
+from ..runs.requests import ClassifyRequest, Request
+from ..steps.output import Output
 from ..survey.area import Area
 from ..survey.checkpoint_files import Checkpoints
 from ..survey.corrections import NO_CORRECTIONS, Corrections

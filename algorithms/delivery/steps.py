@@ -12,12 +12,7 @@ from typing import Any, Callable
 from ..core.errors import BareEarthError
 from ..core.files import split_name
 from ..core.progress import Progress
-from ..engine.key_points import KeyPointMark
 from ..engine.manifest import folders_of
-from ..engine.one_file import Summary
-from ..engine.options import TileInput
-from ..engine.requests import KeyPointRequest, TerrainRequest, WaterClassRequest
-from ..engine.runs import classify, terrain, write
 from ..engine.workers import Workers
 from ..products.checkpoint_outputs import CheckOutputs
 from ..products.checkpoint_results import Check
@@ -30,6 +25,11 @@ from ..products.raster_files import RasterFiles
 from ..products.surface_model import SurfaceModel
 from ..products.water_classes import WaterPolygons
 from ..products.water_files import SurveyWater, WaterRequest, WaterSummary
+from ..runs.entry import classify, terrain, write
+from ..runs.one_file import Summary
+from ..runs.options import TileInput
+from ..runs.requests import KeyPointRequest, TerrainRequest, WaterClassRequest
+from ..steps.key_points import KeyPointMark
 from ..survey.files import Survey
 from ..survey.overview import overview_of
 from .deliveries import WITH_BUILDINGS

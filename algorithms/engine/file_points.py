@@ -21,7 +21,7 @@ from ..survey.shapes import Place
 from .disk_store import DiskStore, ValuesOnDisk
 from .memory import GIGABYTE, GivingBack, Resources
 from .memory_store import MemoryStore
-from .steps import PointStep, Step
+from .step import PointStep, Step
 from .store import Marks, Store
 from .values import StoreValues, numbered
 

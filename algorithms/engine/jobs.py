@@ -27,7 +27,7 @@ from .file_points import FilePoints, held_by_file
 from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
 from .memory_store import MemoryStore
-from .steps import PointStep
+from .step import PointStep
 from .tile_output import TileOutput, copies_all_else
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, seen

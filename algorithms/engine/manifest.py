@@ -11,7 +11,7 @@ from typing import Any, Dict, Iterable, List, Sequence
 from ..core.errors import BareEarthError
 from ..core.files import replacing
 from .block_grid import BlockGrid, BlockIndex
-from .steps import Step
+from .step import Step
 
 _FOLDER, _LABELS = ".bare-earth", "labels"
 _LONGEST_NAME = 250

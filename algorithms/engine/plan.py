@@ -31,7 +31,7 @@ from .block_grid import (
 )
 from .jobs import BlockJob, PointJob, TileJob
 from .manifest import Fingerprint, block_file, fingerprint_of, read_record, remove_record, stamp_of
-from .steps import PointStep
+from .step import PointStep
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, numbered, with_values
 from .workers import Workers

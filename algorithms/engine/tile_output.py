@@ -16,7 +16,7 @@ from ..las.lasfile import LasFile
 from ..las.writing import layers_kept, write_changed
 from ..survey.point_counts import by_class, count_classes
 from .file_points import FilePoints
-from .steps import PointStep
+from .step import PointStep
 from .values import PointValues
 
 

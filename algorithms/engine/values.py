@@ -20,7 +20,7 @@ from ..core.points import Box
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from .block_grid import BlockGrid, BlockIndex, code
-from .steps import PointStep
+from .step import PointStep
 from .store import Store
 
 _FAILURE = "no ground"

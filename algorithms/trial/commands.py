@@ -7,7 +7,7 @@ from typing import Any, Sequence
 
 from ..core.commands import shell_line
 from ..core.files import split_name
-from ..engine.options import TileMethod
+from ..runs.options import TileMethod
 from ..survey.files import is_one_file
 from .options import Setting
 from .page import Commands

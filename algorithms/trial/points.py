@@ -15,7 +15,6 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from ..crs.measurable import require_measurable
 from ..crs.system import Crs
-from ..engine.labelling import LabelGround
 from ..engine.memory import Resources
 from ..engine.memory_store import MemoryStore
 from ..las.cloud import PointCloud, survey_frame
@@ -23,6 +22,7 @@ from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..products.page import Units
+from ..steps.labelling import LabelGround
 from ..survey.area import Area
 from ..survey.files import is_one_file, open_survey
 from ..survey.middle import middle_window, nearest_window

@@ -24,6 +24,8 @@ _PARTS = {
     "algorithms/las/writing.py": "writing",
     # Where the main thread waits for the threads of the blocks.
     "algorithms/engine/": "filtering",
+    "algorithms/steps/": "filtering",
+    "algorithms/runs/": "filtering",
     "algorithms/filters/": "filtering",
     "algorithms/grids/": "filtering",
 }

@@ -13,8 +13,8 @@ from qgis.core import (
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
-from ...algorithms.engine.output import Output
 from ...algorithms.products.raster_grid import ANYWHERE, RasterTarget
+from ...algorithms.steps.output import Output
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat
 from .constraints import add_constraints, constraints_of

@@ -9,11 +9,11 @@ from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
-from ...algorithms.engine.output import Output
 from ...algorithms.filters import METHODS
 from ...algorithms.products.above_ground import ThenAboveGround
 from ...algorithms.products.surface_model import Gaps
 from ...algorithms.products.terrain_model import TerrainModel
+from ...algorithms.steps.output import Output
 from ...algorithms.survey.selection import Selection
 from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
@@ -105,8 +105,8 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
     ) -> dict[str, Any]:
         """Classify the file."""
         # Imported here, so that QGIS starts faster.
-        from ...algorithms.engine.requests import ClassifyRequest
-        from ...algorithms.engine.runs import classify
+        from ...algorithms.runs.entry import classify
+        from ...algorithms.runs.requests import ClassifyRequest
 
         chosen = self.chosen(parameters, context)
         output = self.point_cloud_destination(parameters, "OUTPUT", context)

@@ -18,8 +18,8 @@ from .outputs import class_raster_of
 
 if TYPE_CHECKING:
     from ...algorithms.delivery.request import DeliveryRequest
-    from ...algorithms.engine.requests import ClassifyRequest
-    from ...algorithms.engine.terrain_maps import MapRequest
+    from ...algorithms.runs.requests import ClassifyRequest
+    from ...algorithms.runs.terrain_maps import MapRequest
 
 
 def show_classified(

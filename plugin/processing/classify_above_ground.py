@@ -41,8 +41,8 @@ class ClassifyAboveGroundAlgorithm(ProductAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Find the classes and write them."""
-        from ...algorithms.engine.requests import AboveGroundRequest
-        from ...algorithms.engine.runs import above_ground
+        from ...algorithms.runs.entry import above_ground
+        from ...algorithms.runs.requests import AboveGroundRequest
 
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)

@@ -1,11 +1,11 @@
 """Ground classification of many files as one survey, in the toolbox."""
 
-from __future__ import annotations
-
-from ...algorithms.engine import memory, options, output
+from ...algorithms.engine import memory
 from ...algorithms.products.above_ground import ThenAboveGround
 from ...algorithms.products.surface_model import Gaps
 from ...algorithms.products.terrain_model import TerrainModel
+from ...algorithms.runs import options
+from ...algorithms.steps import output
 from ...algorithms.survey.selection import Selection
 from ..i18n import mark
 from .area import add_area, add_limits, area_options, given_options, limits_of
@@ -59,8 +59,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Classify the files."""
-        from ...algorithms.engine.requests import ClassifyRequest
-        from ...algorithms.engine.runs import classify
+        from ...algorithms.runs.entry import ClassifyRequest, classify
 
         chosen = options.as_command(self.chosen(parameters, context))
         folder = self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context)

@@ -7,10 +7,10 @@ from typing import Any, Iterator, Mapping, Sequence
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
-from ...algorithms.engine.options import TileMethod
 from ...algorithms.products.contours import Contours
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import MapTerrain, TerrainModel
+from ...algorithms.runs.options import TileMethod
 from ...algorithms.survey.kept_classes import GROUND
 from ...algorithms.survey.selection import Selection
 from .area import NOTHING_GIVEN

@@ -21,8 +21,8 @@ from ...algorithms.delivery.request import (
     DeliveryTerrain,
     DeliveryWater,
 )
-from ...algorithms.engine.options import TileOutput
 from ...algorithms.products.accuracy import Accuracy
+from ...algorithms.runs.options import TileOutput
 from .. import compat
 from ..i18n import mark
 from ..styles import layers

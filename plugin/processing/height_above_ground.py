@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...algorithms.engine.heights import HeightOutput
 from ...algorithms.engine.memory import Resources
-from ...algorithms.engine.output import HEIGHT_DIMENSION
 from ...algorithms.rasters.sampling import HeightRaster
+from ...algorithms.steps.heights import HeightOutput
+from ...algorithms.steps.output import HEIGHT_DIMENSION
 from ...algorithms.survey.ground_classes import GroundClasses
 from ..styles import layers
 from .base import command_line
@@ -55,8 +55,8 @@ class HeightAboveGroundAlgorithm(ProductAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Write the heights."""
-        from ...algorithms.engine.requests import HeightRequest
-        from ...algorithms.engine.runs import heights
+        from ...algorithms.runs.entry import heights
+        from ...algorithms.runs.requests import HeightRequest
 
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...algorithms.engine.key_points import KeyPointMark
 from ...algorithms.engine.memory import Resources
 from ...algorithms.grids.model_key_points import ModelKeyPoints
+from ...algorithms.steps.key_points import KeyPointMark
 from ...algorithms.survey.ground_classes import GroundClasses
 from ..i18n import mark
 from ..styles import layers
@@ -42,8 +42,8 @@ class ModelKeyPointsAlgorithm(ProductAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Find and mark them."""
-        from ...algorithms.engine.requests import KeyPointRequest
-        from ...algorithms.engine.runs import key_points
+        from ...algorithms.runs.entry import key_points
+        from ...algorithms.runs.requests import KeyPointRequest
 
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)

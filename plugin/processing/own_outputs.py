@@ -25,7 +25,7 @@ def make_own(
     progress: FeedbackProgress,
 ) -> dict[str, Any]:
     """Make the outputs, set the looks of their layers, and return what the algorithm returns."""
-    from ...algorithms.engine.terrain_maps import MapFiles, MapRequest, make_maps
+    from ...algorithms.runs.terrain_maps import MapFiles, MapRequest, make_maps
 
     chosen = without_delivery(algorithm.chosen(parameters, context))
     request = MapRequest.of(chosen, **limits)

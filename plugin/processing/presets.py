@@ -7,9 +7,9 @@ from html import escape
 from typing import Any, Collection, Sequence
 
 from ...algorithms.core.parameters import ParameterSet
-from ...algorithms.engine.options import TileMethod
 from ...algorithms.filters import METHODS
 from ...algorithms.filters.method import Method
+from ...algorithms.runs.options import TileMethod
 from ..i18n import number, tr
 from .fields import title_of
 

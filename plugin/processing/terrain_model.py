@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ...algorithms.engine.memory import Resources
-from ...algorithms.engine.options import RasterOutput
 from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.products.terrain_model import TerrainModel
+from ...algorithms.runs.options import RasterOutput
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
 from ..i18n import mark
@@ -47,8 +47,8 @@ class TerrainModelAlgorithm(ProductAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Make the wanted rasters."""
-        from ...algorithms.engine.requests import TerrainRequest
-        from ...algorithms.engine.runs import terrain
+        from ...algorithms.runs.entry import terrain
+        from ...algorithms.runs.requests import TerrainRequest
 
         chosen = self.chosen(parameters, context)
         paths = raster_paths(self, parameters, context)

@@ -45,8 +45,8 @@ class WaterClassesAlgorithm(ProductAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Find the classes and write them."""
-        from ...algorithms.engine.requests import WaterClassRequest
-        from ...algorithms.engine.runs import water_classes
+        from ...algorithms.runs.entry import water_classes
+        from ...algorithms.runs.requests import WaterClassRequest
 
         chosen = self.chosen(parameters, context)
         output = self.cloud_output(parameters, context, progress)

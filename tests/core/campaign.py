@@ -35,15 +35,15 @@ from runs import classify_file, classify_tiles, write_height_above_ground, write
 import bare_earth.algorithms as package
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.rasters import RasterFiles
-from bare_earth.algorithms.engine.requests import TerrainRequest
-from bare_earth.algorithms.engine.runs import terrain
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import inspect, read_cloud
 from bare_earth.algorithms.las.writing import write_changed, write_classified
+from bare_earth.algorithms.runs.entry import terrain
+from bare_earth.algorithms.runs.requests import TerrainRequest
+from bare_earth.algorithms.steps.rasters import RasterFiles
 from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc

@@ -12,25 +12,25 @@ import bare_earth.algorithms as package
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.progress import SILENT, Progress
-from bare_earth.algorithms.engine import many_files
-from bare_earth.algorithms.engine.heights import HeightOutput
-from bare_earth.algorithms.engine.key_points import KeyPointMark
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_store import MemoryStore
-from bare_earth.algorithms.engine.options import RasterOutput, TileInput, TileOutput
-from bare_earth.algorithms.engine.output import Output
-from bare_earth.algorithms.engine.rasters import RasterFiles
-from bare_earth.algorithms.engine.requests import (
+from bare_earth.algorithms.engine.store import Marks
+from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
+from bare_earth.algorithms.products.surface_model import SurfaceModel
+from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.runs import many_files
+from bare_earth.algorithms.runs.entry import classify, heights, key_points, terrain
+from bare_earth.algorithms.runs.options import RasterOutput, TileInput, TileOutput
+from bare_earth.algorithms.runs.requests import (
     ClassifyRequest,
     HeightRequest,
     KeyPointRequest,
     TerrainRequest,
 )
-from bare_earth.algorithms.engine.runs import classify, heights, key_points, terrain
-from bare_earth.algorithms.engine.store import Marks
-from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
-from bare_earth.algorithms.products.surface_model import SurfaceModel
-from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.steps.heights import HeightOutput
+from bare_earth.algorithms.steps.key_points import KeyPointMark
+from bare_earth.algorithms.steps.output import Output
+from bare_earth.algorithms.steps.rasters import RasterFiles
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 

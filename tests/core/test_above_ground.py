@@ -9,13 +9,8 @@ from runs import said
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
-from bare_earth.algorithms.engine.above_ground import ClassifyAboveGround
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.options import TileOutput
-from bare_earth.algorithms.engine.output import Output
-from bare_earth.algorithms.engine.requests import AboveGroundRequest, ClassifyRequest
-from bare_earth.algorithms.engine.runs import above_ground, classify
 from bare_earth.algorithms.grids.local_planes import LocalPlanes
 from bare_earth.algorithms.products.above_ground import (
     AboveGround,
@@ -24,6 +19,11 @@ from bare_earth.algorithms.products.above_ground import (
 )
 from bare_earth.algorithms.products.buildings import Buildings
 from bare_earth.algorithms.products.raster_files import RasterFiles
+from bare_earth.algorithms.runs.entry import above_ground, classify
+from bare_earth.algorithms.runs.options import TileOutput
+from bare_earth.algorithms.runs.requests import AboveGroundRequest, ClassifyRequest
+from bare_earth.algorithms.steps.above_ground import ClassifyAboveGround
+from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.selection import Selection

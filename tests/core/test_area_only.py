@@ -10,12 +10,12 @@ from surveys import bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.engine.options import TileOutput
-from bare_earth.algorithms.engine.output import HEIGHT_DIMENSION, Output
-from bare_earth.algorithms.engine.requests import ClassifyRequest
-from bare_earth.algorithms.engine.runs import classify
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.products.raster_files import RasterFiles
+from bare_earth.algorithms.runs.entry import classify
+from bare_earth.algorithms.runs.options import TileOutput
+from bare_earth.algorithms.runs.requests import ClassifyRequest
+from bare_earth.algorithms.steps.output import HEIGHT_DIMENSION, Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.vpc import read_vpc

@@ -23,8 +23,8 @@ from bare_earth.algorithms import (
     key_points,
 )
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.survey.vector_files import read_corrections
 
 # Objects narrower than so many metres go: at 8 m hall and mound stay ground, at 60 m none does.

@@ -19,10 +19,10 @@ from runs import (
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.rasters import RasterFiles
-from bare_earth.algorithms.engine.requests import TerrainRequest
-from bare_earth.algorithms.engine.runs import terrain
 from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.runs.entry import terrain
+from bare_earth.algorithms.runs.requests import TerrainRequest
+from bare_earth.algorithms.steps.rasters import RasterFiles
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="open files are locked there")
 METHOD = SlopeFilter(preset="whitebox")

@@ -10,8 +10,7 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.crs.system import Crs
-from bare_earth.algorithms.engine import file_points, ground, labelling, memory_store
-from bare_earth.algorithms.engine.one_file import classify_cloud
+from bare_earth.algorithms.engine import file_points, memory_store
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.below_ground import below_ground
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
@@ -20,6 +19,8 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import cloud as cloud_module
 from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.runs.one_file import classify_cloud
+from bare_earth.algorithms.steps import ground, labelling
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.scenes.simple import village

@@ -13,16 +13,16 @@ from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.engine import runs
-from bare_earth.algorithms.engine.explanation import (
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.runs import entry as runs
+from bare_earth.algorithms.runs.one_file import Summary
+from bare_earth.algorithms.steps.explanation import (
     ExplainedCells,
     Explanation,
     described,
     rules_in,
 )
-from bare_earth.algorithms.engine.one_file import Summary
-from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.scenes.simple import village
 

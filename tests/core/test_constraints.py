@@ -12,12 +12,12 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.engine import file_points
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.rasters import RasterFiles
-from bare_earth.algorithms.engine.requests import ClassifyRequest, TerrainRequest
-from bare_earth.algorithms.engine.runs import classify, terrain
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.lines import NearPlaces, along, inside_grid
 from bare_earth.algorithms.products.constraints import Constraints
+from bare_earth.algorithms.runs.entry import classify, terrain
+from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
+from bare_earth.algorithms.steps.rasters import RasterFiles
 from bare_earth.algorithms.survey.vector_files import read_lines
 from benchmarks.scenes.simple import scatter
 

@@ -6,13 +6,13 @@ from runs import memory_store
 from surveys import cloud_of
 
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.ground import label_ground
-from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
+from bare_earth.algorithms.runs.one_file import classify_cloud
+from bare_earth.algorithms.steps.ground import label_ground
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 METHODS_BY_TYPE = {method.parameters: method for method in METHODS.values()}

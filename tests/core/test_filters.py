@@ -8,12 +8,12 @@ from runs import CancelAt
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.products.comparison import compare
+from bare_earth.algorithms.runs.one_file import classify_cloud
 from benchmarks import data
 from benchmarks.scenes import make as make_scene
 from benchmarks.scenes.simple import error, scatter, surveyed, village

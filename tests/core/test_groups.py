@@ -7,13 +7,13 @@ from realdata import real
 
 from bare_earth.algorithms import ClassifyRequest, TerrainRequest, classify, terrain
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.low_groups import LowGroups
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.high_groups import HighGroups
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.peers import write_las
 from benchmarks.scenes import make

@@ -12,14 +12,14 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import SILENT, Notes
 from bare_earth.algorithms.crs.provider import wkt_of_epsg
-from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.requests import HeightRequest
-from bare_earth.algorithms.engine.runs import heights
 from bare_earth.algorithms.rasters import sampling
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
 from bare_earth.algorithms.rasters.sampling import HeightRaster, HeightSampler
 from bare_earth.algorithms.rasters.writing import write_geotiff
+from bare_earth.algorithms.runs.entry import heights
+from bare_earth.algorithms.runs.requests import HeightRequest
+from bare_earth.algorithms.steps.heights import HeightOutput
 
 EAST, NORTH, SIDE = 500_000.0, 5_700_000.0, 60
 

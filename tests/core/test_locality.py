@@ -8,14 +8,14 @@ from realdata import real
 from runs import classify_tiles, memory_store
 from surveys import cut, finished, points_of, strip, write
 
-from bare_earth.algorithms.engine.ground import blocks_of, label_ground
-from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.runs.one_file import classify_cloud
+from bare_earth.algorithms.steps.ground import blocks_of, label_ground
 
 PARAMETERS, LONG = (TinDensification(), GridMinimum(), SlopeFilter()), pytest.mark.long
 COLUMNS = ("x", "y", "z", "classification", "return_number", "number_of_returns", "withheld")

@@ -14,11 +14,9 @@ from realdata import real
 from runs import CancelAt, classify_file, environment, write_height_above_ground
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.engine import disk_store, file_points, labelling
+from bare_earth.algorithms.engine import disk_store, file_points
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.heights import HeightOutput
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
@@ -27,6 +25,9 @@ from bare_earth.algorithms.las import copc, copc_octree, copc_points, reading
 from bare_earth.algorithms.las.reading import inspect
 from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.steps import labelling
+from bare_earth.algorithms.steps.heights import HeightOutput
+from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.selection import Selection
 

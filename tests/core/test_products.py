@@ -12,14 +12,14 @@ from surveys import write as write_strip
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.engine.heights import HeightOutput
-from bare_earth.algorithms.engine.key_points import KeyPointMark
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products import relief_rasters
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.products.surface_model import SurfaceModel, canopy_height
 from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.steps.heights import HeightOutput
+from bare_earth.algorithms.steps.key_points import KeyPointMark
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 
 FEET_WKT = (

@@ -16,9 +16,6 @@ from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.options import TileOutput
-from bare_earth.algorithms.engine.raster_jobs import RasterJob
-from bare_earth.algorithms.engine.rasters import MakeRasters, write_rasters
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin, hull_corners
@@ -27,6 +24,9 @@ from bare_earth.algorithms.products.raster_block import LAYERS
 from bare_earth.algorithms.products.raster_files import RASTERS, RasterFiles
 from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.products.terrain_model import TerrainModel
+from bare_earth.algorithms.runs.options import TileOutput
+from bare_earth.algorithms.runs.raster_jobs import RasterJob
+from bare_earth.algorithms.steps.rasters import MakeRasters, write_rasters
 
 rasterio = pytest.importorskip("rasterio")
 

@@ -16,19 +16,19 @@ from surveys import bytes_of, cut, finished, strip, write
 import bare_earth.algorithms as api
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.engine import runs as runs_module
-from bare_earth.algorithms.engine.many_files import write_files
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.output import Output
-from bare_earth.algorithms.engine.requests import (
+from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
+from bare_earth.algorithms.products.raster_files import RasterFiles
+from bare_earth.algorithms.runs import entry as runs_module
+from bare_earth.algorithms.runs.many_files import write_files
+from bare_earth.algorithms.runs.requests import (
     ClassifyRequest,
     HeightRequest,
     KeyPointRequest,
     TerrainRequest,
 )
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
-from bare_earth.algorithms.products.raster_files import RasterFiles
+from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 

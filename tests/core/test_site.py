@@ -4,8 +4,8 @@ import functools
 
 import pytest
 
-from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.runs.one_file import classify_cloud
 from benchmarks.scenes import KINDS, make
 from benchmarks.scenes.earthworks import BERM, ROAD, STOCKPILE
 

@@ -9,13 +9,13 @@ from surveys import cloud_of
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.ground import blocks_of, label_ground
 from bare_earth.algorithms.engine.store import BlockPoints
-from bare_earth.algorithms.engine.surroundings import near, tell_spacing, thinned
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.grids.cells import spacing
 from bare_earth.algorithms.las.cloud import survey_frame
+from bare_earth.algorithms.steps.ground import blocks_of, label_ground
+from bare_earth.algorithms.steps.surroundings import near, tell_spacing, thinned
 
 BOX = near((0.0, 0.0, 100.0, 100.0))
 

@@ -21,15 +21,11 @@ from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import file_points as file_points_module
 from bare_earth.algorithms.engine import jobs as jobs_module
-from bare_earth.algorithms.engine import labelling as labelling_module
 from bare_earth.algorithms.engine import plan as plan_module
 from bare_earth.algorithms.engine import tile_output as tile_output_module
 from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.ground import Label, label_ground
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.options import TileInput, TileMethod, TileOutput
-from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
@@ -41,6 +37,10 @@ from bare_earth.algorithms.las import reading as reading_module
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.raster_files import RasterFiles
+from bare_earth.algorithms.runs.options import TileInput, TileMethod, TileOutput
+from bare_earth.algorithms.steps import labelling as labelling_module
+from bare_earth.algorithms.steps.ground import Label, label_ground
+from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection

@@ -12,13 +12,10 @@ from runs import memory_store
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import SILENT, Progress
 from bare_earth.algorithms.core.threads import workers
-from bare_earth.algorithms.engine import ground as ground_module
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.blockwise import run_jobs
 from bare_earth.algorithms.engine.disk_store import DiskStore
-from bare_earth.algorithms.engine.ground import blocks_of, label_ground
 from bare_earth.algorithms.engine.memory import Cost, Resources, free_memory
-from bare_earth.algorithms.engine.one_file import classify_cloud
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
@@ -27,6 +24,9 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
+from bare_earth.algorithms.runs.one_file import classify_cloud
+from bare_earth.algorithms.steps import ground as ground_module
+from bare_earth.algorithms.steps.ground import blocks_of, label_ground
 from bare_earth.algorithms.survey.selection import Selection
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())

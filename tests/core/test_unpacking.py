@@ -18,13 +18,13 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import unpacking as unpacking_module
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.output import Output
 from bare_earth.algorithms.engine.unpacking import Unpacking
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.records import needed, read_records
+from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.window import read_window
 
 FAST = SlopeFilter(preset="whitebox")

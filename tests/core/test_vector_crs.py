@@ -13,14 +13,14 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.requests import (
+from bare_earth.algorithms.products.constraints import Constraints
+from bare_earth.algorithms.products.raster_files import RasterFiles
+from bare_earth.algorithms.runs.entry import above_ground, classify, terrain
+from bare_earth.algorithms.runs.requests import (
     AboveGroundRequest,
     ClassifyRequest,
     TerrainRequest,
 )
-from bare_earth.algorithms.engine.runs import above_ground, classify, terrain
-from bare_earth.algorithms.products.constraints import Constraints
-from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_corrections, read_lines
 

@@ -28,12 +28,16 @@ FLOORS = {
     "rasters": "core crs",
     "filters": "core grids",
     "products": "core crs grids las survey rasters filters",
-    "engine": "core crs grids las survey rasters filters products",
-    "trial": "core crs grids las survey rasters filters products engine",
-    "delivery": "core crs grids las survey rasters filters products engine",
-    "cli": "core crs grids las survey rasters filters products engine trial delivery",
+    "engine": "core crs las survey",
+    "steps": "core crs grids las survey rasters filters products engine",
+    "runs": "core crs grids las survey rasters filters products engine steps",
+    "trial": "core crs grids las survey rasters filters products engine steps runs",
+    "delivery": "core crs grids las survey rasters filters products engine steps runs",
+    "cli": "core crs grids las survey rasters filters products engine steps runs trial delivery",
     "__main__": "cli",
-    "__init__": "core crs grids las survey rasters filters products engine trial delivery",
+    "__init__": (
+        "core crs grids las survey rasters filters products engine steps runs trial delivery"
+    ),
 }
 
 
@@ -118,7 +122,7 @@ def test_no_file_imports_itself_by_way_of_others():
 
 @pytest.mark.parametrize("step", ["heights", "key_points", "rasters"])
 def test_steps_for_classified_points_need_no_filter(step):
-    reached, left = set(), [ROOT / "algorithms" / "engine" / f"{step}.py"]
+    reached, left = set(), [ROOT / "algorithms" / "steps" / f"{step}.py"]
     while left:
         path = left.pop()
         if path not in reached:

@@ -16,13 +16,13 @@ from bare_earth.algorithms import find_water, read_boundary
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.crs.provider import wkt_of_epsg
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.requests import ClassifyRequest, WaterClassRequest
-from bare_earth.algorithms.engine.runs import classify, water_classes
 from bare_earth.algorithms.grids.lines import along, near_rings
 from bare_earth.algorithms.las.extrabytes import REMEMBERED
 from bare_earth.algorithms.products.water import Water
 from bare_earth.algorithms.products.water_classes import WaterClasses, WaterPolygons
 from bare_earth.algorithms.products.water_files import WaterRequest
+from bare_earth.algorithms.runs.entry import classify, water_classes
+from bare_earth.algorithms.runs.requests import ClassifyRequest, WaterClassRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.shapes import Shapes

@@ -25,10 +25,10 @@ from support import ALGORITHM, remove, write_scene
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.engine.explanation import described
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import NOT_GROUND
 from bare_earth.algorithms.products.raster_files import RASTERS
+from bare_earth.algorithms.steps.explanation import described
 from bare_earth.plugin.styles import clouds, rasters, rules
 
 MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply

@@ -10,10 +10,11 @@ from typing import Any, Iterable, Union
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
+from ..engine.workers import Workers
+from ..steps.rasters import RasterSize
 from ..survey.files import is_one_file
 from .many_files import classify_files, rasters_of_files, write_files
 from .one_file import classify_file, rasters_of_file, write_points
-from .rasters import RasterSize
 from .requests import (
     AboveGroundRequest,
     ClassifyRequest,
@@ -23,7 +24,6 @@ from .requests import (
     TerrainRequest,
     WaterClassRequest,
 )
-from .workers import Workers
 
 Sources = Union[str, Path, Iterable[Union[str, Path]]]
 

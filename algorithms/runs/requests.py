@@ -9,6 +9,8 @@ from typing import Any, Iterable, TypeVar
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
 from ..crs.stated import stated_wkt
+from ..engine.memory import Resources
+from ..engine.step import PointStep
 from ..filters import DEFAULT_METHOD, METHODS
 from ..grids.model_key_points import ModelKeyPoints
 from ..products.above_ground import AboveGround, ThenAboveGround
@@ -20,21 +22,19 @@ from ..products.surface_model import Gaps, SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..products.water_classes import NO_WATER, WaterClasses, WaterPolygons
 from ..rasters.sampling import HeightRaster
+from ..steps.above_ground import ClassifyAboveGround
+from ..steps.explanation import Explanation
+from ..steps.heights import HeightOutput, MeasureHeights
+from ..steps.key_points import FindKeyPoints, KeyPointMark
+from ..steps.labelling import LabelGround
+from ..steps.output import Output
+from ..steps.rasters import MakeRasters
+from ..steps.water_classes import ClassifyWater
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
-from .above_ground import ClassifyAboveGround
-from .explanation import Explanation
-from .heights import HeightOutput, MeasureHeights
-from .key_points import FindKeyPoints, KeyPointMark
-from .labelling import LabelGround
-from .memory import Resources
 from .options import RasterOutput, TileInput, TileMethod, TileOutput
-from .output import Output
-from .rasters import MakeRasters
-from .steps import PointStep
-from .water_classes import ClassifyWater
 
 _Request = TypeVar("_Request", bound="Request")
 

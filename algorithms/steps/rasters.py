@@ -15,6 +15,11 @@ from ..core.files import new_folder, replacing
 from ..core.points import Box, Frame, box_in_words
 from ..core.progress import SILENT, Progress
 from ..crs.system import Crs
+from ..engine.blocks import Block, Blocks
+from ..engine.blockwise import over_blocks
+from ..engine.memory import Cost, Resources
+from ..engine.step import Step
+from ..engine.store import Marks, Store
 from ..grids.cell_window import CellWindow
 from ..grids.cells import first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE
@@ -43,11 +48,6 @@ from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import NOISE
-from .blocks import Block, Blocks
-from .blockwise import over_blocks
-from .memory import Cost, Resources
-from .steps import Step
-from .store import Marks, Store
 
 # In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
 # because of a few points with stray coordinates.

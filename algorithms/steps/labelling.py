@@ -13,6 +13,10 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
+from ..engine.blocks import Blocks
+from ..engine.memory import Resources
+from ..engine.step import Allocate, PointResult, PointStep, with_classes
+from ..engine.store import Marks, Store
 from ..filters import method_of
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
@@ -23,13 +27,9 @@ from ..survey.kept_classes import overlapping
 from ..survey.point_chooser import PointChooser
 from ..survey.point_counts import PointCounts, by_class, count_classes
 from ..survey.selection import Selection
-from .blocks import Blocks
 from .explanation import Explanation
 from .ground import Label, blocks_of, label_ground
-from .memory import Resources
 from .output import Output
-from .steps import Allocate, PointResult, PointStep, with_classes
-from .store import Marks, Store
 
 
 @dataclass(frozen=True, order=True)

@@ -20,15 +20,15 @@ from ..products.raster_grid import ANYWHERE, RasterTarget
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
 from ..rasters.writing import replacing_raster
+from ..steps.output import Output
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.files import is_one_file
 from ..survey.selection import Selection
+from .entry import classify
 from .one_file import Summary
 from .options import TileOutput
-from .output import Output
 from .requests import ClassifyRequest, Request
-from .runs import classify
 
 # The longest first, since it ends as the second does.
 _FORMATS = ("copc.laz", "laz", "las")

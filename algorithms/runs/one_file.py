@@ -17,24 +17,24 @@ from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import import_early, may_use
 from ..crs.measurable import require_measurable
+from ..engine.file_points import FilePoints
+from ..engine.memory import Resources
+from ..engine.step import PointStep, Step, located
+from ..engine.store import Store
+from ..engine.tile_output import TileOutput, copies_all_else
+from ..engine.values import PointValues, with_values
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.writing import check_cloud
 from ..rasters.writing import check_raster_output, replacing_raster
+from ..steps.labelling import LabelGround
+from ..steps.rasters import MakeRasters, RasterSize, write_rasters
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
-from .file_points import FilePoints
-from .labelling import LabelGround
-from .memory import Resources
-from .rasters import MakeRasters, RasterSize, write_rasters
 from .requests import ClassifyRequest, PointRequest, Request, TerrainRequest
-from .steps import PointStep, Step, located
-from .store import Store
-from .tile_output import TileOutput, copies_all_else
-from .values import PointValues, with_values
 
 # Shares of the progress bar: of reading, of each step, and of writing.
 _READING, _FILTER, _STEP, _WRITING = 1.5, 5.0, 3.0, 0.8

@@ -11,6 +11,11 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
+from ..engine.blocks import Blocks
+from ..engine.blockwise import fill
+from ..engine.memory import Cost, Resources
+from ..engine.step import Allocate, CountedClasses, PointResult, PointStep
+from ..engine.store import BlockPoints, Corner, Marks, Store
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
 from ..las.edits import Edits
@@ -19,12 +24,7 @@ from ..products.height_above_ground import height_above_ground, with_roads
 from ..rasters.sampling import HeightRaster, HeightSampler
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundCounts
-from .blocks import Blocks
-from .blockwise import fill
-from .memory import Cost, Resources
 from .output import HEIGHT_DIMENSION, height_dimension
-from .steps import Allocate, CountedClasses, PointResult, PointStep
-from .store import BlockPoints, Corner, Marks, Store
 
 # The buffer of a block in metres, and the memory that it takes.
 _BLOCKS = Blocks.of(100.0, Cost(150.0, 50.0))

@@ -13,6 +13,10 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
 from ..core.points import Box
 from ..core.progress import SILENT, Notes, Progress
+from ..engine.blocks import Block, Blocks
+from ..engine.blockwise import over_blocks
+from ..engine.memory import Resources
+from ..engine.store import BlockPoints, Store
 from ..filters import method_of
 from ..filters.below_ground import below_ground
 from ..filters.bridges.decks import bridge_decks
@@ -21,11 +25,7 @@ from ..filters.warnings import warn_of_extent, warn_of_little_ground
 from ..grids.cells import apart
 from ..products.high_groups import HighGroups
 from ..survey.selection import Selection
-from .blocks import Block, Blocks
-from .blockwise import over_blocks
 from .explanation import ExplainedCells, Explanation
-from .memory import Resources
-from .store import BlockPoints, Store
 from .surroundings import EVERYWHERE, near, tell_spacing, thinned
 
 # Shares of the time of a block for finding bridges and low outliers.

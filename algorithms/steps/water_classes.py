@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 
 from ..core.progress import Progress
+from ..engine.blocks import Blocks
+from ..engine.memory import Resources
+from ..engine.step import Allocate, CountedClasses, PointResult, PointStep, with_classes
+from ..engine.store import Marks, Store
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.records import check_class
 from ..products.water_classes import NO_WATER, WaterClasses, WaterPolygons, classes_at_water
 from ..survey.ground_classes import GroundClasses, GroundCounts
-from .blocks import Blocks
-from .memory import Resources
-from .steps import Allocate, CountedClasses, PointResult, PointStep, with_classes
-from .store import Marks, Store
 
 
 @dataclass(frozen=True, order=True)

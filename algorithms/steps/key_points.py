@@ -10,17 +10,17 @@ import numpy as np
 
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
+from ..engine.blocks import Blocks
+from ..engine.blockwise import fill
+from ..engine.memory import Resources
+from ..engine.step import Allocate, CountedClasses, PointResult, PointStep, with_classes
+from ..engine.store import BlockPoints, Corner, Marks, Store
 from ..grids.model_key_points import ModelKeyPoints, model_key_points, reach
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..las.records import check_class
 from ..survey.ground_classes import GroundClasses, GroundCounts
-from .blocks import Blocks
-from .blockwise import fill
-from .memory import Resources
-from .steps import Allocate, CountedClasses, PointResult, PointStep, with_classes
-from .store import BlockPoints, Corner, Marks, Store
 
 # Values that a store holds for key points, and for other ground points.
 _KEY, _OTHER = 1, 2

@@ -22,23 +22,23 @@ from ..core.files import (
 from ..core.progress import SILENT, Progress
 from ..core.temporary import remove_leftovers
 from ..crs.measurable import require_measurable
+from ..engine.blocks import Blocks
+from ..engine.job_queue import JobQueue
+from ..engine.jobs import Taken
+from ..engine.manifest import folders_of
+from ..engine.plan import Plan
+from ..engine.step import PointStep, located
+from ..engine.unpacking import Unpacking
+from ..engine.workers import Threads, Workers
 from ..las.unpacked import has_room
 from ..las.writing import check_writable
 from ..products.raster_files import RasterFiles
+from ..steps.rasters import MakeRasters, RasterSize
 from ..survey.files import Survey, open_survey
 from ..survey.shapes import Place
 from ..survey.vpc import check_vpc, write_vpc
-from .blocks import Blocks
-from .job_queue import JobQueue
-from .jobs import Taken
-from .manifest import folders_of
-from .plan import Plan
 from .raster_jobs import make_rasters
-from .rasters import MakeRasters, RasterSize
 from .requests import ClassifyRequest, Request, TerrainRequest
-from .steps import PointStep, located
-from .unpacking import Unpacking
-from .workers import Threads, Workers
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,10 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Frame, Points
 from ..core.progress import Progress
+from ..engine.store import Corner
 from ..filters.method import NOT_GROUND, Decisions
 from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import write_geotiff
-from .store import Corner
 
 # What the description of the band begins with; a list of the rules follows.
 _MEANING = f"rule that decided (+{NOT_GROUND}: not ground): "

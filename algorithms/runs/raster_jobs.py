@@ -12,11 +12,7 @@ import numpy as np
 from ..core.errors import BareEarthError, Cancelled
 from ..core.files import replacing, split_name
 from ..core.progress import SILENT, Progress
-from ..grids.cell_window import CellWindow
-from ..las.cloud import survey_frame
-from ..products.raster_block import BlockRasters
-from ..survey.files import Survey
-from .block_grid import (
+from ..engine.block_grid import (
     BlockGrid,
     BlockIndex,
     grouped,
@@ -25,14 +21,18 @@ from .block_grid import (
     points_in,
     sources_of,
 )
-from .blocks import Block
-from .job_queue import JobQueue
-from .jobs import BlockJob, Share
-from .manifest import block_file, stamp_of
-from .plan import Results
-from .rasters import AROUND_AREA, MakeRasters, RasterSize, no_point_in, write_rasters
-from .unpacking import Unpacking
-from .workers import Workers
+from ..engine.blocks import Block
+from ..engine.job_queue import JobQueue
+from ..engine.jobs import BlockJob, Share
+from ..engine.manifest import block_file, stamp_of
+from ..engine.plan import Results
+from ..engine.unpacking import Unpacking
+from ..engine.workers import Workers
+from ..grids.cell_window import CellWindow
+from ..las.cloud import survey_frame
+from ..products.raster_block import BlockRasters
+from ..steps.rasters import AROUND_AREA, MakeRasters, RasterSize, no_point_in, write_rasters
+from ..survey.files import Survey
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,11 @@ import numpy as np
 
 from ..core.points import Box
 from ..core.progress import Progress
+from ..engine.blocks import Blocks
+from ..engine.blockwise import fill
+from ..engine.memory import Cost, Resources
+from ..engine.step import Allocate, CountedClasses, PointResult, PointStep, with_classes
+from ..engine.store import BlockPoints, Corner, Marks, Store
 from ..las.cloud import PointCloud
 from ..products.above_ground import AboveGround, classes_above_ground
 from ..products.height_above_ground import with_roads
@@ -18,11 +23,6 @@ from ..survey.corrections import NO_CORRECTIONS, Corrections, changed_since
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import DECIDED, ROADS, is_one_of
 from ..survey.shapes import outside
-from .blocks import Blocks
-from .blockwise import fill
-from .memory import Cost, Resources
-from .steps import Allocate, CountedClasses, PointResult, PointStep, with_classes
-from .store import BlockPoints, Corner, Marks, Store
 
 # The buffer of a block in metres, and the memory that it takes. A face of a roof that reaches
 # farther is large enough without what lies beyond.

@@ -1,0 +1,1 @@
+"""Steps: what a run can compute from the points of a survey."""
