@@ -193,14 +193,23 @@ class Blocks:
             counts += np.bincount(row * width + column, minlength=width**2).reshape(counts.shape)
         return counts
 
-    def contents(self, block: Block, store: Store, progress: Progress = SILENT) -> BlockPoints:
-        """Return the points of a block and its buffer, relative to its `corner`."""
+    def contents(
+        self,
+        block: Block,
+        store: Store,
+        progress: Progress = SILENT,
+        ground_only: bool = False,
+    ) -> BlockPoints:
+        """Return the points of a block and its buffer, relative to its `corner`.
+
+        If `ground_only`, only points that are ground, or are where they lie on it.
+        """
         box, corner = self.window(block), self.corner(block)
         leaves = store.leaves.within(box)
         west, south, east, north = (each - at for each, at in zip(box, corner * 2))
         is_inside = store.leaves.are_inside(leaves, box)
         part = None if is_inside else (west, south, east, north)
-        return store.read(leaves, part, corner, progress)
+        return store.read(leaves, part, corner, progress, ground_only)
 
     def core(self, block: Block, contents: BlockPoints, is_only: bool) -> np.ndarray:
         """Return which points of its contents a block is to say something of; boolean, (n,).

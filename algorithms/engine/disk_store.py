@@ -9,13 +9,14 @@ import mmap
 import os
 import threading
 from pathlib import Path
-from typing import BinaryIO, Iterator, NamedTuple, Sequence
+from typing import Any, BinaryIO, Callable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
 from ..core.files import reach_disk, unnamed_file, write_errors_told
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
+from ..core.threads import in_threads
 from ..las.cloud import PointCloud
 from .blocks import Blocks
 from .store import (
@@ -124,30 +125,47 @@ class DiskStore:
         box: Box | None = None,
         corner: Corner = (0.0, 0.0),
         progress: Progress = SILENT,
+        ground_only: bool = False,
     ) -> BlockPoints:
         """Return the points of some leaves in file order; only those in a box, if given."""
-        starts = [part.start for part in self._parts]
-        runs, frame = (
-            list(_joined(*self._runs.of(leaves), starts)),
-            self._frame.moved(corner),
-        )
-        kind = smallest_integers(self._count)
+        runs, read = self._reading(leaves, corner, ground_only)
+        counts, kind = [end - start for start, end in runs], smallest_integers(self._count)
+        return gathered(counts, lambda number: read(runs[number]), box, kind, progress, ground_only)
 
-        def read(number: int) -> BlockPoints:
-            start, end = runs[number]
+    def over_pieces(
+        self,
+        leaves: np.ndarray,
+        work: Callable[[BlockPoints], Any],
+        corner: Corner = (0.0, 0.0),
+        progress: Progress = SILENT,
+    ) -> list[Any]:
+        """Return the results of a function of the points of some leaves, piece by piece."""
+        runs, read = self._reading(leaves, corner)
+        return in_threads(lambda run: work(read(run)), runs, progress)
+
+    def _reading(
+        self, leaves: np.ndarray, corner: Corner, ground_only: bool = False
+    ) -> tuple[list[tuple[int, int]], Callable[[tuple[int, int]], BlockPoints]]:
+        """Return the runs of some leaves, and what reads the points of a run."""
+        starts, kind = [part.start for part in self._parts], smallest_integers(self._count)
+        frame = self._frame.moved(corner)
+
+        def read(run: tuple[int, int]) -> BlockPoints:
             with self._lock:
-                records = _read(self._records, _RECORD, start, end)
+                records = _read(self._records, _RECORD, *run)
+            positions: np.ndarray = np.arange(*run, dtype=kind)
+            if ground_only:
+                which = np.flatnonzero(records["flags"] & (_KNOWN | _ROAD))
+                records, positions = records[which], positions[which]
             x, y, z = (records[name] for name in "xyz")
             # Files can differ in scale and offset.
-            part = self._parts[bisect.bisect_right(starts, start) - 1]
+            part = self._parts[bisect.bisect_right(starts, run[0]) - 1]
             points = dataclasses.replace(part.cloud, x=x, y=y, z=z).points(slice(None), frame)
-            flags = records["flags"]
-            positions: np.ndarray = np.arange(start, end, dtype=kind)
             kinds = _KNOWN, _WANTED, _ROAD, _MULTI_RETURN
-            known, wanted, roads, several = (flags & each > 0 for each in kinds)
+            known, wanted, roads, several = (records["flags"] & each > 0 for each in kinds)
             return BlockPoints(points, known, wanted, positions, roads, several)
 
-        return gathered([end - start for start, end in runs], read, box, kind, progress)
+        return list(_joined(*self._runs.of(leaves), starts)), read
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:
         """Store the values of points, whose positions must ascend."""

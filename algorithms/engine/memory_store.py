@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterator, NamedTuple
+from typing import Any, Callable, Iterator, NamedTuple
 
 import numpy as np
 
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
-from ..core.threads import over_parts, parts_of
+from ..core.threads import in_threads, over_parts, parts_of
 from ..las.cloud import PointCloud
 from .blocks import Blocks
 from .store import (
@@ -131,16 +131,31 @@ class MemoryStore:
         box: Box | None = None,
         corner: Corner = (0.0, 0.0),
         progress: Progress = SILENT,
+        ground_only: bool = False,
     ) -> BlockPoints:
         """Return the points of some leaves, relative to a corner; only those in a box, if given."""
-        pieces, frame = list(self._pieces(leaves)), self._frame.moved(corner)
+        pieces, frame = list(self._pieces(leaves, ground_only)), self._frame.moved(corner)
 
         def read(number: int) -> BlockPoints:
             return self._contents(*pieces[number], frame)
 
         return gathered([len(which) for _, which in pieces], read, box, self._kind, progress)
 
-    def _pieces(self, leaves: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
+    def over_pieces(
+        self,
+        leaves: np.ndarray,
+        work: Callable[[BlockPoints], Any],
+        corner: Corner = (0.0, 0.0),
+        progress: Progress = SILENT,
+    ) -> list[Any]:
+        """Return the results of a function of the points of some leaves, piece by piece."""
+        frame = self._frame.moved(corner)
+        pieces = list(self._pieces(leaves))
+        return in_threads(lambda piece: work(self._contents(*piece, frame)), pieces, progress)
+
+    def _pieces(
+        self, leaves: np.ndarray, ground_only: bool = False
+    ) -> Iterator[tuple[int, np.ndarray]]:
         """Yield the number of a file and the indices of some of its points."""
         starts, counts = self._runs.of(leaves)
         bounds = np.searchsorted(starts, np.concatenate(([0], self._ends)))
@@ -150,8 +165,16 @@ class MemoryStore:
             spans = zip(firsts.tolist(), counts[runs].tolist())
             found = [order[first : first + n] for first, n in spans]
             which = found[0] if len(found) == 1 else np.concatenate([order[:0], *found])
+            if ground_only:
+                which = self._ground_of(number, which)
             for piece in parts_of(len(which), _READ):
                 yield number, which[piece]
+
+    def _ground_of(self, number: int, which: np.ndarray) -> np.ndarray:
+        """Return those of some points of a file that are ground, or are where they lie on it."""
+        part = self._parts[number]
+        flags = [each[which] for each in (part.known, part.roads) if each is not None]
+        return which[np.logical_or.reduce(flags)] if flags else which[:0]
 
     def _contents(self, number: int, which: np.ndarray, frame: Frame) -> BlockPoints:
         part, start = self._parts[number], self._starts[number]

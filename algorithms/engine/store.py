@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, NamedTuple, Protocol, Sequence
+from typing import Callable, NamedTuple, Protocol, Sequence, TypeVar
 
 import numpy as np
 
@@ -10,6 +10,8 @@ from ..core.points import Box, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from ..las.cloud import PointCloud
+
+_Result = TypeVar("_Result")
 
 # x and y in metres.
 Corner = tuple[float, float]
@@ -147,10 +149,24 @@ class Store(Protocol):
         box: Box | None = None,
         corner: Corner = (0.0, 0.0),
         progress: Progress = SILENT,
+        ground_only: bool = False,
     ) -> BlockPoints:
         """Return the points of some leaves; only those in a box, if there is one.
 
-        Coordinates and box are relative to a corner. Several threads may call this.
+        Coordinates and box are relative to a corner. If `ground_only`, only points are returned
+        that are ground, or are where they lie on it. Several threads may call this.
+        """
+
+    def over_pieces(
+        self,
+        leaves: np.ndarray,
+        work: Callable[[BlockPoints], _Result],
+        corner: Corner = (0.0, 0.0),
+        progress: Progress = SILENT,
+    ) -> list[_Result]:
+        """Return the results of a function of the points of some leaves, for one piece at a time.
+
+        So that the points need not be in memory together. Coordinates are relative to a corner.
         """
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:
@@ -169,6 +185,7 @@ def gathered(
     box: Box | None = None,
     kind: type = np.int64,
     progress: Progress = SILENT,
+    may_be_fewer: bool = False,
 ) -> BlockPoints:
     """Return points that are read in pieces, which are small enough for the processor's cache.
 
@@ -184,17 +201,19 @@ def gathered(
         Type of integer for the positions.
     progress : Progress
         Receives progress.
+    may_be_fewer : bool
+        Whether a piece can have fewer points than were counted.
     """
     starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
     whole = BlockPoints.empty(starts[-1], kind)
-    if box is None:
+    if box is None and not may_be_fewer:
         in_threads(
             lambda number: whole.put(starts[number], read(number)), range(len(counts)), progress
         )
         return whole
     end = 0
     for number in range(len(counts)):
-        some = read(number).within(box)
+        some = read(number) if box is None else read(number).within(box)
         whole.put(end, some)
         end += some.points.count
         progress(starts[number + 1] / starts[-1])

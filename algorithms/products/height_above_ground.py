@@ -75,16 +75,35 @@ def height_above_ground(
     >>> float(height_above_ground(points, np.array([True, True, True, False]))[3])
     2.5
     """
-    terrain, heights = points.take(ground), np.zeros(points.count)
-    apart = min(_SPACINGS * spacing(terrain, _LEAST / _SPACINGS), _MOST)
-    progress(0.05)
-    surface = DenseSurface(terrain, VERTICES_A_SIDE * apart, progress=progress.part(0.05, 0.2))
+    heights = np.zeros(points.count)
+    surface = GroundSurface(points.take(ground), progress.part(0.0, 0.2))
     which = np.flatnonzero(~ground if wanted is None else ~ground & wanted)
-    x, y = points.x[which], points.y[which]
-    below = surface.heights(x, y, progress=progress.part(0.2, 0.95))
-    outside = np.flatnonzero(np.isnan(below))
-    if len(outside):
-        below[outside] = surface.nearest(x[outside], y[outside])
-    heights[which] = points.z[which] - below
-    progress(1.0)
+    heights[which] = surface.heights_above(points.take(which), progress.part(0.2, 1.0))
     return heights
+
+
+class GroundSurface:
+    """The TIN of ground points, as `height_above_ground` uses it.
+
+    Parameters
+    ----------
+    ground : Points
+        The ground points, at least one.
+    progress : Progress
+        Receives progress.
+    """
+
+    def __init__(self, ground: Points, progress: Progress = SILENT) -> None:
+        apart = min(_SPACINGS * spacing(ground, _LEAST / _SPACINGS), _MOST)
+        progress(0.25)
+        part = progress.part(0.25, 1.0)
+        self._surface = DenseSurface(ground, VERTICES_A_SIDE * apart, progress=part)
+
+    def heights_above(self, points: Points, progress: Progress = SILENT) -> np.ndarray:
+        """Return the height of points above the surface; float64, shape (n,)."""
+        below = self._surface.heights(points.x, points.y, progress=progress.part(0.0, 0.95))
+        outside = np.flatnonzero(np.isnan(below))
+        if len(outside):
+            below[outside] = self._surface.nearest(points.x[outside], points.y[outside])
+        progress(1.0)
+        return points.z - below

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
+from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
-from ..engine.blocks import Blocks
-from ..engine.blockwise import fill
+from ..engine.blocks import Block, Blocks
+from ..engine.blockwise import over_blocks
 from ..engine.memory import Cost, Resources
 from ..engine.step import Allocate, CountedClasses, PointResult, PointStep
-from ..engine.store import BlockPoints, Corner, Marks, Store
+from ..engine.store import BlockPoints, Marks, Store
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
-from ..products.height_above_ground import height_above_ground, with_roads
+from ..products.height_above_ground import GroundSurface, with_roads
 from ..rasters.sampling import HeightRaster, HeightSampler
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundCounts
@@ -142,7 +144,9 @@ class MeasureHeights(PointStep):
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
         """Store the height of each wanted point in metres; NaN in blocks without ground."""
         if self.dtm is None:
-            fill(store, self.blocks, _heights, resources, progress)
+            work = partial(_measured, store, self.blocks)
+            for _, found in over_blocks(store, self.blocks, work, resources, progress):
+                store.put(*found)
 
     def result(self, path: Path, allocate: Allocate) -> HeightsOfPoints:
         """Return an object that collects the heights of a file."""
@@ -263,14 +267,35 @@ def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:
     )
 
 
-def _heights(
-    contents: BlockPoints, wanted: np.ndarray, corner: Corner, progress: Progress
-) -> np.ndarray:
-    """Return the heights of wanted points in metres."""
-    if not contents.known.any():
-        return np.full(np.count_nonzero(wanted), np.nan)
-    if not wanted.any():
-        return np.zeros(0)
-    points, part = contents.points, progress.part(0.0, 0.3)
-    ground = with_roads(points, contents.known, contents.roads, part)
-    return height_above_ground(points, ground, progress.part(0.3, 1.0), wanted)[wanted]
+def _measured(
+    store: Store, blocks: Blocks, block: Block, is_only: bool, progress: Progress
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the positions of the wanted points of a block, and their heights in metres.
+
+    Only the ground is in memory as a whole.
+    """
+    corner = blocks.corner(block)
+    ground = blocks.contents(block, store, progress.part(0.0, 0.1), ground_only=True)
+    if ground.roads.any():
+        part = progress.part(0.1, 0.15)
+        ground = ground.take(with_roads(ground.points, ground.known, ground.roads, part))
+    roads = np.sort(ground.positions[ground.roads])
+
+    def wanted(piece: BlockPoints) -> tuple[np.ndarray, np.ndarray, BlockPoints]:
+        """Return the positions of wanted points, which are above ground, and the latter."""
+        piece = piece.take(blocks.core(block, piece, is_only))
+        above = ~piece.known
+        if len(roads):
+            above &= ~np.isin(piece.positions, roads)
+        return piece.positions, above, piece.take(above)
+
+    leaves, part = store.leaves.within(block.box), progress.part(0.15, 0.3)
+    found = store.over_pieces(leaves, wanted, corner, part)
+    positions, above = (np.concatenate([each[part] for each in found]) for part in (0, 1))
+    if not ground.points.count:
+        return positions, np.full(len(positions), np.nan)
+    heights = np.zeros(len(positions))
+    surface = GroundSurface(ground.points, progress.part(0.3, 0.45))
+    points = Points(*map(np.concatenate, zip(*(each[2].points for each in found))))
+    heights[above] = surface.heights_above(points, progress.part(0.45, 1.0))
+    return positions, heights

@@ -260,7 +260,7 @@ import sys
 from pathlib import Path
 import numpy as np
 from bare_earth.algorithms import cli
-from bare_earth.algorithms.engine import {module}
+from bare_earth.algorithms.steps import {module}
 def late(*arguments, **options):
     print("begun", flush=True)
     {wait}
