@@ -41,7 +41,7 @@ _MOST_READ = 1 << 15
 _STEP = 1 << 24
 
 
-class _Part(NamedTuple):
+class _StoredPart(NamedTuple):
     """A part without its points, the position of its first point, and its number of points."""
 
     cloud: PointCloud
@@ -76,7 +76,7 @@ class DiskStore:
         self._lock, self._files = threading.Lock(), contextlib.ExitStack()
         with write_errors_told(self._target):
             self._records, self._orders, self._values = (self._file() for _ in range(3))
-        self._parts: list[_Part] = []
+        self._parts: list[_StoredPart] = []
         self._runs = LeafIndex()
 
     def _file(self) -> BinaryIO:
@@ -106,7 +106,7 @@ class DiskStore:
         self._runs.add(found.codes, found.counts, self._count)
         # By indices, since an empty slice would keep the points in memory.
         nothing = part.take(np.zeros(0, dtype=np.intp))
-        self._parts.append(_Part(nothing, self._count, part.count))
+        self._parts.append(_StoredPart(nothing, self._count, part.count))
         self._count += len(which)
 
     def finish(self, progress: Progress = SILENT) -> None:

@@ -28,7 +28,7 @@ from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
 from .memory_store import MemoryStore
 from .step import PointStep
-from .tile_output import TileOutput, copies_all_else
+from .tile_result import TileResult, copies_all_else
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, seen
 
@@ -219,7 +219,7 @@ class PointJob(BlockJob):
             for number, place in enumerate(self.places, start=1):
                 found.write(place, self._values(number, parts, store, failure), failure)
 
-    def _fill(self, store: MemoryStore | DiskStore, progress: Progress) -> list[_Part]:
+    def _fill(self, store: MemoryStore | DiskStore, progress: Progress) -> list[_SourcePoints]:
         """Add the points that the blocks need to a store; return what else is known of them."""
         parts, counts = [], self.step.counts()
         here = np.array([code(place) for place in self.places])
@@ -233,11 +233,11 @@ class PointJob(BlockJob):
             if marks.wanted is not None:
                 wanted &= marks.wanted
             store.append(cloud, marks._replace(wanted=wanted))
-            parts.append(_Part(cloud.path, places, bool((wanted & marks.selected).any())))
+            parts.append(_SourcePoints(cloud.path, places, bool((wanted & marks.selected).any())))
         return parts
 
     def _values(
-        self, number: int, parts: list[_Part], store: MemoryStore | DiskStore, failure: str
+        self, number: int, parts: list[_SourcePoints], store: MemoryStore | DiskStore, failure: str
     ) -> dict[Path, np.ndarray]:
         """Return the values of a block: for each file those of its points in it, in file order."""
         found = {}
@@ -250,7 +250,7 @@ class PointJob(BlockJob):
         return found
 
 
-class _Part(NamedTuple):
+class _SourcePoints(NamedTuple):
     """What a job knows of a file, beside the points that its store holds.
 
     Attributes
@@ -315,18 +315,18 @@ class TileJob:
         needs_records, counts = not copies_all_else(las, self.target, steps), steps[0].counts()
         reading = reading.quiet()
         with FilePoints.opened(las, self.target, share.resources, needs_records, reading) as points:
-            output = TileOutput(points, values)
+            result = TileResult(points, values)
             for where, part in points.parts(is_last=True):
                 steps[0].count(part, counts)
-                output.add(where, part)
+                result.add(where, part)
             for found in values:
                 found.check()
             steps[0].tell_of_tile(counts, las.path, progress)
-            output.check()
-            if output.is_empty:
+            result.check()
+            if result.is_empty:
                 return None
-            output.write(self.target, progress.part(0.4, 1.0))
-        summary = output.summary(self.target.name)
+            result.write(self.target, progress.part(0.4, 1.0))
+        summary = result.summary(self.target.name)
         write_record(self.target, self.fingerprint, asdict(summary))
         return summary
 

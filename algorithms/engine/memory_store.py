@@ -27,7 +27,7 @@ from .store import (
 _CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15
 
 
-class _Part(NamedTuple):
+class _MarkedCloud(NamedTuple):
     """The points of a part with their flags."""
 
     cloud: PointCloud
@@ -54,7 +54,7 @@ class MemoryStore:
 
     def __init__(self, frame: Frame, blocks: Blocks, kind: type = np.uint8) -> None:
         self._frame, self._blocks, self._value_kind = frame, blocks, kind
-        self._parts: list[_Part] = []
+        self._parts: list[_MarkedCloud] = []
         self.has_known = False
 
     def append(self, part: PointCloud, marks: Marks) -> None:
@@ -64,7 +64,7 @@ class MemoryStore:
         known = known if known is not None and known.any() else None
         wanted = wanted if wanted is not None and not wanted.all() else None
         roads = roads if roads is not None and roads.any() else None
-        self._parts.append(_Part(part, marks.selected, known, wanted, roads))
+        self._parts.append(_MarkedCloud(part, marks.selected, known, wanted, roads))
         self.has_known |= known is not None
 
     def finish(self, progress: Progress = SILENT) -> None:
@@ -201,7 +201,7 @@ class MemoryStore:
         return self._values[number]
 
 
-def _indices(part: _Part, progress: Progress) -> np.ndarray:
+def _indices(part: _MarkedCloud, progress: Progress) -> np.ndarray:
     """Return the indices of the selected points of a part, in the smallest integer type."""
     count = np.count_nonzero(part.selected)
     indices: np.ndarray = np.empty(count, dtype=smallest_integers(part.cloud.count))

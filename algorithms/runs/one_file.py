@@ -21,7 +21,7 @@ from ..engine.file_points import FilePoints
 from ..engine.memory import Resources
 from ..engine.step import PointStep, Step, located
 from ..engine.store import Store
-from ..engine.tile_output import TileOutput, copies_all_else
+from ..engine.tile_result import TileResult, copies_all_else
 from ..engine.values import PointValues, with_values
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
@@ -114,9 +114,9 @@ def classify_cloud(
     with may_use(resources.thread_count):
         run = _FileRun(FilePoints(cloud, resources), [step], progress)
         run.work(progress.part(0.0, 0.97))
-        output = run.found(progress.part(0.97, 1.0))
+        result = run.found(progress.part(0.97, 1.0))
         inside, selected, _ = run.steps[0].chooser.choose(cloud, step.counts())
-    return output.classification, selected & inside
+    return result.classification, selected & inside
 
 
 class _FileRun:
@@ -207,19 +207,19 @@ class _FileRun:
         made = step.work(store, self.points.resources, drawing)
         return write_rasters(made, frame, step, self.outputs, writing)
 
-    def found(self, progress: Progress) -> TileOutput:
+    def found(self, progress: Progress) -> TileResult:
         """Return what the steps found for each point."""
-        output = TileOutput(self.points, self._values)
+        result = TileResult(self.points, self._values)
         for where, part in self.points.parts(self.points.sparing(progress)):
-            output.add(where, part)
-        output.results[0].tell(progress)
-        return output
+            result.add(where, part)
+        result.results[0].tell(progress)
+        return result
 
-    def written(self, target: Path, progress: Progress) -> TileOutput:
+    def written(self, target: Path, progress: Progress) -> TileResult:
         """Write the points with what the steps found; return that."""
-        output = self.found(progress.part(0.0, 0.2))
-        output.write(target, progress.part(0.2, 1.0))
-        return output
+        result = self.found(progress.part(0.0, 0.2))
+        result.write(target, progress.part(0.2, 1.0))
+        return result
 
 
 def _weights(steps: Sequence[Step]) -> list[float]:
@@ -288,8 +288,8 @@ def classify_file(
             explained = run.outputs.enter_context(replacing_raster(request.explain))
             frame = survey_frame(run.points.cloud.crs)
             run.steps[0].explanation.write(explained, frame, progress)
-        output = run.written(target, progress.part(0.92, 1.0))
-    return _summary(output, run.counts[0])
+        result = run.written(target, progress.part(0.92, 1.0))
+    return _summary(result, run.counts[0])
 
 
 def _placed(step: MakeRasters, las: LasFile, progress: Progress) -> MakeRasters:
@@ -299,10 +299,9 @@ def _placed(step: MakeRasters, las: LasFile, progress: Progress) -> MakeRasters:
     return step.placed(crs, box, progress)
 
 
-def _summary(output: TileOutput, counts: Any) -> Summary:
-    """Return the result, given what was counted among the points before."""
-    found = output.results[0]
-    tile = output.summary("")
+def _summary(result: TileResult, counts: Any) -> Summary:
+    """Return the summary of a result, given what was counted among the points before."""
+    found, tile = result.results[0], result.summary("")
     return Summary(
         point_count=counts.points,
         area_count=counts.inside,
@@ -341,8 +340,8 @@ def write_points(
     """
     las, resources = _checked(source, target, request), request.resources.now()
     with _worked(las, target, [request.step], resources, progress.part(0.0, 0.9)) as run:
-        output = run.written(target, progress.part(0.9, 1.0))
-    return output.summary(target.name)
+        result = run.written(target, progress.part(0.9, 1.0))
+    return result.summary(target.name)
 
 
 def rasters_of_file(

@@ -25,6 +25,18 @@ def test_the_architecture_names_every_room():
     assert {room for room in rooms if f"`algorithms/{room}/`" not in text} == set()
 
 
+def test_the_architecture_explains_each_noun_of_the_engine_once():
+    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    table = text.split("### The nouns of the engine")[1].split("\n## ")[0]
+    explained = re.findall(r"`([A-Z]\w+)`", re.sub(r"; `\w+` chooses", "", table))
+    nouns = []
+    for path in (ROOT / "algorithms" / "engine").glob("*.py"):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        nouns += [node.name for node in tree.body if isinstance(node, ast.ClassDef)]
+    assert len(nouns) <= 60
+    assert sorted(explained) == sorted(name for name in nouns if name[0] != "_")
+
+
 def _private_calls(path):
     """Yield what a test calls or replaces of others that begins with one underscore."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

@@ -22,7 +22,7 @@ from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import file_points as file_points_module
 from bare_earth.algorithms.engine import jobs as jobs_module
 from bare_earth.algorithms.engine import plan as plan_module
-from bare_earth.algorithms.engine import tile_output as tile_output_module
+from bare_earth.algorithms.engine import tile_result as tile_result_module
 from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.memory import Resources
@@ -517,8 +517,8 @@ def test_a_job_that_fails_fails_its_tile_only(six, out, monkeypatch):
             raise MemoryError
         return write_changed(source, *rest)
 
-    write_changed = tile_output_module.write_changed
-    monkeypatch.setattr(tile_output_module, "write_changed", failing)
+    write_changed = tile_result_module.write_changed
+    monkeypatch.setattr(tile_result_module, "write_changed", failing)
     summary = classify_tiles([six], out, FAST)
     assert summary.done_count == 5
     assert "not enough memory" in summary.failures[str(six / "4.laz")]

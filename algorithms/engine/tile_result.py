@@ -27,7 +27,7 @@ def copies_all_else(las: LasFile, target: Path, steps: Sequence[PointStep]) -> b
     return layers_kept(las, target) is not None
 
 
-class TileOutput:
+class TileResult:
     """What the steps of a run found for the points of a file.
 
     Parameters
