@@ -76,10 +76,8 @@ class JobQueue:
         # Jobs that wait for nothing: the blocks of the first step, and all others.
         self._blocks: collections.deque[Job] = collections.deque()
         self._ready: collections.deque[Job] = collections.deque()
-        # Results of blocks that are not there yet, that could not be made, and how many jobs use
-        # each.
+        # Results of blocks that are not there yet, and how many jobs use each result.
         self._missing = {file for job in blocks for file in job.files}
-        self._never: set[Path] = set()
         self._uses = collections.Counter(kept)
         # The jobs that wait for a result, and for how many results they wait.
         self._waiting: dict[Path, list[Job]] = collections.defaultdict(list)
@@ -182,39 +180,30 @@ class JobQueue:
 
     def _end_blocks(self, job: BlockJob, outcome: JobResult) -> None:
         if outcome.failure is not None and len(job.places) > 1:
-            self._split(job, outcome)
+            self._split(job)
             return
         if outcome.failure is not None:
             self.lost.append(outcome.failure)
-            self._never.update(job.files)
         self._missing -= set(job.files)
         for user in [user for file in job.files for user in self._waiting.pop(file, ())]:
             if user not in self._lacks:  # it is given up
                 continue
             self._lacks[user] -= 1
-            if outcome.failure is not None:
+            if outcome.failure is not None and isinstance(user, TileJob):
                 del self._lacks[user]
-                self._give_up(user, outcome)
-            elif not self._lacks[user]:
+                self._finished += _weight(user)
+                self._end_tile(user, outcome)
+            elif not self._lacks[user]:  # blocks do without what could not be done round them
                 del self._lacks[user]
                 self._ready.append(user)
         self._release(job)
 
-    def _split(self, job: BlockJob, outcome: JobResult) -> None:
-        """Try the blocks of a job one by one, but for those that need what could not be done."""
+    def _split(self, job: BlockJob) -> None:
+        """Try the blocks of a job one by one."""
         for part in job.split():
             self._total += _weight(part)
-            if self._never.isdisjoint(part.needs):
-                self._add(part, self._blocks)
-            else:
-                self._uses.update(part.needs)
-                self._end_blocks(part, outcome)
+            self._add(part, self._blocks)
         self._release(job)
-
-    def _give_up(self, job: Job, outcome: JobResult) -> None:
-        """End a job that needs what could not be done."""
-        self._finished += _weight(job)
-        (self._end_tile if isinstance(job, TileJob) else self._end_blocks)(job, outcome)
 
     def _end_tile(self, job: TileJob, outcome: JobResult) -> None:
         if outcome.failure is not None:

@@ -35,10 +35,13 @@ class PointValues(Protocol):
         The step that found them.
     failure : str
         Why some points have none; empty if all have.
+    lost : numpy.ndarray of bool, shape (k,), or None
+        Which of the points that `of` was last asked for lie in blocks that could not be done.
     """
 
     step: PointStep
     failure: str
+    lost: np.ndarray | None
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
         """Return the values of the next points, given their indices in the file."""
@@ -61,10 +64,12 @@ def with_values(
 
 
 def seen(values: Sequence[PointValues], where: slice, part: PointCloud) -> PointCloud:
-    """Return a part of a file as the next step sees it."""
+    """Return a part of a file as the next step sees it; it leaves out what could not be done."""
     for found in values:
         if found.step.gives_classes:
             part = found.step.applied(part, found.of(where, part))
+            if found.lost is not None:
+                part = replace(part, withheld=part.withheld | found.lost)
     return part
 
 
@@ -81,7 +86,7 @@ class StoreValues:
         Points of each part that was added to it.
     """
 
-    failure = ""
+    failure, lost = "", None
 
     def __init__(self, step: PointStep, store: Store, counts: Sequence[int]) -> None:
         self.step, self._store = step, store
@@ -142,13 +147,23 @@ class BlockValues:
         The file.
     are_all : bool
         Whether all blocks of the file are there. Otherwise points in the others have the value 0.
+
+    Attributes
+    ----------
+    lost : numpy.ndarray of bool, shape (k,), or None
+        As for `PointValues`; only if not all blocks need to be there.
     """
 
     def __init__(self, found: BlockFiles, las: LasFile, are_all: bool = True) -> None:
         self.step, self._grid, self._las, self._are_all = found.step, found.grid, las, are_all
         self.failure = ""
+        self.lost: np.ndarray | None = None
         self._left: dict[int, np.ndarray] = {}
+        self._not_done: list[int] = []
         for place, file in found.files.items():
+            if not are_all and not file.exists():
+                self._not_done.append(code(place))
+                continue
             with np.load(file, allow_pickle=False) as kept:
                 if _key(las.path) in kept:
                     self._left[code(place)] = kept[_key(las.path)]
@@ -165,6 +180,7 @@ class BlockValues:
         if where.stop > self._las.count:
             raise self._changed()
         codes = self._grid.codes(part)
+        self.lost = np.isin(codes, self._not_done) if self._not_done else None
         values: np.ndarray = np.zeros(part.count, dtype=self.step.kind)
         for number in np.unique(codes).tolist():
             here, left = np.flatnonzero(codes == number), self._left.get(number)

@@ -14,6 +14,7 @@ import numpy as np
 from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.jobs import TileJob
+from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.las.cloud import PointCloud
 
 SCALE = (0.01, 0.01, 0.01)
@@ -91,13 +92,46 @@ def bytes_of(folder):
     return {path.name: path.read_bytes() for path in finished(folder)}
 
 
+def replacing_jobs(kind, replace, **resources):
+    """Return workers of a kind that do the jobs that `replace` returns in place of others."""
+
+    class Replacing(kind):
+        def submit(self, job):
+            return super().submit(replace(job) or job)
+
+    return Replacing(Resources(**{"threads": 2, **resources}))
+
+
 class DeadlyJob(TileJob):
-    """Kills the process that works on it, if it is that of one tile."""
+    """Kills the process that works on it."""
 
     def run(self, share, progress):
-        if self.tile.path.name == "3.laz":
-            os.kill(os.getpid(), signal.SIGKILL)
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+class HungryJob(TileJob):
+    """Finds too little memory."""
+
+    def run(self, share, progress):
+        raise MemoryError
+
+
+class OvertakenJob(TileJob):
+    """Finds another file with as many points in the place of that whose points were labelled."""
+
+    def run(self, share, progress):
+        las, other = laspy.read(self.tile.path), self.tile.path.with_name("other.laz")
+        las.points = las.points[::-1].copy()
+        las.write(other)
+        other.replace(self.tile.path)
         return super().run(share, progress)
+
+
+def instead_of(name, kind):
+    """Return what replaces the job that writes a file of this name, for `replacing_jobs`."""
+    return lambda job: (
+        kind(**vars(job)) if isinstance(job, TileJob) and job.tile.path.name == name else None
+    )
 
 
 class CountingJob(NamedTuple):

@@ -10,7 +10,6 @@ from surveys import cut
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.engine import file_points
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.lines import NearPlaces, along, inside_grid
@@ -188,7 +187,7 @@ def test_many_files_give_the_raster_of_one(wall, tmp_path):
 
 
 @pytest.mark.parametrize("how", ["one", "parts", "many"])
-def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how, monkeypatch, las):
+def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how, las):
     # A lake with points on it, in a slope; a wall that a line knows.
     x, y = scatter(SIZE, 1.0, seed=4)
     z = 10.0 + 0.05 * x + np.where(y > 80.0, 4.0, 0.0)
@@ -208,7 +207,6 @@ def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how
     else:
         target = made = tmp_path / "out.laz"
     if how == "parts":
-        monkeypatch.setattr(file_points, "_BYTES_A_POINT_KEPT", 3000)
         request = replace(request, resources=Resources(memory=0.001))
     heard = las.Heard()
     classify(source, target, request, heard)

@@ -14,17 +14,27 @@ import numpy as np
 import pytest
 from realdata import real
 from runs import classify_file, classify_tiles, command, environment, memory_store
-from surveys import CountingJob, DeadlyJob, bytes_of, cut, finished, points_of, strip, write
+from surveys import (
+    CountingJob,
+    DeadlyJob,
+    HungryJob,
+    OvertakenJob,
+    bytes_of,
+    cut,
+    finished,
+    instead_of,
+    points_of,
+    replacing_jobs,
+    strip,
+    write,
+)
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.engine import file_points as file_points_module
-from bare_earth.algorithms.engine import jobs as jobs_module
-from bare_earth.algorithms.engine import plan as plan_module
-from bare_earth.algorithms.engine import tile_result as tile_result_module
 from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
 from bare_earth.algorithms.engine.blocks import Blocks
+from bare_earth.algorithms.engine.jobs import PointJob
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
@@ -38,8 +48,8 @@ from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.runs.options import TileInput, TileMethod, TileOutput
-from bare_earth.algorithms.steps import labelling as labelling_module
 from bare_earth.algorithms.steps.ground import Label, label_ground
+from bare_earth.algorithms.steps.labelling import LabelGround
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.point_counts import PointCounts
@@ -175,19 +185,14 @@ def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, 
     )
 
 
-def test_tiles_larger_than_memory_give_the_same_bytes(many, out, monkeypatch):
-    monkeypatch.setattr(reading_module, "_CHUNK", 700)
-    asked = []
-
-    def fits(count, resources, length=0):
-        asked.append(count)
-        return False
-
-    monkeypatch.setattr(file_points_module, "fits_in_memory", fits)
-    workers = Threads(Resources(threads=2, memory=0.001))
-    classify_tiles([many[0]], out, FAST, workers=workers)
-    assert workers.at_once == 1 and len(asked) == 16 and min(asked) > 700
-    assert bytes_of(out) == many[1]
+def test_tiles_larger_than_memory_give_the_same_bytes(tmp_path, out, monkeypatch, las):
+    cut(tmp_path / "in", strip(60_000, 400.0, 200.0), 6)
+    classify_tiles([tmp_path / "in"], tmp_path / "much", FAST)
+    monkeypatch.setattr(reading_module, "_CHUNK", 2000)
+    workers, heard = Threads(Resources(threads=2, memory=0.001)), las.Heard()
+    classify_tiles([tmp_path / "in"], out, FAST, workers=workers, progress=heard)
+    assert workers.at_once == 1
+    assert bytes_of(out) == bytes_of(tmp_path / "much")
 
 
 def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
@@ -503,35 +508,40 @@ def test_a_process_that_dies_loses_nothing(threads, many, out):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
-def test_a_tile_that_kills_its_process_fails_alone(six, out, monkeypatch):
-    monkeypatch.setattr(plan_module, "TileJob", DeadlyJob)
-    summary = classify_tiles([six], out, FAST, workers=Processes(Resources(threads=2)))
+def test_a_tile_that_kills_its_process_fails_alone(six, out):
+    workers = replacing_jobs(Processes, instead_of("3.laz", DeadlyJob))
+    summary = classify_tiles([six], out, FAST, workers=workers)
     assert list(summary.failures) == [str(six / "3.laz")]
     assert "ended unexpectedly" in summary.failures[str(six / "3.laz")]
     assert summary.done_count == 5 and len(finished(out)) == 5
 
 
-def test_a_job_that_fails_fails_its_tile_only(six, out, monkeypatch):
-    def failing(source, *rest):
-        if source.path.name == "4.laz":
-            raise MemoryError
-        return write_changed(source, *rest)
-
-    write_changed = tile_result_module.write_changed
-    monkeypatch.setattr(tile_result_module, "write_changed", failing)
-    summary = classify_tiles([six], out, FAST)
+def test_a_job_that_fails_fails_its_tile_only(six, out):
+    workers = replacing_jobs(Threads, instead_of("4.laz", HungryJob))
+    summary = classify_tiles([six], out, FAST, workers=workers)
     assert summary.done_count == 5
     assert "not enough memory" in summary.failures[str(six / "4.laz")]
 
 
-def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, monkeypatch):
-    def failing(store, parameters, blocks, *rest):
+class FailingInTheEast(LabelGround):
+    """Cannot label the blocks in the east."""
+
+    def work(self, store, resources, progress):
         if store.leaves.x.max() > 500_110.0:
             raise ValueError("no")
-        return label_ground(store, parameters, blocks, *rest)
+        super().work(store, resources, progress)
 
-    monkeypatch.setattr(labelling_module, "label_ground", failing)
-    summary = classify_tiles([six], out, FAST, blocks=Blocks(20.0, 5.0))
+
+@pytest.mark.parametrize("heights", [False, True])
+def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, heights):
+    def failing(job):
+        if isinstance(job, PointJob) and isinstance(job.step, LabelGround):
+            own = {each.name: getattr(job.step, each.name) for each in dataclasses.fields(job.step)}
+            return dataclasses.replace(job, step=FailingInTheEast(**own))
+
+    workers, output = replacing_jobs(Threads, failing), Output(height_above_ground=heights)
+    blocks = Blocks(20.0, 5.0)
+    summary = classify_tiles([six], out, FAST, blocks=blocks, workers=workers, points=output)
     assert 0 < len(summary.failures) < 6
     assert all("Unexpected ValueError: no" in each for each in summary.failures.values())
     assert summary.done_count == 6 - len(summary.failures)
@@ -622,18 +632,6 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
     assert again.kept_count == 6
 
 
-class Overtaken(jobs_module.TileJob):
-    """Finds another file with as many points in the place of that whose points were labelled."""
-
-    def run(self, share, progress):
-        if self.tile.path.name == "2.laz":
-            las, other = laspy.read(self.tile.path), self.tile.path.with_name("other.laz")
-            las.points = las.points[::-1].copy()
-            las.write(other)
-            other.replace(self.tile.path)
-        return super().run(share, progress)
-
-
 @pytest.mark.parametrize("kind", [Threads, Processes])
 def test_a_job_may_use_the_threads_that_other_jobs_leave_free(kind, tmp_path):
     workers = kind(Resources(threads=2, memory=1.0))
@@ -648,9 +646,9 @@ def test_a_job_may_use_the_threads_that_other_jobs_leave_free(kind, tmp_path):
         workers.stop()
 
 
-def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, out, monkeypatch):
-    monkeypatch.setattr(plan_module, "TileJob", Overtaken)
-    done = classify_tiles([six], out, FAST)
+def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, out):
+    workers = replacing_jobs(Threads, instead_of("2.laz", OvertakenJob))
+    done = classify_tiles([six], out, FAST, workers=workers)
     assert [Path(each).name for each in done.failures] == ["2.laz"]
     assert "changed while it was worked on" in next(iter(done.failures.values()))
     assert not (out / "2.laz").exists() and done.done_count == 5
