@@ -142,6 +142,26 @@ def made(scene, tmp_path_factory):
     return make
 
 
+@pytest.fixture(scope="module")
+def watered(scene, tmp_path_factory):
+    """Return what makes a delivery of two files with water of the user, each only once."""
+    known, folder = {}, tmp_path_factory.mktemp("watered")
+
+    def make(how):
+        name = f"key points {how.options.key_points}"
+        if name not in known:
+            known[name] = deliver(scene[2], folder / name, how), folder / name
+        return known[name]
+
+    return make
+
+
+def with_water(has_key_points=False):
+    """Return a delivery with water that a user draws, of which nothing is held out."""
+    options = DeliveryOptions(hold_out_share=None, key_points=has_key_points)
+    return DeliveryRequest(options=options, constraints=given_water(0.71)[0])
+
+
 def files_of(folder):
     found = (each.relative_to(folder).as_posix() for each in folder.rglob("*") if each.is_file())
     return {each for each in found if not each.startswith(("points/", ".bare-earth/"))}
@@ -262,8 +282,15 @@ def rows_of_classes(page):
     return {int(value): int(count.replace(",", "")) for value, count in found}
 
 
-@pytest.mark.parametrize("is_one", [True, False])
-@pytest.mark.parametrize(("specification", "distance"), [("lbs-ql1", 0.35), ("lbs-ql2", 0.71)])
+@pytest.mark.parametrize(
+    ("specification", "distance", "is_one"),
+    [
+        ("lbs-ql1", 0.35, True),
+        ("lbs-ql2", 0.71, False),
+        pytest.param("lbs-ql1", 0.35, False, marks=pytest.mark.long),
+        pytest.param("lbs-ql2", 0.71, True, marks=pytest.mark.long),
+    ],
+)
 def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
     scene, tmp_path, specification, distance, is_one
 ):
@@ -461,16 +488,18 @@ def classes_of(folder):
     return {each.name: np.asarray(laspy.read(each).classification) for each in files}
 
 
-@pytest.mark.parametrize("has_key_points", [False, True])
-@pytest.mark.parametrize("count", [1, 2])
+@pytest.mark.parametrize(
+    ("count", "has_key_points"),
+    [
+        (1, False),
+        (2, True),
+        *(pytest.param(*each, marks=pytest.mark.long) for each in ((1, True), (2, False))),
+    ],
+)
 def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
-    scene, tmp_path, count, has_key_points
+    scene, watered, tmp_path, count, has_key_points
 ):
-    target = tmp_path / "out"
-    how = DeliveryRequest(
-        options=DeliveryOptions(hold_out_share=None, key_points=has_key_points),
-        constraints=given_water(0.71)[0],
-    )
+    target, how = tmp_path / "out", with_water(has_key_points)
     with pytest.raises(FinishedFilesStay):
         deliver(scene[2], target, how, StopsAfter(target, count))
     ready = {each for each in files_of(target) if not each.startswith(".waiting/")}
@@ -482,34 +511,38 @@ def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
     summary = deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)), said)
     assert "2 files are done already." in said.texts and not (target / ".waiting").exists()
     found = classes_of(target)
-    whole = deliver(scene[2], tmp_path / "whole", how)
-    expected = classes_of(tmp_path / "whole")
+    whole, folder = watered(how)
+    expected = classes_of(folder)
     assert all(np.array_equal(found[each], expected[each]) for each in expected)
     assert summary.class_counts == whole.class_counts and (found["west.laz"] == 9).any()
-    assert files_of(target) == files_of(tmp_path / "whole")
+    assert files_of(target) == files_of(folder)
 
 
 @pytest.mark.parametrize("resume", [True, False])
-def test_a_second_run_classifies_files_with_classes_of_water_again(scene, tmp_path, resume):
-    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
-    how = DeliveryRequest(options=small, constraints=given_water(0.71)[0])
-    first, said = deliver(scene[2], target, how), Said()
+def test_a_second_run_classifies_files_with_classes_of_water_again(
+    scene, watered, tmp_path, resume
+):
+    target, how, said = tmp_path / "out", with_water(), Said()
+    first, folder = watered(how)
+    shutil.copytree(folder, target)
     before = classes_of(target)
     second = deliver(scene[2], target, replace(how, tiles=TileOutput(resume=resume)), said)
     assert second.class_counts == first.class_counts
     assert all(np.array_equal(before[name], each) for name, each in classes_of(target).items())
     assert any("2 finished files are made again" in each for each in said.texts) == resume
+    if not resume:
+        return
     # Without water, nothing is left of the classes of water.
-    third = deliver(scene[2], target, DeliveryRequest(options=small, tiles=TileOutput(resume=True)))
+    without = DeliveryRequest(options=how.options, tiles=TileOutput(resume=True))
+    third = deliver(scene[2], target, without)
     assert not {9, 20} & third.class_counts.keys()
     assert not any((each == 9).any() for each in classes_of(target).values())
 
 
 def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
-    scene, tmp_path, monkeypatch
+    scene, watered, tmp_path, monkeypatch
 ):
-    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
-    how = DeliveryRequest(options=small, constraints=given_water(0.71)[0])
+    target, how = tmp_path / "out", with_water()
     move = os.replace
 
     def refuse(source, place):
@@ -524,8 +557,7 @@ def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
             deliver(scene[2], target, how)
     assert not json.loads((target / "delivery.json").read_text())["is_finished"]
     deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)))
-    deliver(scene[2], tmp_path / "whole", how)
-    expected = classes_of(tmp_path / "whole")
+    expected = classes_of(watered(how)[1])
     assert all(np.array_equal(each, expected[name]) for name, each in classes_of(target).items())
 
 
@@ -634,10 +666,10 @@ def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
     assert re.search(r"^checkpoints RMSE 0\.\d{3} m, mean [+-]0\.\d{3} m, of 3$", rows[1])
 
 
-def test_many_files_with_heights_are_done_already_after_a_finished_delivery(scene, tmp_path):
-    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
-    how = DeliveryRequest(delivery="forestry", options=small)
-    first = deliver(scene[2], target, how)
+def test_many_files_with_heights_are_done_already_after_a_finished_delivery(made, scene, tmp_path):
+    target, how = tmp_path / "out", DeliveryRequest(delivery="forestry")
+    first, folder = made("forestry", is_one=False)
+    shutil.copytree(folder, target)
     before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
     assert len(before) == 2
     for each in before:
@@ -735,12 +767,14 @@ def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp
     assert np.allclose(lines[3][1], dyke)
     for _, at in lines[4:]:
         assert len(at) == 5 and np.allclose(at[:, 2], 104.0, atol=0.15)
-    # The polygons can be used again.
-    again = Constraints(water=tuple(read_boundary(summary.layers["water"])[:2]))
     files = files_of(tmp_path / "out")
     assert {"water.gpkg", "breaklines.gpkg"} <= files
     page = (tmp_path / "out" / "index.html").read_text("utf-8")
     assert 'href="water.gpkg"' in page and 'href="breaklines.gpkg"' in page
+    if not is_one:
+        return
+    # The polygons can be used again.
+    again = Constraints(water=tuple(read_boundary(summary.layers["water"])[:2]))
     second = deliver(scene[1], tmp_path / "again", replace(how, constraints=again))
     (row, _), *_ = features(second.layers["water"])
     assert row["LEVEL"] == pytest.approx(level, abs=0.02)
