@@ -126,7 +126,7 @@ def test_birds_are_high_groups(density):
 
 @pytest.mark.parametrize("kind", ["power_lines", "open_forest", "sea_cliff", "city_blocks"])
 def test_wires_trees_cliffs_and_roofs_are_no_high_groups(kind):
-    scene = make(kind, seed=12)
+    scene = make(kind, seed=12, size=120.0)
     assert not HighGroups().find(scene.points).any()
 
 
@@ -151,7 +151,7 @@ def test_a_point_far_from_all_others_is_not_judged():
 
 
 def test_high_groups_become_class_18_where_wanted_and_are_never_ground():
-    scene = make("birds", seed=13)
+    scene = make("birds", seed=13, size=80.0)
     high = scene.classes == 18
     for method in METHODS.values():
         plain, _ = classify_cloud(scene.cloud(), method.parameters())
@@ -182,7 +182,7 @@ def test_birds_that_someone_reported_are_not_in_the_surface(tmp_path):
 
 @pytest.mark.parametrize("classify_first", [True, False])
 def test_no_bird_is_in_a_surface_or_canopy_model(tmp_path, classify_first):
-    scene, path = make("birds", seed=14), tmp_path / "birds.las"
+    scene, path = make("birds", seed=14, size=100.0), tmp_path / "birds.las"
     write_las(scene.cloud(), path)
     rasters = RasterFiles(dsm=tmp_path / "dsm.tif", chm=tmp_path / "chm.tif")
     if classify_first:

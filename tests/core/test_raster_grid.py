@@ -86,9 +86,14 @@ def test_all_rasters_get_the_grid_of_a_given_one(source, tmp_path):
     assert abs(np.ma.median(found - plane.reshape(60, 90))) < 0.05
 
 
-def test_the_grid_of_the_usual_rasters_gives_the_usual_rasters(source, tmp_path):
-    usual = made(tmp_path / "usual", source, "--crs", CRS)
-    again = made(tmp_path / "again", source, "--crs", CRS, "--like", tmp_path / "usual" / "dtm.tif")
+@pytest.fixture(scope="module")
+def usual(source, tmp_path_factory):
+    """Return the rasters on the grid that they have if no other is given."""
+    return made(tmp_path_factory.mktemp("usual"), source, "--crs", CRS)
+
+
+def test_the_grid_of_the_usual_rasters_gives_the_usual_rasters(source, usual, tmp_path):
+    again = made(tmp_path / "again", source, "--crs", CRS, "--like", usual["dtm"].name)
     for name in NAMES:
         assert usual[name].profile == again[name].profile
         assert np.array_equal(usual[name].read(1), again[name].read(1))
@@ -185,8 +190,7 @@ def test_points_without_crs_are_taken_to_be_in_that_of_the_raster(source, tmp_pa
     assert "do not say their CRS" in words and "--crs" in words
 
 
-def test_an_extent_cuts_the_usual_cells(source, tmp_path):
-    usual = made(tmp_path / "usual", source, "--crs", CRS)
+def test_an_extent_cuts_the_usual_cells(source, usual, tmp_path):
     box = 500_020.5, 5_699_990.2, 500_080.0, 5_700_050.7
     cut_out = made(tmp_path / "cut", source, "--crs", CRS, "--raster-extent", *box)
     for name in NAMES:
@@ -221,7 +225,7 @@ def test_what_is_no_extent_is_refused(source, tmp_path, box):
     assert "smallest x and y" in errors
 
 
-def test_each_file_gets_its_part_of_the_grid(files, tmp_path):
+def test_each_file_gets_its_part_of_the_grid(files, tmp_path, threads_for_processes):
     like = given(tmp_path / "like.tif", shape=(70, 100))
     out = tmp_path / "dtm.tif"
     code, _, errors = said(

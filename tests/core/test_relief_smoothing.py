@@ -139,7 +139,7 @@ def test_strips_and_files_make_no_seams(tmp_path, monkeypatch):
         assert np.array_equal(many[name], whole[name]), name
 
 
-def test_each_file_gets_its_part_of_the_pictures(tmp_path):
+def test_each_file_gets_its_part_of_the_pictures(tmp_path, threads_for_processes):
     for number in range(2):
         write(tmp_path / f"{number}.laz", 30.0 * number, 30.0 * number + 30)
     sources = [str(tmp_path / f"{number}.laz") for number in range(2)]
@@ -172,7 +172,10 @@ def test_the_command_makes_the_relief_of_a_raster(tmp_path, monkeypatch):
         assert raster.descriptions == ("Local relief, m",)
 
 
-@pytest.mark.parametrize(("name", "most"), [("hawaii_forest", 0.75), ("conifer_1", 0.75)])
+@pytest.mark.parametrize(
+    ("name", "most"),
+    [pytest.param("hawaii_forest", 0.75, marks=pytest.mark.long), ("conifer_1", 0.75)],
+)
 def test_real_forests_are_less_speckled(tmp_path, name, most):
     source = real(f"real/{name}.laz")
     path = tmp_path / "dtm.tif"
