@@ -81,7 +81,12 @@ def _whole(path):
 
 @pytest.mark.parametrize(
     ("method", "size"),
-    [("tin-densification", KEPT), ("grid-minimum", GONE), ("slope", KEPT), ("slope", GONE)],
+    [
+        ("tin-densification", KEPT),
+        ("grid-minimum", GONE),
+        pytest.param("slope", KEPT, marks=pytest.mark.long),
+        ("slope", GONE),
+    ],
 )
 def test_polygons_hold_in_memory_from_disk_and_in_tiles(method, size, cloud, integers, tmp_path):
     raw, known = tmp_path / "raw.laz", tmp_path / "known.laz"

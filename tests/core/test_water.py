@@ -159,7 +159,14 @@ def sparser_half(scene):
     scene.keep((scene.x < 200) | (scene.random.random(len(scene.x)) < 0.15))
 
 
-@pytest.mark.parametrize("slope, rolling", [(0.0, 0.0), (0.0, 1.0), (0.03, 0.0), (0.03, 1.0)])
+@pytest.mark.parametrize(
+    ("slope", "rolling"),
+    [
+        (0.0, 0.0),
+        (0.03, 1.0),
+        *(pytest.param(*each, marks=pytest.mark.long) for each in ((0.0, 1.0), (0.03, 0.0))),
+    ],
+)
 @pytest.mark.parametrize(
     "changed", [hall, black_roof, dense_forest, thin_forest, slanted_border, gap, sparser_half]
 )

@@ -151,7 +151,7 @@ def test_the_terrain_has_no_dam_below_a_bridge(tmp_path):
     def away(x, y):
         return np.maximum(river(x, y), np.abs(x - MIDDLE) - 200.0)
 
-    scene = Scene(LONG, HIGH)
+    scene = Scene(LONG, HIGH, density=2.0)
     scene.basin(away, level)
     build(scene, away, 8.0, start=0.0)
     flood(scene, away)

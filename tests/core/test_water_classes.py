@@ -251,7 +251,13 @@ def test_what_cannot_be_done_is_a_sentence(tmp_path):
     assert not target.exists()
 
 
-@pytest.mark.parametrize(("name", "least"), [("corse_cliff", 0.85), ("wires_single_return", 0.85)])
+@pytest.mark.parametrize(
+    ("name", "least"),
+    [
+        ("corse_cliff", 0.85),
+        pytest.param("wires_single_return", 0.85, marks=pytest.mark.long),
+    ],
+)
 def test_water_of_real_tiles_gets_its_class_back(tmp_path, name, least):
     source, ground, target = real(f"real/{name}.laz"), tmp_path / "ground.laz", tmp_path / "out.laz"
     find_water([source], tmp_path / "water.geojson", WaterRequest(Water(min_area=500.0)))
