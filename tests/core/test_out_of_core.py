@@ -143,7 +143,10 @@ def test_ground_points_only_in_memory_and_on_disk(small, tmp_path):
     assert results[0][0].class_counts == {2: results[0][0].ground_count}
 
 
-@pytest.mark.parametrize(("name", "free"), [("in.las", 0), ("in.laz", 0), ("in.laz", 1 << 40)])
+@pytest.mark.parametrize(
+    ("name", "free"),
+    [pytest.param("in.las", 0, marks=LONG), ("in.laz", 0), ("in.laz", 1 << 40)],
+)
 def test_heights_above_ground_in_memory_and_on_disk(small, tmp_path, monkeypatch, name, free):
     # A compressed file is kept on a disk with room, so that it is decompressed once.
     monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=free))
