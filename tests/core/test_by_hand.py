@@ -36,7 +36,7 @@ DISK = Resources(threads=2, memory=0.001)
 @pytest.fixture(scope="module")
 def integers():
     """Return a slope with a hall, which is not ground, and a mound, which is."""
-    random, count = np.random.default_rng(4), 9000
+    random, count = np.random.default_rng(4), 6000
     x, y = random.uniform(0, 160, count), random.uniform(0, 100, count)
     z = 60 + 0.03 * x + random.normal(0, 0.03, count)
     z[_within(HALL, x, y)] += 6.0

@@ -9,6 +9,7 @@ import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.las import class_layers as module
+from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.las.class_layers import class_layers
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.lasfile import LASZIP
@@ -87,12 +88,13 @@ def test_classes_that_are_all_the_same_take_next_to_nothing(las):
 
 def test_chunks_of_any_size_stay_as_they_are(las, monkeypatch):
     """A COPC file has a chunk for each node, most of them small."""
-    monkeypatch.setattr(module, "_POINTS_A_GROUP", 30_000)
-    records = las.records(6, 200_000)
+    monkeypatch.setattr(module, "_POINTS_A_GROUP", 6_000)
+    monkeypatch.setattr(copc_octree, "_LEAF_POINTS", 20_000)
+    records = las.records(6, 40_000)
     plain = las.make("in.laz", version=4, point_format=6, records=records)
     copc, target = las.folder / "in.copc.laz", las.folder / "out.laz"
     write_classified(plain, copc, records[:, 16])
-    order, classes = las.split(copc).records, classes_of(200_000)
+    order, classes = las.split(copc).records, classes_of(40_000)
     write_classified(copc, target, classes)
     order[:, 16] = classes
     np.testing.assert_array_equal(las.split(target).records, order)

@@ -216,7 +216,9 @@ def test_a_delivery_of_one_file_has_all_its_files(made, scene, name):
     assert not any(".part." in each or str(folder.parent) in each for each in pages)
 
 
-@pytest.mark.parametrize("name", list(FILES))
+@pytest.mark.parametrize(
+    "name", [*list(FILES)[:4], pytest.param("drone-site", marks=pytest.mark.long)]
+)
 def test_two_files_get_the_same_as_one(made, scene, name):
     (one, folder), (many, other) = made(name), made(name, is_one=False)
     assert files_of(folder) == files_of(other)

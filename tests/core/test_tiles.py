@@ -315,7 +315,9 @@ def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out, 
     assert after["5.laz"] != before["5.laz"] and after["0.laz"] == before["0.laz"]
 
 
-@pytest.mark.parametrize("added", [("0", "1"), ("7",)], ids=str)
+@pytest.mark.parametrize(
+    "added", [pytest.param(("0", "1"), marks=pytest.mark.long), ("7",)], ids=str
+)
 def test_of_a_survey_to_which_tiles_are_added_only_their_neighbours_are_done_anew(
     added, many, out, tmp_path
 ):

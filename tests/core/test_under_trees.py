@@ -149,7 +149,11 @@ def _on_cells(heights):
 
 @pytest.mark.parametrize(
     ("tile", "most"),
-    [("rainforest_ridge.laz", 1.2), ("conifer_1.laz", 0.17), ("megaplot.laz", 0.11)],
+    [
+        ("rainforest_ridge.laz", 1.2),
+        ("conifer_1.laz", 0.17),
+        pytest.param("megaplot.laz", 0.11, marks=pytest.mark.long),
+    ],
 )
 def test_terrain_models_of_forests_come_out_as_measured(tile, most):
     cloud, reference = data.load(real(f"real/{tile}"))
