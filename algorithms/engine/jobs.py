@@ -30,7 +30,7 @@ from .memory_store import MemoryStore
 from .step import PointStep
 from .tile_result import TileResult, copies_all_else
 from .unpacking import Unpacking
-from .values import BlockFiles, BlockValues, seen
+from .values import BlockFiles, BlockValues, applied
 
 
 @dataclass(frozen=True)
@@ -169,7 +169,7 @@ class BlockJob:
                 change = None
                 if self.before and source not in self.finished:
                     values = [BlockValues(found, las, are_all=False) for found in self.before]
-                    change = partial(seen, values)
+                    change = partial(applied, values)
                 cloud = read_window(las, window, part.quiet(), trust_header=True, change=change)
             except BareEarthError as error:
                 progress.warning(
