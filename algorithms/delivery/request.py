@@ -222,9 +222,7 @@ class DeliveryRequest(Request):
     @property
     def ground(self) -> GroundClasses:
         """Which points of the classified files are ground."""
-        known = self.selection.seed_classes or ()
-        classes = tuple(dict.fromkeys((self.selection.to_class, *known)))
-        return GroundClasses(classes, self.selection.overlap)
+        return self.classify.ground
 
     @property
     def quality(self) -> QualityOptions:

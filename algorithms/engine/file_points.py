@@ -218,8 +218,8 @@ class FilePoints:
         return GivingBack(progress, leave_memory)
 
     def allocate(self, kind: type) -> np.ndarray:
-        """Return an array of one value for each point, on disk if the values are large."""
-        if self.is_in_memory or np.dtype(kind).itemsize == 1:
+        """Return an array of one value for each point; on disk if the points are."""
+        if self.is_in_memory:
             return np.empty(self.count, dtype=kind)
         self._mapped.append(ValuesOnDisk(self._target, kind, self.count))
         return self._mapped[-1].values

@@ -30,7 +30,7 @@ from .memory_store import MemoryStore
 from .step import PointStep
 from .tile_result import TileResult, copies_all_else
 from .unpacking import Unpacking
-from .values import BlockFiles, BlockValues, seen
+from .values import BlockFiles, BlockValues, applied
 
 
 @dataclass(frozen=True)
@@ -169,7 +169,7 @@ class BlockJob:
                 change = None
                 if self.before and source not in self.finished:
                     values = [BlockValues(found, las, are_all=False) for found in self.before]
-                    change = partial(seen, values)
+                    change = partial(applied, values)
                 cloud = read_window(las, window, part.quiet(), trust_header=True, change=change)
             except BareEarthError as error:
                 progress.warning(
@@ -308,13 +308,13 @@ class TileJob:
 
     def run(self, share: Share, progress: Progress) -> Any:
         """Write the file. Return the summary of the step, or None if there is nothing to write."""
-        steps, las, reading = [found.step for found in self.values], self.tile, progress
+        las, steps = self.tile, [found.step for found in self.values]
         if self.unpacking is not None:
-            las, reading = self.unpacking.of(las, progress.part(0.0, 0.3)), progress.part(0.3, 0.4)
-        values = [BlockValues(found, las) for found in self.values]
-        needs_records, counts = not copies_all_else(las, self.target, steps), steps[0].counts()
-        reading = reading.quiet()
-        with FilePoints.opened(las, self.target, share.resources, needs_records, reading) as points:
+            las = self.unpacking.of(las, progress.part(0.0, 0.3))
+        values, counts = [BlockValues(found, las) for found in self.values], steps[0].counts()
+        needs_records = not copies_all_else(las, self.target, steps)
+        reading, resources = progress.part(0.3, 0.4).quiet(), share.resources
+        with FilePoints.opened(las, self.target, resources, needs_records, reading) as points:
             result = TileResult(points, values)
             for where, part in points.parts(is_last=True):
                 steps[0].count(part, counts)

@@ -13,7 +13,7 @@ from ..core.files import one_at_a_time, replacing
 from ..core.progress import Progress
 from ..las.lasfile import LasFile, Unpacked
 from ..las.records import needed
-from ..las.unpacked import unpack
+from ..las.unpacked import has_room, unpack
 
 
 class Unpacking(NamedTuple):
@@ -45,6 +45,8 @@ class Unpacking(NamedTuple):
         path = self.folder / f"{hashlib.sha256(key).hexdigest()[:32]}.records"
         with one_at_a_time(path.with_suffix(".lock")):
             if not path.exists():
+                if not has_room(self.folder, las.count):
+                    return las
                 try:
                     with replacing(path) as temporary, temporary.open("w+b") as file:
                         unpack(las, file, columns, progress)

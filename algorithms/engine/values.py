@@ -60,10 +60,10 @@ def with_values(
 ) -> Iterator[tuple[slice, PointCloud]]:
     """Yield the parts of a file, with their indices in it, as the next step sees them."""
     for where, part in parts:
-        yield where, seen(values, where, part)
+        yield where, applied(values, where, part)
 
 
-def seen(values: Sequence[PointValues], where: slice, part: PointCloud) -> PointCloud:
+def applied(values: Sequence[PointValues], where: slice, part: PointCloud) -> PointCloud:
     """Return a part of a file as the next step sees it; it leaves out what could not be done."""
     for found in values:
         if found.step.gives_classes:

@@ -11,7 +11,7 @@ from typing import Any, Iterable, Union
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..engine.workers import Workers
-from ..steps.rasters import RasterSize
+from ..steps.raster_output import RasterSize
 from ..survey.files import is_one_file
 from .many_files import classify_files, rasters_of_files, write_files
 from .one_file import classify_file, rasters_of_file, write_points

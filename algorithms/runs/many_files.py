@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import shutil
 from collections import Counter
 from dataclasses import dataclass, field, replace
@@ -13,9 +12,7 @@ from typing import Any, Iterable, Iterator, Sequence
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..core.files import (
     alone_in,
-    check_output,
     is_same_file,
-    split_name,
     temporary_folder,
     write_errors_told,
 )
@@ -31,14 +28,14 @@ from ..engine.step import PointStep, located
 from ..engine.unpacking import Unpacking
 from ..engine.workers import Threads, Workers
 from ..las.unpacked import has_room
-from ..las.writing import check_writable
-from ..products.raster_files import RasterFiles
-from ..steps.rasters import MakeRasters, RasterSize
+from ..steps.raster_output import RasterSize
+from ..steps.rasters import MakeRasters
 from ..survey.files import Survey, open_survey
 from ..survey.shapes import Place
-from ..survey.vpc import check_vpc, write_vpc
+from ..survey.vpc import write_vpc
 from .raster_jobs import make_rasters
 from .requests import ClassifyRequest, Request, TerrainRequest
+from .survey_checks import check_rasters, check_stems, check_survey, targets_of
 
 
 @dataclass(frozen=True)
@@ -223,16 +220,16 @@ class _SurveyRun:
                 )
         recursive, stated = self._request.files.recursive, self._request.stated
         survey = open_survey(sources, recursive, progress.part(0.0, 0.02), stated)
-        _check_survey(survey, self._folder, self._vpc, sources if recursive else [])
+        check_survey(survey, self._folder, self._vpc, sources if recursive else [])
         made = [] if self._rasters is None else [self._rasters]
         self._steps = located([*self._steps, *made], _place_of(survey), progress)
         self._rasters = self._steps.pop() if made else None
         self._steps[0].check_survey(survey.box)
-        self._targets = _targets_of(survey, self._folder, self._request.tiles.format)
+        self._targets = targets_of(survey, self._folder, self._request.tiles.format)
         if self._rasters is not None:
             self._rasters.placed(survey.crs, survey.box)
             others = self._vpc, *self._targets, *self._targets.values()
-            _check_rasters(self._rasters, survey, self._folder, others)
+            check_rasters(self._rasters, survey, self._folder, others)
         self._survey = survey
         self._inputs = {each.path.name: each.path for each in survey.tiles}
         self._failures = {each.path.name: (each.path, each.reason) for each in survey.broken}
@@ -356,7 +353,7 @@ def rasters_of_files(
     per_file = request.raster_output.raster_per_file
     request.rasters.check(tuple(each.path for each in survey.tiles), per_file)
     if per_file:
-        _check_stems(survey)
+        check_stems(survey)
     for each in survey.broken:
         progress.warning(f"{each.path} is left out. {each.reason}")
     beside = next(iter(request.rasters.wanted.values())).parent
@@ -372,71 +369,3 @@ def rasters_of_files(
 
 def _place_of(survey: Survey) -> Place:
     return Place("the files", survey.crs, survey.box)
-
-
-def _check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Path]) -> None:
-    """Refuse, before any work, a survey and outputs that would fail or overwrite something."""
-    require_measurable("The survey", survey.crs, survey.box)
-    if folder.exists() and not folder.is_dir():
-        raise BareEarthError(f"Cannot write into {folder}: it is a file. Give a folder.")
-    if not folder.exists():
-        check_output(folder)
-    here = folder.resolve()
-    for path in [each.path for each in (*survey.tiles, *survey.broken)]:
-        if path.parent.resolve() == here:
-            raise BareEarthError(
-                f"Input and output are in the same folder, {folder}. Choose another output."
-            )
-    for each in filter(Path.is_dir, searched):
-        if each.resolve() in here.parents:
-            raise BareEarthError(
-                f"The output {folder} is in the folder {each}, which is searched for inputs with"
-                " all its subfolders. Choose another output."
-            )
-    check_vpc(vpc)
-    if vpc.parent.resolve() != here:
-        check_output(vpc)
-
-
-def _check_rasters(
-    step: MakeRasters, survey: Survey, folder: Path, others: tuple[Path, ...]
-) -> None:
-    """Refuse rasters that could not be written; the folder of the output may not be there yet."""
-    rasters = step.files
-    if not folder.exists():
-        paths = rasters.wanted.items()
-        rasters = RasterFiles(**{name: path for name, path in paths if path.parent != folder})
-    rasters.check(others, step.per_file)
-    if step.per_file:
-        _check_stems(survey)
-
-
-def _check_stems(survey: Survey) -> None:
-    """Refuse files whose rasters would get the same name."""
-    stems: dict[str, Path] = {}
-    for tile in survey.tiles:
-        stem = split_name(tile.path)[0]
-        other = stems.setdefault(os.path.normcase(stem).lower(), tile.path)
-        if other is not tile.path:
-            raise BareEarthError(
-                f"The rasters of {other} and of {tile.path} would both become {stem}.tif. Rename"
-                " one of the files, or make one raster of all."
-            )
-
-
-def _targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path, Path]:
-    """Return the output of each input; refuse those that would get the same name."""
-    targets, inputs = {}, {}
-    for tile in (*survey.tiles, *survey.broken):
-        name = tile.path.name
-        if format != "same":
-            name = f"{split_name(tile.path)[0]}.{format}"
-        other = inputs.setdefault(os.path.normcase(name).lower(), tile.path)
-        if other is not tile.path:
-            raise BareEarthError(
-                f"{other} and {tile.path} would both become {folder / name}. Rename one of them, or"
-                " write them into different folders."
-            )
-        targets[tile.path] = folder / name
-        check_writable(targets[tile.path])
-    return targets

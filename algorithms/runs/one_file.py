@@ -30,7 +30,8 @@ from ..las.opening import open_las
 from ..las.writing import check_cloud
 from ..rasters.writing import check_raster_output, replacing_raster
 from ..steps.labelling import LabelGround
-from ..steps.rasters import MakeRasters, RasterSize, write_rasters
+from ..steps.raster_output import RasterSize, write_rasters
+from ..steps.rasters import MakeRasters
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection

@@ -31,7 +31,8 @@ from ..engine.workers import Workers
 from ..grids.cell_window import CellWindow
 from ..las.cloud import survey_frame
 from ..products.raster_block import BlockRasters
-from ..steps.rasters import AROUND_AREA, MakeRasters, RasterSize, no_point_in, write_rasters
+from ..steps.raster_output import AROUND_AREA, RasterSize, no_point_in, write_rasters
+from ..steps.rasters import MakeRasters
 from ..survey.files import Survey
 
 

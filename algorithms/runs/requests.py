@@ -93,6 +93,45 @@ class Request:
         return cls(**others)
 
 
+@dataclass(frozen=True)
+class RasterRequest(Request):
+    """Base of the requests that make rasters.
+
+    Attributes
+    ----------
+    rasters : RasterFiles
+        The rasters to write.
+    terrain, surface : TerrainModel, SurfaceModel
+        Cell size, light, gaps, and which points make the surface.
+    constraints : Constraints
+        Breaklines, water, and areas without ground.
+    raster_output : RasterOutput
+        Whether each of many files gets its own rasters.
+    raster_target : RasterTarget
+        A raster whose grid the rasters get, and their extent.
+    area : Area or None
+        Where rasters have values, and where points are classified; None for everywhere.
+    """
+
+    rasters: RasterFiles = field(default_factory=RasterFiles)
+    terrain: TerrainModel = field(default_factory=TerrainModel)
+    surface: SurfaceModel = field(default_factory=SurfaceModel)
+    constraints: Constraints = NO_CONSTRAINTS
+    raster_output: RasterOutput = field(default_factory=RasterOutput)
+    raster_target: RasterTarget = ANYWHERE
+    area: Area | None = None
+
+    def rasters_of(
+        self, ground: GroundClasses, roads: tuple[int, ...], covers_ground: bool = False
+    ) -> MakeRasters:
+        """Return the step that makes them, given which points are ground; see `MakeRasters`."""
+        return MakeRasters(
+            self.rasters, self.terrain, self.surface, ground, roads, covers_ground,
+            self.constraints, self.raster_output.raster_per_file, target=self.raster_target,
+            area=self.area,
+        )  # fmt: skip
+
+
 class PointRequest(Request):
     """Base of the requests whose result is a value of each point."""
 
@@ -103,7 +142,7 @@ class PointRequest(Request):
 
 
 @dataclass(frozen=True)
-class ClassifyRequest(Request):
+class ClassifyRequest(RasterRequest):
     """A request to classify the ground, and to make products of it.
 
     Attributes
@@ -112,40 +151,21 @@ class ClassifyRequest(Request):
         The parameters of one method. Their type chooses the method.
     selection : Selection
         Which points take part, and what their classes become.
-    area : Area or None
-        Where points are classified and rasters have values; None for everywhere.
     corrections : Corrections
         Polygons in which the class is known.
     output : Output
         Which points are written, and whether their heights above ground are.
     above_ground : ThenAboveGround
         Whether the points above the ground are classified too.
-    rasters : RasterFiles
-        Rasters to write as well.
-    terrain, surface : TerrainModel, SurfaceModel
-        Cell size and light of the rasters, and which points make the surface.
-    constraints : Constraints
-        Breaklines, water, and areas without ground, for the rasters.
-    raster_output : RasterOutput
-        Whether each of many files gets its own rasters.
-    raster_target : RasterTarget
-        A raster whose grid the rasters get, and their extent.
     explain : Path or None
         Raster of the rule that decided each cell, for one file.
     """
 
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
     selection: Selection = field(default_factory=Selection)
-    area: Area | None = None
     corrections: Corrections = NO_CORRECTIONS
     output: Output = field(default_factory=Output)
     above_ground: ThenAboveGround = field(default_factory=ThenAboveGround)
-    rasters: RasterFiles = field(default_factory=RasterFiles)
-    terrain: TerrainModel = field(default_factory=TerrainModel)
-    surface: SurfaceModel = field(default_factory=SurfaceModel)
-    constraints: Constraints = NO_CONSTRAINTS
-    raster_output: RasterOutput = field(default_factory=RasterOutput)
-    raster_target: RasterTarget = ANYWHERE
     explain: Path | None = None
 
     def __post_init__(self) -> None:
@@ -183,7 +203,8 @@ class ClassifyRequest(Request):
         return steps
 
     @property
-    def _ground(self) -> GroundClasses:
+    def ground(self) -> GroundClasses:
+        """Which points of the output are ground."""
         known = self.selection.seed_classes or ()
         classes = dict.fromkeys((self.selection.to_class, *known))
         return GroundClasses(tuple(classes), self.selection.overlap)
@@ -193,22 +214,18 @@ class ClassifyRequest(Request):
         """The step that makes the rasters from the classified points."""
         needs_all = any(LAYERS[each].of_all for each in self.rasters.layers)
         covers_ground = self.output.ground_only and not needs_all
-        return MakeRasters(
-            self.rasters, self.terrain, self.surface, self._ground, self.selection.roads,
-            covers_ground, self.constraints, self.raster_output.raster_per_file,
-            target=self.raster_target, area=self.area,
-        )  # fmt: skip
+        return self.rasters_of(self.ground, self.selection.roads, covers_ground)
 
     @property
     def above_ground_step(self) -> ClassifyAboveGround:
         """The step that classifies the points above the ground."""
-        return ClassifyAboveGround(self.above_ground, self._ground, self.area, self.corrections)
+        return ClassifyAboveGround(self.above_ground, self.ground, self.area, self.corrections)
 
     @property
     def height_step(self) -> MeasureHeights:
         """The step that measures the heights of the classified points."""
         area = self.area if self.output.area_only else None
-        return MeasureHeights(self._ground, area=area, roads=self.selection.roads)
+        return MeasureHeights(self.ground, area=area, roads=self.selection.roads)
 
 
 @dataclass(frozen=True)
@@ -308,44 +325,21 @@ class WaterClassRequest(PointRequest):
 
 
 @dataclass(frozen=True)
-class TerrainRequest(Request):
+class TerrainRequest(RasterRequest):
     """A request to make rasters of the terrain and of the objects on it.
 
     Attributes
     ----------
-    rasters : RasterFiles
-        The rasters to write.
     ground : GroundClasses
         Which points are ground.
-    terrain, surface : TerrainModel, SurfaceModel
-        Cell size, light, gaps, and which points make the surface.
-    constraints : Constraints
-        Breaklines, water, and areas without ground.
-    raster_output : RasterOutput
-        Whether each of many files gets its own rasters.
-    raster_target : RasterTarget
-        A raster whose grid the rasters get, and their extent.
-    area : Area or None
-        Where the rasters have values; None for everywhere.
     roads : tuple of int
         Classes whose points are ground as well, where they lie on it.
     """
 
-    rasters: RasterFiles = field(default_factory=RasterFiles)
     ground: GroundClasses = field(default_factory=GroundClasses)
-    terrain: TerrainModel = field(default_factory=TerrainModel)
-    surface: SurfaceModel = field(default_factory=SurfaceModel)
-    constraints: Constraints = NO_CONSTRAINTS
-    raster_output: RasterOutput = field(default_factory=RasterOutput)
-    raster_target: RasterTarget = ANYWHERE
-    area: Area | None = None
     roads: tuple[int, ...] = ()
 
     @property
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters."""
-        return MakeRasters(
-            self.rasters, self.terrain, self.surface, self.ground, self.roads,
-            constraints=self.constraints,
-            per_file=self.raster_output.raster_per_file, target=self.raster_target, area=self.area,
-        )  # fmt: skip
+        return self.rasters_of(self.ground, self.roads)

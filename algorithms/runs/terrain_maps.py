@@ -4,31 +4,23 @@ from __future__ import annotations
 
 import contextlib
 import tempfile
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
 from ..core.files import replacing, temporary_folder
-from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
-from ..filters import DEFAULT_METHOD, METHODS
 from ..las.writing import check_cloud
-from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.contours import Contours, Interval, check_contours, write_contours
 from ..products.raster_files import RasterFiles
-from ..products.raster_grid import ANYWHERE, RasterTarget
-from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
 from ..rasters.writing import replacing_raster
 from ..steps.output import Output
-from ..survey.area import Area
-from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.files import is_one_file
-from ..survey.selection import Selection
 from .entry import classify
 from .one_file import Summary
 from .options import TileOutput
-from .requests import ClassifyRequest, Request
+from .requests import ClassifyRequest
 
 # The longest first, since it ends as the second does.
 _FORMATS = ("copc.laz", "laz", "las")
@@ -53,37 +45,26 @@ class MapFiles(NamedTuple):
 
 
 @dataclass(frozen=True)
-class MapRequest(Request):
-    """The parameters of all steps from a point cloud to maps, of an area only if there is one."""
+class MapRequest(ClassifyRequest):
+    """A request for all steps from a point cloud to maps, of an area only if there is one.
 
-    parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
-    selection: Selection = field(default_factory=Selection)
+    Attributes
+    ----------
+    contours : Contours
+        How contour lines are made.
+    """
+
     terrain: MapTerrain = field(default_factory=MapTerrain)
-    surface: SurfaceModel = field(default_factory=SurfaceModel)
     contours: Contours = field(default_factory=Contours)
-    area: Area | None = None
-    corrections: Corrections = NO_CORRECTIONS
-    constraints: Constraints = NO_CONSTRAINTS
-    raster_target: RasterTarget = ANYWHERE
+
+    def __post_init__(self) -> None:
+        """Check nothing: `classify` does."""
 
     def classify(self, rasters: RasterFiles) -> ClassifyRequest:
         """Return the request to classify and to make rasters in the same run."""
-        return ClassifyRequest(
-            files=self.files,
-            tiles=self.tiles,
-            resources=self.resources,
-            crs=self.crs,
-            parameters=self.parameters,
-            selection=self.selection,
-            area=self.area,
-            output=Output(area_only=self.area is not None),
-            corrections=self.corrections,
-            rasters=rasters,
-            terrain=self.terrain,
-            surface=self.surface,
-            constraints=self.constraints,
-            raster_target=self.raster_target,
-        )
+        own = {each.name: getattr(self, each.name) for each in fields(ClassifyRequest)}
+        output = Output(area_only=self.area is not None)
+        return ClassifyRequest(**{**own, "rasters": rasters, "output": output})
 
 
 class MapSummary(NamedTuple):

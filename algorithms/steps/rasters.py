@@ -1,18 +1,16 @@
-"""The step that makes rasters, and writing the rasters of all blocks as one."""
+"""The step that makes rasters."""
 
 from __future__ import annotations
 
-import contextlib
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Callable, Iterable, Mapping, Sequence
+from typing import Callable, Iterable
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import new_folder, replacing
-from ..core.points import Box, Frame, box_in_words
+from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..crs.system import Crs
 from ..engine.blocks import Block, Blocks
@@ -27,56 +25,24 @@ from ..las.cloud import PointCloud, survey_frame
 from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.fixed_terrain import FixedTerrain, fixed_terrain
 from ..products.height_above_ground import with_roads
-from ..products.mosaic import Mosaic, gathered_strips
-from ..products.outlines import Held, Outlines, mosaics_of
 from ..products.raster_block import LAYERS, BlockRasters, RasterStep
-from ..products.raster_files import RASTERS, Raster, RasterFiles, folder_of, virtual_of
+from ..products.raster_files import RasterFiles
 from ..products.raster_grid import (
     ANYWHERE,
-    MOST_CELLS,
     CellGrid,
     RasterTarget,
-    box_of,
     cell_grid,
-    no_points,
 )
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
-from ..rasters.geotiff import RasterGrid
-from ..rasters.virtual import write_virtual
-from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import NOISE
 
-# In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
-# because of a few points with stray coordinates.
-_MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
-# Cells up to so many metres from the area are made as well, because the surroundings decide which
-# gaps lie inside the survey.
-AROUND_AREA = 1000.0
 # Points are thinned unless there are so many times as many cells.
 _MOST_THINNED = 10
 # Bytes that a block takes for each point in it and its buffer, and for each cell.
 _BYTES_A_POINT, _BYTES_A_CELL = 130.0, 120.0
-
-
-@dataclass(frozen=True)
-class RasterSize:
-    """The size of rasters.
-
-    Attributes
-    ----------
-    ground_count, surface_count : int
-        Points that terrain and surface were made from.
-    columns, rows : int
-        Size of the rasters.
-    """
-
-    ground_count: int
-    surface_count: int
-    columns: int
-    rows: int
 
 
 @dataclass
@@ -285,151 +251,3 @@ def _made_of(
         top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
     part = progress.part(0.2, 1.0)
     return step.of_block.of(points, ground, top, core, corner, block.box, edges, part)
-
-
-def write_rasters(
-    made: Sequence[BlockRasters],
-    frame: Frame,
-    step: MakeRasters,
-    outputs: contextlib.ExitStack,
-    progress: Progress = SILENT,
-    files: Mapping[str, Box] | None = None,
-) -> RasterSize:
-    """Write the rasters of a survey; they get their names when `outputs` is closed.
-
-    Parameters
-    ----------
-    made : sequence of BlockRasters
-        The rasters of its blocks.
-    frame : Frame
-        Frame of the survey, with the origin of the step.
-    step : MakeRasters
-        Which rasters, and where they go.
-    outputs : contextlib.ExitStack
-        Receives the files.
-    progress : Progress
-        Receives progress and messages.
-    files : mapping of str to Box, optional
-        Names and extents, in units of the CRS, of the files that get their own rasters.
-
-    Raises
-    ------
-    BareEarthError
-        If there are no points, or a raster cannot be written.
-    """
-    cell, wanted = step.cell, step.files.wanted
-    window, area = _window_of(made, cell), None
-    whole = window
-    if step.area is not None:
-        area = step.area.scaled(frame.horizontal_unit, frame.origin)
-        whole = _window_in(area.buffered_box(AROUND_AREA), window, cell, step.area)
-        window = _window_in(area.bounds, window, cell, step.area)
-    outlines = Outlines(Held(made, whole, cell), step.of_block)
-    mosaics = mosaics_of(made, whole, step.of_block, outlines, progress.part(0.0, 0.3))
-    window = _covered(window, step, frame)
-    parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
-    for (name, path), part in zip(wanted.items(), parts):
-        raster = RASTERS[name]
-        measured = outlines.canopy() if raster.is_canopy else None
-        layers = [mosaics[each].limited(measured, area) for each in raster.layers]
-        write = partial(_write, raster, layers, frame, step, outputs)
-        if files is None:
-            write(path, window, part)
-        else:
-            windows = _windows_of(files, window, cell, frame)
-            shares = part.shares(*[1.0] * len(windows))
-            folder = outputs.enter_context(new_folder(folder_of(path)))
-            names = [folder / f"{each}.tif" for each in windows]
-            grids = dict(zip(names, map(write, names, windows.values(), shares)))
-            virtual, grid = virtual_of(path), _grid_of(window, step, frame)
-            temporary = outputs.enter_context(replacing(virtual))
-            band = Band.of(grid, raster.empty(step.model), raster.shows, raster.bands)
-            write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
-    counts = np.sum([each.counts for each in made], axis=0)
-    return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
-
-
-def _write(
-    raster: Raster,
-    layers: Sequence[Mosaic],
-    frame: Frame,
-    step: MakeRasters,
-    outputs: contextlib.ExitStack,
-    path: Path,
-    window: CellWindow,
-    progress: Progress,
-) -> RasterGrid:
-    """Write some cells of a raster; return where they lie."""
-    grid = _grid_of(window, step, frame)
-    make = partial(raster.make, grid=grid, model=step.model)
-    if raster.is_canopy:
-        make = partial(make, pit_free=step.surface.pit_free)
-    strips = gathered_strips(layers, window, make, raster.margin(grid, step.model), progress)
-    temporary = outputs.enter_context(replacing_raster(path))
-    rows = Rows(window.shape, raster.kind, strips, raster.bands)
-    write_geotiff(temporary, rows, grid, raster.empty(step.model), progress, raster.shows)
-    return grid
-
-
-def _windows_of(
-    files: Mapping[str, Box], whole: CellWindow, cell: float, frame: Frame
-) -> dict[str, CellWindow]:
-    """Return the cells of each file, without files that lie outside of all cells."""
-    windows = {}
-    for name, box in files.items():
-        metres = (np.array(box) - np.tile(frame.origin, 2)) * frame.horizontal_unit
-        window = CellWindow.around(tuple(metres.tolist()), cell).within(whole)
-        if min(window.shape) > 0:
-            windows[name] = window
-    return windows
-
-
-def _window_of(made: Sequence[BlockRasters], cell: float) -> CellWindow:
-    """Return the cells that cover all points."""
-    boxes = np.array([each.box for each in made if not np.isnan(each.box).any()]).reshape(-1, 4)
-    if not len(boxes):
-        raise BareEarthError(
-            "There is no ground point to make a terrain model of. Check the selection of points"
-            " and the parameters."
-        )
-    low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
-    window = CellWindow.around((*low, *high), cell)
-    cells = window.rows * window.columns
-    covered = np.prod(boxes[:, 2:] - boxes[:, :2] + cell, axis=1).sum() / (cells * cell**2)
-    if cells > MOST_CELLS or (cells > _MANY_CELLS and covered < _LEAST_COVERED):
-        raise BareEarthError(
-            f"The raster would have {window.columns:,} x {window.rows:,} cells of {cell:g} m."
-            " Choose a larger cell size, or remove points with stray coordinates."
-        )
-    return window
-
-
-def _covered(window: CellWindow, step: MakeRasters, frame: Frame) -> CellWindow:
-    """Return the cells of the rasters, given those that have points."""
-    wanted = step.cells.window if step.cells else None
-    if wanted is None:
-        return window
-    if min(wanted.within(window).shape) <= 0:
-        raise no_points(*(box_of(_grid_of(each, step, frame)) for each in (wanted, window)))
-    return wanted
-
-
-def _window_in(box: Box, whole: CellWindow, cell: float, area: Area) -> CellWindow:
-    """Return the cells that cover a box in metres; `area` is in units of the CRS."""
-    window = CellWindow.around(box, cell).within(whole)
-    if min(window.shape) <= 0:
-        raise no_point_in(area)
-    return window
-
-
-def no_point_in(area: Area) -> BareEarthError:
-    """Return the error for an area, in units of the CRS, without any point."""
-    return BareEarthError(
-        f"No point lies in the area ({box_in_words(area.bounds)}), so that no raster can be made."
-        " Give the area in the CRS of the points."
-    )
-
-
-def _grid_of(window: CellWindow, step: MakeRasters, frame: Frame) -> RasterGrid:
-    cells = step.cells or CellGrid(step.cell, step.cell / frame.horizontal_unit)
-    return cells.of(window, frame)

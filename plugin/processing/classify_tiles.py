@@ -59,7 +59,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Classify the files."""
-        from ...algorithms.runs.entry import ClassifyRequest, classify
+        from ...algorithms.runs.entry import classify
+        from ...algorithms.runs.requests import ClassifyRequest
 
         chosen = options.as_command(self.chosen(parameters, context))
         folder = self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context)

@@ -26,7 +26,8 @@ from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.runs.raster_jobs import RasterJob
-from bare_earth.algorithms.steps.rasters import MakeRasters, write_rasters
+from bare_earth.algorithms.steps.raster_output import write_rasters
+from bare_earth.algorithms.steps.rasters import MakeRasters
 
 rasterio = pytest.importorskip("rasterio")
 

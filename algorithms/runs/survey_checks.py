@@ -1,0 +1,90 @@
+"""Refuses, before any work, a survey or outputs that would fail at the end."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Sequence
+
+from ..core.errors import BareEarthError
+from ..core.files import check_output, split_name
+from ..crs.measurable import require_measurable
+from ..las.writing import check_writable
+from ..products.raster_files import RasterFiles
+from ..steps.rasters import MakeRasters
+from ..survey.files import Survey
+from ..survey.vpc import check_vpc
+
+
+def check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Path]) -> None:
+    """Refuse, before any work, a survey and outputs that would fail or overwrite something."""
+    require_measurable("The survey", survey.crs, survey.box)
+    if folder.exists() and not folder.is_dir():
+        raise BareEarthError(f"Cannot write into {folder}: it is a file. Give a folder.")
+    if not folder.exists():
+        check_output(folder)
+    here = folder.resolve()
+    for path in _paths(survey):
+        if path.parent.resolve() == here:
+            raise BareEarthError(
+                f"Input and output are in the same folder, {folder}. Choose another output."
+            )
+    for each in filter(Path.is_dir, searched):
+        if each.resolve() in here.parents:
+            raise BareEarthError(
+                f"The output {folder} is in the folder {each}, which is searched for inputs with"
+                " all its subfolders. Choose another output."
+            )
+    check_vpc(vpc)
+    if vpc.parent.resolve() != here:
+        check_output(vpc)
+
+
+def check_rasters(
+    step: MakeRasters, survey: Survey, folder: Path, others: tuple[Path, ...]
+) -> None:
+    """Refuse rasters that could not be written; the folder of the output may not be there yet."""
+    rasters = step.files
+    if not folder.exists():
+        paths = rasters.wanted.items()
+        rasters = RasterFiles(**{name: path for name, path in paths if path.parent != folder})
+    rasters.check(others, step.per_file)
+    if step.per_file:
+        check_stems(survey)
+
+
+def check_stems(survey: Survey) -> None:
+    """Refuse files whose rasters would get the same name."""
+    stems: dict[str, Path] = {}
+    for tile in survey.tiles:
+        stem = split_name(tile.path)[0]
+        other = stems.setdefault(os.path.normcase(stem).lower(), tile.path)
+        if other is not tile.path:
+            raise BareEarthError(
+                f"The rasters of {other} and of {tile.path} would both become {stem}.tif. Rename"
+                " one of the files, or make one raster of all."
+            )
+
+
+def targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path, Path]:
+    """Return the output of each input; refuse those that would get the same name."""
+    targets: dict[Path, Path] = {}
+    inputs: dict[str, Path] = {}
+    for path in _paths(survey):
+        name = path.name
+        if format != "same":
+            name = f"{split_name(path)[0]}.{format}"
+        other = inputs.setdefault(os.path.normcase(name).lower(), path)
+        if other is not path:
+            raise BareEarthError(
+                f"{other} and {path} would both become {folder / name}. Rename one of them, or"
+                " write them into different folders."
+            )
+        targets[path] = folder / name
+        check_writable(targets[path])
+    return targets
+
+
+def _paths(survey: Survey) -> list[Path]:
+    """Return the paths of all files, also of those that cannot be read."""
+    return [tile.path for tile in survey.tiles] + [tile.path for tile in survey.broken]
