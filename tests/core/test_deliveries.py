@@ -318,16 +318,15 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
 
 
 @pytest.mark.parametrize("is_one", [True, False])
-def test_key_points_are_among_the_ground_that_water_leaves(scene, tmp_path, is_one):
-    options = DeliveryOptions(hold_out_share=None, key_points=True)
-    how = DeliveryRequest(options=options, constraints=given_water(0.71)[0])
-    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", how)
-    clouds = [laspy.read(each) for each in (tmp_path / "out" / "points").glob("*.laz")]
+def test_key_points_are_among_the_ground_that_water_leaves(scene, watered, tmp_path, is_one):
+    how, folder = with_water(has_key_points=True), tmp_path / "out"
+    summary, folder = (deliver(scene[1], folder, how), folder) if is_one else watered(how)
+    clouds = [laspy.read(each) for each in (folder / "points").glob("*.laz")]
     marked = [np.asarray(each.classification)[np.asarray(each.key_point) == 1] for each in clouds]
     assert set(np.concatenate(marked)) == {2} and all(map(len, marked))
-    assert {9, 20} <= summary.class_counts.keys() and not list((tmp_path / "out").glob(".w*"))
+    assert {9, 20} <= summary.class_counts.keys() and not list(folder.glob(".w*"))
     names = {"classified.vpc", "east.laz", "west.laz"}
-    written = {each.name for each in (tmp_path / "out" / "points").iterdir()}
+    written = {each.name for each in (folder / "points").iterdir()}
     assert written == ({"whole.laz"} if is_one else names)
 
 

@@ -48,7 +48,7 @@ def test_points_at_one_place_are_classified_without_an_error(parameters, count):
 
 
 @pytest.mark.parametrize("method", METHODS.values(), ids=list(METHODS))
-@pytest.mark.parametrize("density", [1.0, 4.0, 8.0, 20.0])
+@pytest.mark.parametrize("density", [1.0, 4.0, pytest.param(8.0, marks=pytest.mark.long), 20.0])
 @pytest.mark.parametrize("slope", [0.0, 0.3])
 def test_houses_trees_and_low_noise_are_told_from_the_slope_they_stand_on(method, density, slope):
     points, truth = village(slope, density=density)

@@ -97,7 +97,12 @@ def run(source, folder, parameters, resources, *policy, **options):
 @pytest.mark.parametrize(
     ("parameters", "selection", "area"),
     [
-        *((each, Selection(low_noise_class=True), None) for each in PARAMETERS),
+        # The methods by themselves are left to the long tests where another line has them.
+        (PARAMETERS[0], Selection(low_noise_class=True), None),
+        *(
+            pytest.param(each, Selection(low_noise_class=True), None, marks=LONG)
+            for each in PARAMETERS[1:]
+        ),
         (SlopeFilter(), Selection(seed_classes=(9,), returns="all", others="unclassified"), None),
         (SlopeFilter(), Selection(seed_classes=(9,), from_classes=(1, 2, 7)), None),
         (GridMinimum(), Selection(), Area((EAST + 20, NORTH + 10, EAST + 110, NORTH + 60))),

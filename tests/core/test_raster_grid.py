@@ -225,7 +225,7 @@ def test_what_is_no_extent_is_refused(source, tmp_path, box):
     assert "smallest x and y" in errors
 
 
-def test_each_file_gets_its_part_of_the_grid(files, tmp_path, threads_for_processes):
+def test_each_file_gets_its_part_of_the_grid(source, files, tmp_path):
     like = given(tmp_path / "like.tif", shape=(70, 100))
     out = tmp_path / "dtm.tif"
     code, _, errors = said(
@@ -236,7 +236,7 @@ def test_each_file_gets_its_part_of_the_grid(files, tmp_path, threads_for_proces
         assert joined.transform == grid.transform
         assert joined.shape == grid.shape
         whole = values(joined)
-    alone = made(tmp_path / "alone", files, "--crs", CRS, "--like", like, names=["dtm"])["dtm"]
+    alone = made(tmp_path / "alone", source, "--crs", CRS, "--like", like, names=["dtm"])["dtm"]
     inside = ~whole.mask
     assert inside.mean() > 0.9
     assert np.array_equal(whole[inside], values(alone)[inside])

@@ -234,12 +234,12 @@ def test_without_a_window_the_middle_is_taken(source, tmp_path, capsys):
     x, *_ = scene()
     heard = Heard()
     page = tmp_path / "p.html"
-    summary = compare_settings([source], page, options=BOTH, progress=heard)
+    summary = compare_settings([source], page, options=ONE, progress=heard)
     # The scene is smaller than 250 m.
     assert summary.point_count == len(x)
     assert any("window in the middle of the points, x 5" in each for each in heard.infos)
     first = page.read_bytes()
-    words = ["compare-settings", str(source), str(page), "--settings", *BOTH.settings]
+    words = ["compare-settings", str(source), str(page), "--settings", *ONE.settings]
     assert main(words) == 0 and page.read_bytes() == first
     assert main([*words, "--extent", *map(repr, summary.window)]) == 0
     assert page.read_bytes() == first
