@@ -5,6 +5,7 @@ from __future__ import annotations
 import collections
 import re
 from concurrent.futures import BrokenExecutor, CancelledError, Future
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Collection, Sequence
 
@@ -78,6 +79,8 @@ class JobQueue:
         self._ready: collections.deque[Job] = collections.deque()
         # Results of blocks that are not there yet, and how many jobs use each result.
         self._missing = {file for job in blocks for file in job.files}
+        # Results that lack what could not be done round them.
+        self._partial: set[Path] = set()
         self._uses = collections.Counter(kept)
         # The jobs that wait for a result, and for how many results they wait.
         self._waiting: dict[Path, list[Job]] = collections.defaultdict(list)
@@ -193,10 +196,22 @@ class JobQueue:
                 del self._lacks[user]
                 self._finished += _weight(user)
                 self._end_tile(user, outcome)
-            elif not self._lacks[user]:  # blocks do without what could not be done round them
+                continue
+            if outcome.failure is not None:
+                self._partial.update(user.files)
+            if not self._lacks[user]:
                 del self._lacks[user]
-                self._ready.append(user)
+                self._ready.append(self._marked(user))
         self._release(job)
+
+    def _marked(self, job: Job) -> Job:
+        """Return a job whose output a later run makes again, if it lacks something."""
+        if self._partial.isdisjoint(job.needs):
+            return job
+        if isinstance(job, TileJob):
+            return replace(job, fingerprint={})
+        self._partial.update(job.files)
+        return job
 
     def _split(self, job: BlockJob) -> None:
         """Try the blocks of a job one by one."""

@@ -535,7 +535,7 @@ class FailingInTheEast(LabelGround):
 
 
 @pytest.mark.parametrize("heights", [False, True])
-def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, heights):
+def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, tmp_path, heights):
     def failing(job):
         if isinstance(job, PointJob) and isinstance(job.step, LabelGround):
             own = {each.name: getattr(job.step, each.name) for each in dataclasses.fields(job.step)}
@@ -547,6 +547,12 @@ def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, heigh
     assert 0 < len(summary.failures) < 6
     assert all("Unexpected ValueError: no" in each for each in summary.failures.values())
     assert summary.done_count == 6 - len(summary.failures)
+    # Heights beside it lack its ground, so a later run makes them again.
+    run = dict(blocks=blocks, points=output)
+    summary = classify_tiles([six], out, FAST, output=RESUME, **run)
+    assert summary.done_count == 6 and (summary.kept_count > 0) == (not heights)
+    classify_tiles([six], tmp_path / "once", FAST, **run)
+    assert bytes_of(out) == bytes_of(tmp_path / "once")
 
 
 class Impatient(Progress):
