@@ -25,10 +25,13 @@ class Unpacking(NamedTuple):
         An existing folder that is removed at the end of the run.
     is_whole : bool
         Whether whole records are needed for writing, or only what a cloud holds.
+    once : frozenset of Path
+        Files that are read only once more, so that unpacking them would be in vain.
     """
 
     folder: Path
     is_whole: bool
+    once: frozenset[Path] = frozenset()
 
     def of(self, las: LasFile, progress: Progress) -> LasFile:
         """Return a file that is read uncompressed; the file itself if the disk is full.
@@ -45,7 +48,7 @@ class Unpacking(NamedTuple):
         path = self.folder / f"{hashlib.sha256(key).hexdigest()[:32]}.records"
         with one_at_a_time(path.with_suffix(".lock")):
             if not path.exists():
-                if not has_room(self.folder, las.count):
+                if las.path in self.once or not has_room(self.folder, las.count):
                     return las
                 try:
                     with replacing(path) as temporary, temporary.open("w+b") as file:

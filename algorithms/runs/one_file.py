@@ -163,7 +163,8 @@ class _FileRun:
 
     def work(self, progress: Progress) -> None:
         """Run the steps. Each sees what those before it have found."""
-        start, weights, total = 0, _weights(self.steps), sum(_weights(self.steps))
+        start, weights = 0, _weights(self.steps)
+        total = sum(weights)
         while start < len(self.steps):
             end = self._end_of_group(start)
             part = progress.part(sum(weights[:start]) / total, sum(weights[:end]) / total)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
@@ -234,17 +236,23 @@ def _jobs(
     missing = [place for place, file in files.items() if not file.exists()]
     least = max((least_memory(grid, survey, place) for place in missing), default=0)
     workers.start(next(iter(files.values())).parent, least, len(missing), 0)
-    jobs = []
-    for group in grouped(grid, survey, missing, workers.at_once, workers.share.bytes):
-        window = grid.window(group)
+    groups = grouped(grid, survey, missing, workers.at_once, workers.share.bytes)
+    sources_of_each = []
+    for group in groups:
         paths = {path for place in group for path in sources_of(grid, survey, place)}
-        sources = tuple(sorted(results.read_from[path] for path in paths))
+        sources_of_each.append(tuple(sorted(results.read_from[path] for path in paths)))
+    uses = Counter(itertools.chain(*sources_of_each))
+    jobs = []
+    for group, sources in zip(groups, sources_of_each):
+        window = grid.window(group)
+        once = frozenset(path for path in sources if uses[path] == 1)
+        unpacked = None if unpacking is None else unpacking._replace(once=once)
         before = tuple(found.within(window) for found in results.found)
         jobs.append(
             RasterJob(
                 grid, tuple(group), tuple(files[place] for place in group), sources,
                 points_in(survey, window), before, results.finished.intersection(sources),
-                unpacking, step,
+                unpacked, step,
             )
         )  # fmt: skip
     return jobs

@@ -11,7 +11,7 @@ import laspy
 import lazrs
 import numpy as np
 import pytest
-from runs import classify_file, classify_tiles
+from runs import classify_file, classify_tiles, write_terrain_models
 from surveys import bytes_of, cut, strip, write
 
 from bare_earth.algorithms.core.errors import BareEarthError
@@ -24,6 +24,7 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.records import needed, read_records
+from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.window import read_window
 
@@ -145,6 +146,22 @@ def test_one_file_that_does_not_fit_is_decompressed_once(tmp_path, decompressed,
     assert any("do not fit into the memory" in each for each in heard.infos)
     assert decompressed == ["one.laz"]
     assert much.read_bytes() == little.read_bytes()
+
+
+@pytest.mark.parametrize("is_shared", [False, True])
+def test_rasters_unpack_only_files_that_several_jobs_read(
+    tmp_path, decompressed, monkeypatch, is_shared
+):
+    # In the middle of a block, or where four of them meet.
+    shift = 0 if is_shared else 50_000
+    six = cut(tmp_path / "in", strip(4000, 150.0, 40.0) + np.array([shift, shift, 0]))
+    classify_tiles([six], tmp_path / "out", FAST)
+    unpacked, unpack = [], unpacking_module.unpack
+    monkeypatch.setattr(unpacking_module, "unpack", lambda *v: unpacked.append(1) or unpack(*v))
+    decompressed.clear()
+    write_terrain_models([tmp_path / "out"], RasterFiles(dtm=tmp_path / "dtm.tif"))
+    assert sorted(decompressed) == sorted(path.name for path in six.iterdir())
+    assert bool(unpacked) == is_shared
 
 
 def test_processes_find_what_another_one_unpacked(tmp_path):
