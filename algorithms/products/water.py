@@ -93,8 +93,8 @@ class WaterBody(NamedTuple):
         "lake" or "river".
     rings : tuple of numpy.ndarray of float64, shape (n, 3)
         Shore and islands, closed: x, y and level in metres.
-    line : numpy.ndarray of float64, shape (m, 3)
-        The middle of a river, downstream, with its level; empty for a lake.
+    lines : tuple of numpy.ndarray of float64, shape (m, 3)
+        The middle of each branch of a river, downstream, with its level; none for a lake.
     level, lowest : float
         The level in metres; of a river, the level at its upper and lower end.
     spread : float
@@ -111,7 +111,7 @@ class WaterBody(NamedTuple):
 
     kind: str
     rings: tuple[np.ndarray, ...]
-    line: np.ndarray
+    lines: tuple[np.ndarray, ...]
     level: float
     lowest: float
     spread: float
@@ -328,11 +328,11 @@ def _made(
         return np.column_stack((x, y, levels.at(places)))
 
     rings = tuple(placed(each) for each in rings_of(region.water))
-    line = placed(levels.line) if kind == "river" else np.zeros((0, 3))
-    if len(line):
-        line[:, 2] = levels.heights
+    lines: tuple[np.ndarray, ...] = ()
+    if kind == "river":
+        lines = (np.column_stack((placed(levels.line)[:, :2], levels.heights)),)
     return WaterBody(
-        kind, rings, line, float(levels.heights[0]), float(levels.heights[-1]), levels.spread,
+        kind, rings, lines, float(levels.heights[0]), float(levels.heights[-1]), levels.spread,
         certainty, float(region.water.sum()) * grid.cell**2, width, share, filled,
     )  # fmt: skip
 

@@ -168,7 +168,7 @@ class SurveyWater:
             water=tuple(
                 tuple(self.in_crs(ring)[:, :2] for ring in each.rings) for each in self.bodies
             ),
-            rivers=tuple(self.in_crs(each.line) for each in self.bodies if len(each.line)),
+            rivers=tuple(self.in_crs(line) for each in self.bodies for line in each.lines),
         )
 
     def polygons(self) -> Iterator[Feature]:
@@ -188,8 +188,8 @@ class SurveyWater:
         for number, each in enumerate(self.bodies, start=1):
             for place, ring in enumerate(each.rings):
                 yield Feature((number, "island" if place else "shore"), self.in_crs(ring))
-            if len(each.line):
-                yield Feature((number, "river"), self.in_crs(each.line))
+            for line in each.lines:
+                yield Feature((number, "river"), self.in_crs(line))
 
     def write(
         self, target: Path, breaklines: Path | None = None, progress: Progress = SILENT

@@ -118,8 +118,9 @@ def test_a_river_falls_by_a_metre_in_500_m():
     (body,) = scene.water()
     assert body.kind == "river"
     assert overlap([body], river, (500.0, 300.0)) > 0.9
-    assert (np.diff(body.line[:, 2]) <= 0).all()
-    x, _, level = body.line[2:-2].T
+    (line,) = body.lines
+    assert (np.diff(line[:, 2]) <= 0).all()
+    x, _, level = line[2:-2].T
     assert np.abs(level - (LEVEL - 0.002 * x)).max() < 0.25
     assert body.level - body.lowest == pytest.approx(1.0, abs=0.25)
     assert 30 < body.width < 50
