@@ -64,9 +64,10 @@ def test_a_river_goes_on_below_a_bridge(kind, bridge):
     (body,) = scene.water()
     assert body.kind == "river" and body.grade == "certain"
     assert overlap([body], river, (LONG, HIGH)) > 0.9
-    x, _, found = body.line[2:-2].T
+    (line,) = body.lines
+    x, _, found = line[2:-2].T
     assert np.ptp(x) > 350 and np.abs(found - level(x, 0)).max() < 0.25
-    assert (np.diff(body.line[:, 2]) <= 0).all()
+    assert (np.diff(line[:, 2]) <= 0).all()
     # Below the deck as well, where the truth is 40 m wide.
     x, y = np.meshgrid(np.arange(MIDDLE - 12.0, MIDDLE + 13.0), np.arange(0.5, HIGH))
     true, found = river(x, y) < 0, contains(body, x, y)
