@@ -101,7 +101,9 @@ class CheckOutputs(NamedTuple):
                 _write_layer(folder / self.residuals.name, found, survey, progress)
             if self.table and found is not None:
                 table = opened.enter_context(replacing(self.table))
-                table.write_text(_table_of(found), encoding="utf-8", newline="")
+                # Excel knows by the byte order mark that it is UTF-8.
+                with open(table, "w", encoding="utf-8-sig", newline="") as file:
+                    file.write(_table_of(found))
             if self.report:
                 page = opened.enter_context(replacing(self.report))
                 page.write_text(checkpoint_html(check, found, survey), encoding="utf-8")

@@ -112,8 +112,10 @@ def _by_pyogrio(name: str, attribute: str | None) -> Iterator[_Layer]:
         fields = pyogrio.read_info(name, layer)["fields"].tolist()
         columns = [field for field in fields if attribute in (None, field)]
         about, _, shapes, values = pyogrio.raw.read(name, layer, columns=columns)
-        rows = zip(*(each.tolist() for each in values)) if columns else [()] * len(shapes)
-        features = [(shape, dict(zip(columns, row))) for shape, row in zip(shapes, rows)]
+        # Before 0.13 the fields come in alphabetical order, not in that of the file.
+        names = about["fields"].tolist()
+        rows = zip(*(each.tolist() for each in values)) if names else [()] * len(shapes)
+        features = [(shape, dict(zip(names, row))) for shape, row in zip(shapes, rows)]
         yield _Layer(layer, about["crs"], features)
 
 

@@ -316,6 +316,28 @@ def collection(path, crs=None, z=True, **fields):
     return path
 
 
+def test_attributes_are_paired_with_the_names_that_the_library_returns(tmp_path, monkeypatch):
+    pyogrio = pytest.importorskip("pyogrio")
+    path = collection(tmp_path / "p.geojson", "EPSG:25832", False, Alt=7.0)
+    about, _, shapes, values = pyogrio.raw.read(str(path))
+    pyogrio.raw.write(
+        str(tmp_path / "p.gpkg"), shapes, values, about["fields"], geometry_type="Point",
+        crs="EPSG:25832",
+    )  # fmt: skip
+    reads = pyogrio.raw.read
+
+    def in_alphabetical_order(*words, **others):
+        """Return the fields as pyogrio before 0.13 does."""
+        about, ids, shapes, values = reads(*words, **others)
+        order = np.argsort(about["fields"])
+        return {**about, "fields": about["fields"][order]}, ids, shapes, [values[k] for k in order]
+
+    monkeypatch.setattr(pyogrio.raw, "read", in_alphabetical_order)
+    found = read_checkpoints(tmp_path / "p.gpkg", "z=H")
+    assert found.xyz.tolist() == [list(each[1:4]) for each in ROWS]
+    assert found.names == ("A1", "A2")
+
+
 @pytest.mark.parametrize("has_z", [True, False])
 @pytest.mark.parametrize("suffix", [".geojson", ".gpkg", ".shp"])
 def test_vector_files(tmp_path, suffix, has_z):
@@ -411,7 +433,8 @@ def test_the_command_writes_page_table_and_layer(survey, tmp_path, capsys):
     assert not tags.open and not tags.links and "<P1>" not in page
     assert figures["statement"] in tags.texts and page.count("<circle") == 36
     assert page.count("<svg") == 2 and "held out" in page
-    with open(tmp_path / "t.csv", encoding="utf-8", newline="") as file:
+    assert (tmp_path / "t.csv").read_bytes().startswith(b"\xef\xbb\xbfx,y,name")  # for Excel
+    with open(tmp_path / "t.csv", encoding="utf-8-sig", newline="") as file:
         read = list(csv.DictReader(file))
     assert len(read) == 36 and read[34]["name"] == "'=1+1" and read[35]["error"] == ""
     assert {each["state"] for each in read} == {"counted", "outside"}
