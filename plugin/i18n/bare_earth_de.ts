@@ -242,6 +242,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Bare Earth: LAZ-Unterstützung</translation>
     </message>
     <message>
+        <source>Bathymetric bottom</source>
+        <translation>Gewässergrund</translation>
+    </message>
+    <message>
         <source>Boundary</source>
         <translation>Begrenzung</translation>
     </message>
@@ -584,6 +588,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
     <message>
         <source>Depth of low outliers</source>
         <translation>Tiefe tiefer Ausreißer</translation>
+    </message>
+    <message>
+        <source>Derived water surface</source>
+        <translation>Abgeleitete Wasseroberfläche</translation>
     </message>
     <message>
         <source>Difference between strips</source>
@@ -1050,6 +1058,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Nicht beachtete Klassen der Referenz</translation>
     </message>
     <message>
+        <source>Ignored ground</source>
+        <translation>Ausgelassener Boden</translation>
+    </message>
+    <message>
         <source>Ignored ground beside the shore</source>
         <translation>Ignorierter Boden neben dem Ufer</translation>
     </message>
@@ -1346,6 +1358,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Mindestzahl der Nachbarn</translation>
     </message>
     <message>
+        <source>Model key point</source>
+        <translation>Modellschlüsselpunkt</translation>
+    </message>
+    <message>
         <source>Models</source>
         <translation>Modelle</translation>
     </message>
@@ -1472,6 +1488,14 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Only the points that a terrain model needs become ground. Of all other ground points, none lies farther from the TIN of these key points than the two tolerances below.</source>
         <translation>Nur die Punkte, die ein Geländemodell braucht, werden Boden. Von allen anderen Bodenpunkten liegt keiner weiter vom TIN dieser Schlüsselpunkte entfernt, als die beiden folgenden Toleranzen erlauben.</translation>
+    </message>
+    <message>
+        <source>Overhead structure</source>
+        <translation>Überspannende Struktur</translation>
+    </message>
+    <message>
+        <source>Overlap</source>
+        <translation>Überlappung</translation>
     </message>
     <message>
         <source>Overlap of strips</source>
@@ -1950,6 +1974,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Glättung der Höhenlinien</translation>
     </message>
     <message>
+        <source>Snow</source>
+        <translation>Schnee</translation>
+    </message>
+    <message>
         <source>Specification</source>
         <translation>Spezifikation</translation>
     </message>
@@ -1964,6 +1992,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Stop triangulation when edges are shorter than</source>
         <translation>Vermaschung beenden, wenn Kanten kürzer sind als</translation>
+    </message>
+    <message>
+        <source>Submerged object</source>
+        <translation>Objekt unter Wasser</translation>
     </message>
     <message>
         <source>Surface minus terrain: the height of trees, and of buildings too. Empty where no ground point lies within 50 m (or 20 cells), and in gaps of the surface.</source>
@@ -2020,6 +2052,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Take part as others do</source>
         <translation>Teilnehmen wie die übrigen</translation>
+    </message>
+    <message>
+        <source>Temporal exclusion</source>
+        <translation>Zeitlich ausgeschlossen</translation>
     </message>
     <message>
         <source>Terrain model</source>
@@ -2396,6 +2432,14 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Water</source>
         <translation>Gewässer</translation>
+    </message>
+    <message>
+        <source>Water column</source>
+        <translation>Wassersäule</translation>
+    </message>
+    <message>
+        <source>Water surface</source>
+        <translation>Wasseroberfläche</translation>
     </message>
     <message>
         <source>What is no building, no bridge and no noise becomes low (3), medium (4) or high (5) vegetation by its height above ground. The LAS specification has these classes, but no limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.</source>

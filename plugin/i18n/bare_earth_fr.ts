@@ -242,6 +242,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Bare Earth : prise en charge LAZ</translation>
     </message>
     <message>
+        <source>Bathymetric bottom</source>
+        <translation>Fond bathymétrique</translation>
+    </message>
+    <message>
         <source>Boundary</source>
         <translation>Limite</translation>
     </message>
@@ -584,6 +588,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
     <message>
         <source>Depth of low outliers</source>
         <translation>Profondeur des points aberrants bas</translation>
+    </message>
+    <message>
+        <source>Derived water surface</source>
+        <translation>Surface de l'eau dérivée</translation>
     </message>
     <message>
         <source>Difference between strips</source>
@@ -1050,6 +1058,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Classes ignorées de la référence</translation>
     </message>
     <message>
+        <source>Ignored ground</source>
+        <translation>Sol ignoré</translation>
+    </message>
+    <message>
         <source>Ignored ground beside the shore</source>
         <translation>Sol ignoré le long de la rive</translation>
     </message>
@@ -1346,6 +1358,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Nombre minimal de voisins</translation>
     </message>
     <message>
+        <source>Model key point</source>
+        <translation>Point clé du modèle</translation>
+    </message>
+    <message>
         <source>Models</source>
         <translation>Modèles</translation>
     </message>
@@ -1472,6 +1488,14 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Only the points that a terrain model needs become ground. Of all other ground points, none lies farther from the TIN of these key points than the two tolerances below.</source>
         <translation>Seuls les points dont un modèle de terrain a besoin deviennent du sol. Parmi tous les autres points sol, aucun n'est plus loin du TIN de ces points clés que les deux tolérances ci-dessous.</translation>
+    </message>
+    <message>
+        <source>Overhead structure</source>
+        <translation>Structure aérienne</translation>
+    </message>
+    <message>
+        <source>Overlap</source>
+        <translation>Recouvrement</translation>
     </message>
     <message>
         <source>Overlap of strips</source>
@@ -1950,6 +1974,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Lissage des courbes de niveau</translation>
     </message>
     <message>
+        <source>Snow</source>
+        <translation>Neige</translation>
+    </message>
+    <message>
         <source>Specification</source>
         <translation>Spécification</translation>
     </message>
@@ -1964,6 +1992,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Stop triangulation when edges are shorter than</source>
         <translation>Arrêter la triangulation quand les côtés sont plus courts que</translation>
+    </message>
+    <message>
+        <source>Submerged object</source>
+        <translation>Objet immergé</translation>
     </message>
     <message>
         <source>Surface minus terrain: the height of trees, and of buildings too. Empty where no ground point lies within 50 m (or 20 cells), and in gaps of the surface.</source>
@@ -2020,6 +2052,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Take part as others do</source>
         <translation>Participer comme les autres</translation>
+    </message>
+    <message>
+        <source>Temporal exclusion</source>
+        <translation>Exclusion temporelle</translation>
     </message>
     <message>
         <source>Terrain model</source>
@@ -2396,6 +2432,14 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Water</source>
         <translation>Eau</translation>
+    </message>
+    <message>
+        <source>Water column</source>
+        <translation>Colonne d'eau</translation>
+    </message>
+    <message>
+        <source>Water surface</source>
+        <translation>Surface de l'eau</translation>
     </message>
     <message>
         <source>What is no building, no bridge and no noise becomes low (3), medium (4) or high (5) vegetation by its height above ground. The LAS specification has these classes, but no limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.</source>

@@ -1,4 +1,4 @@
-"""Styles of point clouds: by class, with ground on top, or by height."""
+"""Styles of point clouds, by class or by height, as they are seen from above."""
 
 from __future__ import annotations
 
@@ -23,13 +23,25 @@ from qgis.PyQt.QtGui import QColor, QPainter
 
 from ...algorithms.las.copc_sample import sample_of
 from .. import compat
+from ..i18n import mark, tr
 from . import ramps
 
 _GROUND = 2
 # The brown of ground is lighter than that of QGIS, so that shades show. Classes that only mean "not
-# ground" are faint, but opaque: the map has the colours of the legend whatever lies below.
+# ground" are faint, but opaque: the map has the colours of the legend whatever lies below. Only
+# water is blue.
 _COLOURS = {
-    0: "#c8ced4", 1: "#c8ced4", _GROUND: "#d2a368", 6: "#d9736a", 8: "#8f5a1e", 9: "#5fb4e5",
+    0: "#c8ced4", 1: "#c8ced4", _GROUND: "#d2a368", 3: "#c6d98c", 4: "#74b84a", 5: "#23803c",
+    6: "#d9736a", 8: "#8f5a1e", 9: "#5fb4e5", 17: "#8a63b8", 19: "#e0c341", 20: "#a56f8d",
+    21: "#e8eef2", 22: "#7d8794", 40: "#b0a06a", 41: "#2f7fc4", 42: "#0f5a6b", 43: "#4d5f8f",
+    45: "#9ad0ee",
+}  # fmt: skip
+# QGIS calls these reserved, or knows none: they are of LAS 1.4 and its profile for bathymetry.
+_NAMES = {
+    8: mark("Model key point"), 12: mark("Overlap"), 19: mark("Overhead structure"),
+    20: mark("Ignored ground"), 21: mark("Snow"), 22: mark("Temporal exclusion"),
+    40: mark("Bathymetric bottom"), 41: mark("Water surface"), 42: mark("Derived water surface"),
+    43: mark("Submerged object"), 45: mark("Water column"),
 }  # fmt: skip
 _OPACITY = 0.8
 _METRES, _LEAST_MM, _MOST_MM = 0.6, 0.8, 2.0
@@ -51,6 +63,7 @@ def categories_of(classes: Iterable[int]) -> dict[int, tuple[str, QColor]]:
         label, colour = f"{value}", QColor.fromHsv(47 * value % 360, 140, 200)
         if value in known:
             label, colour = known[value].label(), known[value].color()
+        label = tr(_NAMES[value]) if value in _NAMES else label
         found[value] = label, QColor(_COLOURS.get(value, colour))
     return found
 
@@ -78,10 +91,7 @@ def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
             QgsPointCloudCategory(value, colour, label) for value, (label, colour) in wanted.items()
         ]
         renderer.setCategories(categories)
-        _scale(renderer)
-        if hasattr(renderer, "setDrawOrder2d"):  # 3.26
-            # The lowest points are drawn last, so that trees do not hide the ground.
-            renderer.setDrawOrder2d(Qgis.PointCloudDrawOrder.TopToBottom)
+        _draw_from_above(renderer)
         layer.setRenderer(renderer)
         show_through(layer)
 
@@ -123,9 +133,7 @@ def by_height(
         shader = QgsColorRampShader(0.0, high, ramps.ramp_of(ramps.HEIGHTS))
         shader.classifyColorRamp()
         renderer.setColorRampShader(shader)
-        _scale(renderer)
-        if hasattr(renderer, "setDrawOrder2d"):
-            renderer.setDrawOrder2d(Qgis.PointCloudDrawOrder.BottomToTop)
+        _draw_from_above(renderer)
         layer.setRenderer(renderer)
 
     return dress
@@ -138,8 +146,10 @@ def _usual_height(path: str, attribute: str) -> float:
     return float(np.quantile(values, _NEARLY_ALL)) if values.size else 0.0
 
 
-def _scale(renderer: QgsPointCloudRenderer) -> None:
-    """Let points grow with the scale of the map, between a least and a greatest size."""
+def _draw_from_above(renderer: QgsPointCloudRenderer) -> None:
+    """Draw the highest points last, and let points grow with the scale, between two sizes."""
+    if hasattr(renderer, "setDrawOrder2d"):  # 3.26
+        renderer.setDrawOrder2d(Qgis.PointCloudDrawOrder.BottomToTop)
     units = Qgis.RenderUnit if hasattr(Qgis, "RenderUnit") else QgsUnitTypes.RenderUnit
     size = QgsMapUnitScale()
     size.minSizeMMEnabled = size.maxSizeMMEnabled = True

@@ -1,5 +1,6 @@
 """How the layers of a run look, what they are called, and where they are in the tree."""
 
+import laspy
 import numpy as np
 import pytest
 from osgeo import gdal
@@ -70,6 +71,19 @@ def raster(path, values):
     return QgsRasterLayer(str(path))
 
 
+def colour_at(layers, x, y):
+    """Return the colour of a map of some layers at a place."""
+    settings = QgsMapSettings()
+    settings.setLayers(layers)
+    settings.setDestinationCrs(layers[0].crs())
+    settings.setOutputSize(QSize(101, 101))
+    settings.setExtent(QgsRectangle.fromCenterAndSize(QgsPointXY(x, y), 10.1, 10.1))
+    job = QgsMapRendererParallelJob(settings)
+    job.start()
+    job.waitForFinished()
+    return job.renderedImage().pixelColor(50, 50)
+
+
 def limits(layer):
     renderer = layer.renderer()
     return renderer.classificationMin(), renderer.classificationMax()
@@ -85,7 +99,7 @@ def test_classes_without_a_usual_colour_are_shown_too():
     assert len({each.color().name() for each in categories}) == 3
 
 
-def test_ground_is_drawn_in_front_and_what_is_not_classified_is_faint_but_opaque():
+def test_what_is_not_classified_is_faint_but_opaque():
     layer = QgsPointCloudLayer()
     clouds.by_class([1, 2])(layer)
     renderer = layer.renderer()
@@ -94,8 +108,46 @@ def test_ground_is_drawn_in_front_and_what_is_not_classified_is_faint_but_opaque
     assert colours[1].lightness() > colours[2].lightness() + 20
     assert colours[1].hslSaturation() < colours[2].hslSaturation() / 2
     assert renderer.pointSizeMapUnitScale().minSizeMMEnabled
-    if Qgis.QGIS_VERSION_INT >= 32600:
-        assert renderer.drawOrder2d() == Qgis.PointCloudDrawOrder.TopToBottom
+
+
+def test_every_class_that_we_write_has_a_name_and_a_colour_and_only_water_is_blue():
+    found = clouds.categories_of([*range(1, 10), 17, 18, 20, 40, 41, 45])
+    assert not [label for label, _ in found.values() if label.isdigit() or "Reserved" in label]
+    assert len({colour.name() for _, colour in found.values()}) == len(found)
+    # Greys have no hue, or hardly one.
+    blue = {value for value, (_, colour) in found.items()
+            if 170 <= colour.hsvHue() <= 250 and colour.hsvSaturation() > 30}  # fmt: skip
+    assert blue == {9, 41, 45}
+    assert found[20][0] == "Ignored ground" and found[8][0] == "Model key point"
+
+
+@pytest.mark.skipif(Qgis.QGIS_VERSION_INT < 32600, reason="shows no point clouds")
+def test_trees_are_seen_above_the_ground(tmp_path):
+    """As a forester sees them: the returns below a crown do not hide it."""
+    path = str(tmp_path / "trees.copc.laz")
+    side = np.arange(0.25, 40.0, 0.5)
+    x, y = (each.ravel() for each in np.meshgrid(side, side))
+    crown = np.hypot(x - 20, y - 20) < 8
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001, 0.001, 0.001), (500_000.0, 5_700_000.0, 0.0)
+    las = laspy.LasData(header)
+    las.x = np.concatenate([x, x[crown]]) + 500_000
+    las.y = np.concatenate([y, y[crown]]) + 5_700_000
+    las.z = np.concatenate([0 * x + 100, 0 * x[crown] + 115])
+    las.classification[:] = np.repeat([2, 5], [len(x), crown.sum()])
+    las.return_number[:] = las.number_of_returns[:] = 1
+    las.write(str(tmp_path / "trees.las"))
+    heights = {"INPUT": str(tmp_path / "trees.las"), "OUTPUT": path}
+    import processing
+
+    processing.run("bareearth:heightaboveground", heights)
+    layer = QgsPointCloudLayer(path, "trees", "copc")
+    clouds.by_class([2, 5])(layer)
+    for value, x, y in ((5, 20, 20), (2, 5, 5)):
+        expected = clouds.categories_of([value])[value][1]
+        seen = colour_at([layer], 500_000 + x, 5_700_000 + y)
+        channels = zip(seen.getRgb()[:3], expected.getRgb()[:3])
+        assert max(abs(one - other) for one, other in channels) < 60, (value, seen.name())
 
 
 def test_heights_of_a_cloud_have_colours_from_the_ground_up():
@@ -318,16 +370,7 @@ def test_the_map_has_the_colours_of_the_legend(run, tmp_path):
     wanted = clouds.categories_of([1, 2])
     places = {2: (10.25, 60.25), 1: (39.25, 33.25)}
     for value, (x, y) in places.items():
-        settings = QgsMapSettings()
-        settings.setLayers(root.layerOrder())
-        settings.setDestinationCrs(root.layerOrder()[0].crs())
-        settings.setOutputSize(QSize(101, 101))
-        place = QgsPointXY(500_000 + x, 5_700_000 + y)
-        settings.setExtent(QgsRectangle.fromCenterAndSize(place, 10.1, 10.1))
-        job = QgsMapRendererParallelJob(settings)
-        job.start()
-        job.waitForFinished()
-        seen, colour = job.renderedImage().pixelColor(50, 50), wanted[value][1]
+        seen, colour = colour_at(root.layerOrder(), 500_000 + x, 5_700_000 + y), wanted[value][1]
         channels = zip(seen.getRgb()[:3], colour.getRgb()[:3])
         assert max(abs(one - other) for one, other in channels) < 20, (value, seen.name())
 
