@@ -2194,6 +2194,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Der Layer „{}“ lässt sich nicht lesen.</translation>
     </message>
     <message>
+        <source>The layer "{}" holds no line. Choose one that does.</source>
+        <translation>Der Layer „{}“ enthält keine Linie. Wählen Sie einen, der eine enthält.</translation>
+    </message>
+    <message>
         <source>The layer "{}" holds no polygon. Choose one that does.</source>
         <translation>Der Layer „{}“ enthält kein Polygon. Wählen Sie einen, der eines enthält.</translation>
     </message>

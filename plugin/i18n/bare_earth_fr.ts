@@ -2194,6 +2194,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>La couche « {} » ne peut pas être lue.</translation>
     </message>
     <message>
+        <source>The layer "{}" holds no line. Choose one that does.</source>
+        <translation>La couche « {} » ne contient aucune ligne. Choisissez-en une qui en contient.</translation>
+    </message>
+    <message>
         <source>The layer "{}" holds no polygon. Choose one that does.</source>
         <translation>La couche « {} » ne contient aucun polygone. Choisissez-en une qui en contient.</translation>
     </message>

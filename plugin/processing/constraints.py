@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Iterator
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from qgis.core import (
-    QgsGeometry,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingParameterFeatureSource,
@@ -18,7 +16,7 @@ from ...algorithms.products.water_classes import WaterPolygons
 from ...algorithms.products.water_files import SurveyWater, WaterRequest
 from ...algorithms.survey.ground_classes import GroundClasses
 from .. import compat
-from .inputs import CloudCrs, features_of, layer_polygons, polygons_of
+from .inputs import CloudCrs, layer_polygons, layer_shapes
 
 if TYPE_CHECKING:
     from .products import ProductAlgorithm
@@ -75,20 +73,16 @@ def constraints_of(
     Raises
     ------
     BareEarthError
-        If a layer cannot be read.
+        If a layer cannot be read, or has only geometries of another kind.
     """
     given = [name for name in _FIELDS if not compat.is_empty(parameters.get(name))]
     if not given:
         return Constraints()
-    found = {}
+    found: dict[str, Any] = {}
     for name in given:
         label, kind, _ = _FIELDS[name]
-        source = algorithm.parameterAsSource(parameters, name, context)
-        shapes: Callable[[QgsGeometry], Iterator[Any]] = (
-            polygons_of if kind == compat.POLYGONS else _lines_of
-        )
-        features = features_of(source, label, crs.value, context)
-        found[name.lower()] = tuple(each for one in features for each in shapes(one.geometry()))
+        shapes = layer_shapes(algorithm, parameters, name, label, context, crs, kind)
+        found[name.lower()] = tuple(corners for corners, _ in shapes)
     progress.info(
         "In the command line some layers are missing: save each in the CRS of the points as"
         f" GeoJSON, and add {' '.join(map(_option, given))}."
@@ -143,11 +137,3 @@ def _option(name: str) -> str:
     """Return the option of the command line for a field, with a file named after it."""
     name = name.lower().replace("_", "-")
     return f"--{name} {name}.geojson"
-
-
-def _lines_of(geometry: QgsGeometry) -> Iterator[np.ndarray]:
-    """Yield x, y and z of the corners of each line; NaN for z where there is none."""
-    for part in geometry.constParts():
-        line = part.segmentize()
-        rows = [(each.x(), each.y(), each.z()) for each in line.vertices()]
-        yield np.array(rows, dtype=float).reshape(-1, 3)

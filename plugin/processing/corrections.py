@@ -16,7 +16,7 @@ from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Correc
 from .. import compat
 from ..i18n import mark
 from .feedback import Refusal
-from .inputs import CloudCrs, features_of, polygons_of
+from .inputs import CloudCrs, layer_shapes
 
 _LAYER, _FIELD = "CORRECTIONS", "CORRECTIONS_FIELD"
 # Label and help of each field.
@@ -61,7 +61,7 @@ def corrections_of(
     Raises
     ------
     BareEarthError
-        If the layer cannot be read, or a polygon has no class.
+        If the layer cannot be read or has other geometries, or a polygon has no class.
     """
     if compat.is_empty(parameters.get(_LAYER)):
         return NO_CORRECTIONS
@@ -75,9 +75,6 @@ def corrections_of(
         f' corrections.geojson, their class as the attribute "{CLASS_FIELD}", and add --corrections'
         " corrections.geojson."
     )
-    found = [
-        (polygon, feature[name])
-        for feature in features_of(source, _TEXTS[_LAYER][0], crs.value, context, [name])
-        for polygon in polygons_of(feature.geometry())
-    ]
+    field = algorithm, parameters, _LAYER, _TEXTS[_LAYER][0], context, crs
+    found = layer_shapes(*field, attribute=name)
     return Corrections(*zip(*found))

@@ -10,11 +10,13 @@ from typing import Any, Iterator, Sequence
 import numpy as np
 from qgis.core import (
     QgsCoordinateReferenceSystem,
+    QgsCurve,
+    QgsCurvePolygon,
     QgsFeature,
     QgsFeatureRequest,
-    QgsGeometry,
     QgsMapLayer,
     QgsPointCloudLayer,
+    QgsPolygon,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingFeatureSource,
@@ -316,36 +318,72 @@ def raster_of(
     return layer
 
 
-def layer_polygons(
+def layer_shapes(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
     name: str,
     label: str,
     context: QgsProcessingContext,
     crs: CloudCrs,
-) -> tuple[Polygon, ...]:
-    """Return the polygons of the layer in a field, in the CRS of the points.
+    kind: Any = compat.POLYGONS,
+    attribute: str = "",
+    may_be_empty: bool = True,
+) -> tuple[tuple[Polygon | np.ndarray, Any], ...]:
+    """Return the polygons or lines of the layer in a field, in the CRS of the points.
+
+    Geometries of other kinds are not used.
+
+    Returns
+    -------
+    tuple of (tuple of numpy.ndarray of float64, shape (n, 2), object)
+        The rings of each polygon, and its attribute; for lines shape (n, 3) instead of rings: x, y
+        and z of the corners, NaN for z where there is none.
 
     Raises
     ------
     BareEarthError
-        If the layer cannot be read, or has no polygon.
+        If the layer cannot be read, or has only other geometries; if none, unless it may be empty.
     """
     source = algorithm.parameterAsSource(parameters, name, context)
-    features = features_of(source, label, crs.value, context)
-    polygons = tuple(each for one in features for each in polygons_of(one.geometry()))
-    if not polygons:
-        raise Refusal(mark('The layer "{}" holds no polygon. Choose one that does.'), label)
-    return polygons
+    shape, corners_of, refusal = _KINDS[kind]
+    attributes, found, others = [attribute] if attribute else [], [], 0
+    for feature in features_of(source, label, crs.value, context, attributes):
+        value = feature[attribute] if attribute else None
+        for part in feature.geometry().constParts():
+            if isinstance(part, shape):
+                found.append((corners_of(part.segmentize()), value))
+            else:
+                others += 1
+    if not found and (others or not may_be_empty):
+        raise Refusal(refusal, label)
+    return tuple(found)
 
 
-def polygons_of(geometry: QgsGeometry) -> Iterator[Polygon]:
-    """Yield the rings of each polygon."""
-    # A copy, in which arcs became lines.
-    geometry = QgsGeometry(geometry.constGet().segmentize()) if geometry.constGet() else geometry
-    if geometry.convertToMultiType():
-        for rings in geometry.asMultiPolygon():
-            yield tuple(np.array([(corner.x(), corner.y()) for corner in ring]) for ring in rings)
+def layer_polygons(*field: Any) -> tuple[Polygon, ...]:
+    """Return the polygons of a layer, for the arguments of `layer_shapes`; refuse an empty one."""
+    return tuple(rings for rings, _ in layer_shapes(*field, may_be_empty=False))
+
+
+def _rings_of(polygon: QgsPolygon) -> Polygon:
+    rings = [polygon.exteriorRing(), *map(polygon.interiorRing, range(polygon.numInteriorRings()))]
+    return tuple(_line_of(each)[:, :2] for each in rings if each is not None)
+
+
+def _line_of(line: QgsCurve) -> np.ndarray:
+    rows = [(each.x(), each.y(), each.z()) for each in line.vertices()]
+    return np.array(rows, dtype=float).reshape(-1, 3)
+
+
+# The class of a geometry of a kind, what returns its corners, and what a layer without any is told.
+_KINDS = {
+    compat.POLYGONS: (
+        QgsCurvePolygon, _rings_of,
+        mark('The layer "{}" holds no polygon. Choose one that does.'),
+    ),
+    compat.LINES: (
+        QgsCurve, _line_of, mark('The layer "{}" holds no line. Choose one that does.')
+    ),
+}  # fmt: skip
 
 
 def _path_of(layer: QgsMapLayer) -> Path:

@@ -5,12 +5,16 @@ import numpy as np
 import pytest
 from osgeo import gdal
 from qgis.core import (
+    QgsApplication,
     QgsCoordinateReferenceSystem,
     QgsCoordinateTransform,
     QgsCoordinateTransformContext,
     QgsGeometry,
+    QgsProcessingContext,
     QgsProcessingException,
+    QgsProject,
     QgsVectorFileWriter,
+    QgsVectorLayer,
 )
 from support import Log, layer_of, write_scene
 
@@ -18,7 +22,7 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.survey.shapes import Place
 from bare_earth.algorithms.survey.vector_files import read_corrections
-from bare_earth.plugin.processing.inputs import CloudCrs
+from bare_earth.plugin.processing.inputs import CloudCrs, layer_shapes
 
 EAST, NORTH = 500_000.0, 5_700_000.0
 CLASSIFIERS = ["tindensification", "gridminimum", "slopefilter", "classifytiles"]
@@ -90,6 +94,42 @@ def test_layers_outside_of_the_points_are_the_same_error(scene, tmp_path, name, 
     with pytest.raises(QgsProcessingException, match=r"No point of .* the points lie in x 500000"):
         run("slopefilter", scene, tmp_path, DTM=str(tmp_path / "dtm.tif"), **{name: layer})
     assert not (tmp_path / "dtm.tif").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "label"),
+    [
+        ("NO_GROUND", "polygon", "No ground here"), ("WATER", "polygon", "Water"),
+        ("CORRECTIONS", "polygon", "Corrections"), ("BOUNDARY", "polygon", "Boundary"),
+        ("RIVERS", "line", "Rivers"), ("BREAKLINES", "line", "Breaklines"),
+    ],
+)  # fmt: skip
+def test_a_layer_of_another_kind_is_a_sentence(
+    registry, scene, tmp_path, context, log, name, kind, label
+):
+    corners = f"{EAST} {NORTH}, {EAST + 9} {NORTH}, {EAST + 9} {NORTH + 9}, {EAST} {NORTH}"
+    text = f"LINESTRING({corners})" if kind == "polygon" else f"POLYGON(({corners}))"
+    layer = layer_of(text.partition("(")[0].title(), text, "EPSG:25832&field=class:integer")
+    layer.dataProvider().changeAttributeValues({1: {0: 2}})
+    values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / "out.laz"), name: layer}
+    algorithm = registry.createAlgorithmById("bareearth:slopefilter")
+    assert not algorithm.run({**values, "DTM": str(tmp_path / "dtm.tif")}, context, log)[1]
+    assert f'The layer "{label}" holds no {kind}. Choose one that does.' in log.text
+    assert "Traceback" not in log.text
+    assert not (tmp_path / "out.laz").exists()
+
+
+def test_curves_holes_and_collections_are_used_and_an_empty_layer_changes_nothing(tmp_path, scene):
+    arc = "CURVEPOLYGON(CIRCULARSTRING(0 0, 2 2, 4 0, 2 -2, 0 0), (1 0, 2 0, 2 1, 1 0))"
+    mixed = layer_of("GeometryCollection", f"GEOMETRYCOLLECTION({arc}, POINT(1 1))")
+    empty = QgsVectorLayer("Polygon?crs=EPSG:25832", "empty", "memory")
+    algorithm = QgsApplication.processingRegistry().createAlgorithmById("bareearth:slopefilter")
+    context = QgsProcessingContext()
+    context.setProject(QgsProject.instance())
+    field = "NO_GROUND", "No ground here", context, CloudCrs(scene.path)
+    ((rings, _),) = layer_shapes(algorithm, {"NO_GROUND": mixed}, *field)
+    assert len(rings) == 2 and len(rings[0]) > 50 and rings[1].shape == (4, 2)
+    assert layer_shapes(algorithm, {"NO_GROUND": empty}, *field) == ()
 
 
 def test_without_a_raster_they_have_no_use(scene, tmp_path, line):
