@@ -10,7 +10,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
-from .delaunay_walk import circumcircles, interpolated, leaving_corner, longest_edge
+from .delaunay_walk import circumcircles
 from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates
 from .tin_cells import triangles_of_cells
 
@@ -19,7 +19,8 @@ from .tin_cells import triangles_of_cells
 _VERTICES_A_BLOCK = 25_000
 # Width of the margin that is triangulated with a block, as a share of the block's longer side.
 _MARGIN = 0.06
-# Most steps of a search. Far fewer are enough, unless rounding makes it endless.
+# Most triangulations of the vertices round the queries that blocks leave. A few are enough, unless
+# rounding makes the search endless.
 _MOST_STEPS = 1000
 # Rounding error in metres of a query on the hull.
 _ON_HULL = 1e-6
@@ -50,8 +51,10 @@ class Surface:
 
     The heights are those of the Delaunay triangulation of all points. A triangle of a block is used
     only if its circumcircle holds no point inside, of the block or not: then it is a triangle of
-    that triangulation (if four points lie on a circle, either diagonal may be used). Otherwise, for
-    example round lakes, the right triangle is searched from there.
+    that triangulation (if four points lie on a circle, either diagonal may be used). Queries in
+    other triangles, for example in a lake that a block cuts, are left until all blocks are done.
+    Then vertices in circles are added to a TIN of the corners of these triangles, until there are
+    none.
 
     Parameters
     ----------
@@ -98,18 +101,24 @@ class Surface:
             Heights in metres; NaN outside the convex hull and in gaps.
         """
         heights = np.full(len(x), np.nan)
-        if is_one_line(np.column_stack(self._vertices[:2])):
+        if not len(x) or is_one_line(np.column_stack(self._vertices[:2])):
             return heights
         blocks = list(self._blocks(x, y))
         # A single block reports its own progress. Of several blocks, each is one step.
         within = progress if len(blocks) == 1 else SILENT
 
-        def fill(block: tuple[np.ndarray, float]) -> None:
+        def fill(block: tuple[np.ndarray, float]) -> tuple[np.ndarray, np.ndarray]:
             queries, size = block
             some = x[queries], y[queries]
-            heights[queries] = self._block_heights(*some, size, max_edge, cells, within)
+            heights[queries], left, corners = self._block_heights(
+                *some, size, max_edge, cells, within
+            )
+            return queries[left], corners
 
-        in_threads(fill, blocks, progress)
+        found = in_threads(fill, blocks, progress)
+        left, corners = (np.concatenate(each) for each in zip(*found))
+        if len(left):
+            heights[left] = self._refined(x[left], y[left], corners, max_edge, cells)
         return heights
 
     def nearest(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -171,8 +180,12 @@ class Surface:
         max_edge: float | None,
         cells: CellLattice | None,
         progress: Progress,
-    ) -> np.ndarray:
-        """Return the heights of the queries of a block, on a TIN of the vertices round it."""
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the heights of the queries of a block, on a TIN of the vertices round it.
+
+        Also return which queries are left (k,), because a vertex lies in the circle of their
+        triangle or they have none, and the vertices (n,) of these triangles.
+        """
         vertices, margin = self._vertices, max(_MARGIN * size, _ON_HULL)
         are_all = len(self._meshed) == vertices.count
         borders = x.min() - margin, y.min() - margin, x.max() + margin, y.max() + margin
@@ -182,70 +195,51 @@ class Surface:
         progress(0.4)
         triangle = _located(tin, x, y, cells)
         progress(0.6)
-        sure = np.ones(len(x), dtype=bool)
+        is_left = np.zeros(len(x), dtype=bool)
         if not is_one_block:
             depth = self._depth(x, y)
-            sure = (triangle < 0) & (depth < _ON_HULL)
+            is_left = (triangle < 0) & (depth >= _ON_HULL)
             triangle[depth <= -_ON_HULL] = -1
         if not (is_one_block and are_all):
             inside = np.flatnonzero(triangle >= 0)
-            sure[inside] = self._are_delaunay(tin, triangle[inside], borders if are_all else None)
+            in_circle = self._in_circles(tin, triangle[inside], borders if are_all else None)
+            is_left[inside] = in_circle >= 0
         progress(0.8)
         heights = tin.interpolate(x, y, _without_long(tin, triangle, max_edge))
-        left = np.flatnonzero(~sure)
-        if len(left):
-            corners = self._fan(x[left], y[left])
-            known = triangle[left] >= 0
-            corners[:, known] = which[tin.source[tin.triangles[triangle[left[known]]]]].T
-            heights[left] = self._searched(x[left], y[left], corners, max_edge)
-        return heights
+        left = np.flatnonzero(is_left)
+        used = np.unique(triangle[left])
+        corners = np.unique(tin.triangles[used[used >= 0]])
+        return heights, left, which[tin.source[corners]]
 
-    def _fan(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return three corners of the hull (3, q) whose triangle holds each query."""
-        corners = self._hull[2]
-        first, others = corners[0], corners[1:]
-        at = self._vertices.x[first], self._vertices.y[first]
-        start = np.arctan2(self._vertices.y[others[0]] - at[1], self._vertices.x[others[0]] - at[0])
-
-        def turned(to_x: np.ndarray, to_y: np.ndarray) -> np.ndarray:
-            angle = np.arctan2(to_y - at[1], to_x - at[0]) - start
-            return (angle + _ON_HULL) % (2.0 * np.pi) - _ON_HULL
-
-        angles = turned(self._vertices.x[others], self._vertices.y[others])
-        sector = np.searchsorted(angles, turned(x, y), side="right") - 1
-        sector = np.clip(sector, 0, len(others) - 2)
-        return np.stack((np.full(len(x), first), others[sector], others[sector + 1]))
-
-    def _searched(
-        self, x: np.ndarray, y: np.ndarray, corners: np.ndarray, max_edge: float | None
+    def _refined(
+        self,
+        x: np.ndarray,
+        y: np.ndarray,
+        vertices: np.ndarray,
+        max_edge: float | None,
+        cells: CellLattice | None,
     ) -> np.ndarray:
-        """Return heights on the triangles that hold queries, searched from `corners` on.
+        """Return heights at queries, on a TIN of some `vertices` to which those needed are added.
 
-        `corners` are any triangles that hold the queries. The search is as in `enclosing`, but
-        among all vertices: the vertex nearest to the centre of a circle shows whether any lies in
-        it.
+        The time depends on the number of triangles that hold queries, not on that of the queries: a
+        lake has many more cells than vertices on its shore.
         """
-        vertices, active = self._vertices, np.arange(len(x))
+        heights, active = np.full(len(x), np.nan), np.arange(len(x))
+        used, added = np.union1d(vertices, self._hull[2]), self._hull[2]
         for _ in range(_MOST_STEPS):
-            some = corners[:, active]
-            a, b = vertices.x[some] - x[active], vertices.y[some] - y[active]
-            centre_x, centre_y, radius = circumcircles(a, b)
-            known = np.flatnonzero(np.isfinite(centre_x + centre_y + radius))
-            active, a, b = active[known], a[:, known], b[:, known]
-            places = centre_x[known] + x[active], centre_y[known] + y[active]
-            nearest, vertex = self._tree.query(np.column_stack(places))
-            go = np.flatnonzero(nearest < radius[known] * (1.0 - _ON_CIRCLE) - _ON_CIRCLE)
-            if not len(go):
+            tin, some = Tin(*self._vertices.take(used)), (x[active], y[active])
+            triangle = _located(tin, *some, cells)
+            heights[active] = tin.interpolate(*some, _without_long(tin, triangle, max_edge))
+            active, triangle = active[triangle >= 0], triangle[triangle >= 0]
+            in_circle = self._in_circles(tin, triangle)
+            # Rounding may put a vertex that the TIN has into one of its circles.
+            is_new = (in_circle >= 0) & ~np.isin(in_circle, used)
+            active = active[is_new]
+            if not len(active):
                 break
-            active, vertex = active[go], vertex[go]
-            leaving = leaving_corner(
-                a[:, go], b[:, go], vertices.x[vertex] - x[active], vertices.y[vertex] - y[active]
-            )
-            corners[leaving, active] = vertex
-        a, b = vertices.x[corners] - x, vertices.y[corners] - y
-        heights = interpolated(a, b, vertices.z[corners])
-        if max_edge is not None:
-            heights[longest_edge(a, b) > max_edge] = np.nan
+            corners = used[tin.source[np.unique(tin.triangles[triangle[is_new]])]]
+            added = np.union1d(added, in_circle[is_new])
+            used = np.union1d(corners, added)
         return heights
 
     def _depth(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -262,32 +256,32 @@ class Surface:
         y = self._vertices.y[which]
         return which[(y >= south) & (y <= north)]
 
-    def _are_delaunay(
-        self, tin: Tin, triangle: np.ndarray, window: tuple[float, ...] | None
+    def _in_circles(
+        self, tin: Tin, triangle: np.ndarray, window: tuple[float, ...] | None = None
     ) -> np.ndarray:
-        """Return which triangles of a block (k,) belong to the triangulation of all points.
+        """Return a vertex in the circle of each triangle (k,), -1 where there is none.
 
-        If a window is given, the block has all points in it.
+        It is the one nearest to the centre. A triangle without one belongs to the triangulation of
+        all points. If a window is given, `tin` has all points in it.
         """
         used, back = np.unique(triangle, return_inverse=True)
         corners = tin.triangles[used].T
         # Relative to a corner, because large coordinates lose digits.
         x, y, radius = circumcircles(*(each[corners] - each[corners[0]] for each in (tin.x, tin.y)))
         x, y = x + tin.x[corners[0]], y + tin.y[corners[0]]
-        delaunay = np.zeros(len(x), dtype=bool)
+        # Three vertices on one line have no circle; they only occur along the hull.
+        is_open = np.isfinite(x) & np.isfinite(y) & np.isfinite(radius)
         if window is not None:
             west, south, east, north = window
             # Circles within the window hold no point.
-            delaunay = (x - radius > west) & (x + radius < east)
-            delaunay &= (y - radius > south) & (y + radius < north)
-        # Three vertices on one line have no circle; they only occur along the hull.
-        is_circle = np.isfinite(x) & np.isfinite(y) & np.isfinite(radius)
-        open_ = np.flatnonzero(is_circle & ~delaunay)
-        delaunay |= ~is_circle
+            is_inside = (x - radius > west) & (x + radius < east)
+            is_open &= ~(is_inside & (y - radius > south) & (y + radius < north))
+        found, open_ = np.full(len(used), -1), np.flatnonzero(is_open)
         if len(open_):
-            nearest = self._tree.query(np.column_stack((x[open_], y[open_])))[0]
-            delaunay[open_] = nearest >= radius[open_] * (1.0 - _ON_CIRCLE) - _ON_CIRCLE
-        return delaunay[back]
+            nearest, vertex = self._tree.query(np.column_stack((x[open_], y[open_])))
+            is_in = nearest < radius[open_] * (1.0 - _ON_CIRCLE) - _ON_CIRCLE
+            found[open_[is_in]] = vertex[is_in]
+        return found[back]
 
 
 def _located(tin: Tin, x: np.ndarray, y: np.ndarray, cells: CellLattice | None) -> np.ndarray:

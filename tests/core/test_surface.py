@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import scipy.spatial
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids import surface as module
@@ -68,6 +69,26 @@ def test_blocks_give_the_heights_of_one_triangulation(small_blocks, name, max_ed
     wrong = np.abs(found - expected) > 1e-9
     assert np.count_nonzero(wrong) <= (5 if name == "stray" else 0)
     assert np.isnan(found).any() and not np.isnan(found).all()
+
+
+@pytest.mark.parametrize("shore", [0, 400], ids=["scattered", "all on one circle"])
+def test_a_lake_costs_as_its_shore_and_not_as_its_cells(small_blocks, monkeypatch, shore):
+    """In the middle of a lake, the nearest vertex takes a search of the whole shore."""
+    asked = []
+
+    class Counting(scipy.spatial.cKDTree):
+        def query(self, places, *rest, **more):
+            asked.append(len(places))
+            return super().query(places, *rest, **more)
+
+    monkeypatch.setattr(scipy.spatial, "cKDTree", Counting)
+    angle = np.arange(shore) * 2.0 * np.pi / max(shore, 1)
+    x, y, _ = _with_lake(_scatter(20_000))
+    x, y = np.append(x, 45.0 + 30.0 * np.cos(angle)), np.append(y, 50.0 + 30.0 * np.sin(angle))
+    at_x, at_y = (each.ravel() for each in np.meshgrid(*(np.arange(20.0, 75.0, 0.2),) * 2))
+    heights = Surface(Points(x, y, 3.0 + 0.2 * x - 0.1 * y)).heights(at_x, at_y)
+    assert np.allclose(heights, 3.0 + 0.2 * at_x - 0.1 * at_y, atol=1e-6)
+    assert sum(asked) < len(at_x) / 10
 
 
 def test_a_plane_on_a_regular_grid_is_exact_to_its_border(small_blocks):
