@@ -15,10 +15,12 @@ from .wkt import is_unit
 
 _MODEL, _CITATION, _GEOGRAPHIC_CODE, _GEOGRAPHIC_CITATION = 1024, 1026, 2048, 2049
 _PROJECTED_CODE, _PROJECTED_CITATION, _LINEAR_UNIT, _LINEAR_UNIT_SIZE = 3072, 3073, 3076, 3077
-_VERTICAL_CODE, _VERTICAL_UNIT = 4096, 4099
+_VERTICAL_CODE, _VERTICAL_CITATION, _VERTICAL_DATUM, _VERTICAL_UNIT = 4096, 4097, 4098, 4099
 _DOUBLES, _TEXTS = 34736, 34737
 _PROJECTED, _GEOGRAPHIC, _GEOCENTRIC = 1, 2, 3
 _USER_DEFINED = 32767
+# GeoTIFF 1.0 gave the codes of datums to vertical CRS, and others to heights above ellipsoids.
+_OLD_DATUMS, _OLD_ELLIPSOIDS = range(5101, 5107), range(5001, 5034)
 
 # Metres in one unit, by EPSG code; a ratio if the unit is defined by one.
 _UNITS = {
@@ -54,6 +56,12 @@ class GeoKeys(NamedTuple):
         Whether the coordinates are degrees, or geocentric.
     epsg, vertical_epsg : int or None
         EPSG code of the horizontal and the vertical CRS.
+    vertical_name : str
+        Name of the vertical CRS.
+    datum_epsg : int or None
+        EPSG code of the vertical datum.
+    is_above_ellipsoid : bool
+        Whether heights are above the ellipsoid.
     horizontal_unit, vertical_unit : float or None
         Metres in one unit.
     unknown_units : tuple of int
@@ -64,6 +72,9 @@ class GeoKeys(NamedTuple):
     is_geographic: bool
     epsg: int | None
     vertical_epsg: int | None
+    vertical_name: str
+    datum_epsg: int | None
+    is_above_ellipsoid: bool
     horizontal_unit: float | None
     vertical_unit: float | None
     unknown_units: tuple[int, ...]
@@ -81,17 +92,27 @@ def read_geokeys(directory: bytes, doubles: bytes = b"", texts: bytes = b"") -> 
     projected, geographic = _code(keys, _PROJECTED_CODE), _code(keys, _GEOGRAPHIC_CODE)
     model = keys.get(_MODEL)
     if model not in (_PROJECTED, _GEOGRAPHIC, _GEOCENTRIC):
-        if _PROJECTED_CODE not in keys and geographic is None and _LINEAR_UNIT not in keys:
+        stated = (_PROJECTED_CODE, _LINEAR_UNIT, _VERTICAL_CODE, _VERTICAL_UNIT)
+        if geographic is None and not any(each in keys for each in stated):
             return None
         model = _GEOGRAPHIC if geographic and _PROJECTED_CODE not in keys else _PROJECTED
     is_geographic = model != _PROJECTED
     citations = (_PROJECTED_CITATION, _CITATION, _GEOGRAPHIC_CITATION)
     codes = [keys.get(key) for key in (_LINEAR_UNIT, _VERTICAL_UNIT)]
+    vertical, datum = _code(keys, _VERTICAL_CODE), _code(keys, _VERTICAL_DATUM)
+    is_above_ellipsoid = vertical in _OLD_ELLIPSOIDS
+    if vertical in _OLD_DATUMS:
+        datum = vertical
+    if vertical in _OLD_DATUMS or is_above_ellipsoid:
+        vertical = None
     return GeoKeys(
         name=next((str(keys[key]) for key in citations if keys.get(key)), ""),
         is_geographic=is_geographic,
         epsg=geographic if is_geographic else projected,
-        vertical_epsg=_code(keys, _VERTICAL_CODE),
+        vertical_epsg=vertical,
+        vertical_name=str(keys.get(_VERTICAL_CITATION, "")),
+        datum_epsg=datum,
+        is_above_ellipsoid=is_above_ellipsoid,
         horizontal_unit=_UNITS.get(codes[0]) or _size(keys.get(_LINEAR_UNIT_SIZE)),
         vertical_unit=_UNITS.get(codes[1]),
         unknown_units=tuple(

@@ -6,9 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 from ..core.progress import SILENT, Progress
-from .geokeys import GeoKeys
-from .provider import wkt_of_epsg
-from .wkt import WktFacts, read_wkt
+from .wkt import VerticalDatum, WktFacts, is_wkt2, read_wkt
 
 _SURVEY_FOOT = 1200 / 3937
 _UNIT_NAMES = {1.0: "metre", 0.3048: "foot", _SURVEY_FOOT: "US survey foot"}
@@ -31,6 +29,10 @@ class Crs:
         Whether the coordinates are degrees, or geocentric, so that nothing can be measured.
     epsg : int or None
         EPSG code of the horizontal CRS.
+    map_name : str
+        Name of the horizontal CRS, if `name` names a vertical one as well.
+    datum : VerticalDatum or None
+        What heights are measured from; None if it is not stated.
     """
 
     wkt: str | None = None
@@ -39,6 +41,13 @@ class Crs:
     vertical_unit: float = 1.0
     is_geographic: bool = False
     epsg: int | None = None
+    map_name: str = ""
+    datum: VerticalDatum | None = None
+
+
+def same_unit(one: float | None, other: float | None) -> bool:
+    """Return whether two units are equal; the two kinds of feet differ by two millionths."""
+    return one is not None and other is not None and math.isclose(one, other, rel_tol=1e-8)
 
 
 def unit_name(metres: float) -> str:
@@ -50,7 +59,7 @@ def unit_name(metres: float) -> str:
     'US survey foot'
     """
     for known, name in _UNIT_NAMES.items():
-        if math.isclose(metres, known, rel_tol=1e-8):
+        if same_unit(metres, known):
             return name
     return f"{metres:g} m"
 
@@ -92,33 +101,7 @@ def crs_of_wkt(text: str, progress: Progress = SILENT) -> Crs | None:
         Receives messages on units that are not stated, but assumed.
     """
     facts = read_wkt(text)
-    return None if facts is None else _crs_of(text, facts, progress)
-
-
-def crs_of_geokeys(keys: GeoKeys, progress: Progress = SILENT) -> Crs:
-    """Return the CRS that GeoTIFF keys describe.
-
-    Parameters
-    ----------
-    keys : GeoKeys
-        The keys; their EPSG code gives the name and the well-known text.
-    progress : Progress
-        Receives messages on units that are assumed or not known.
-    """
-    text = wkt_of_epsg(keys.epsg) if keys.epsg else None
-    facts = read_wkt(text) if text else None
-    if facts is None:
-        name = keys.name or (f"EPSG:{keys.epsg}" if keys.epsg else "")
-        facts = WktFacts(name, None, None, False, keys.is_geographic, keys.epsg)
-        text = None
-    for code in keys.unknown_units:
-        progress.warning(f"The unit of the CRS, EPSG code {code}, is not known.")
-    facts = facts._replace(
-        epsg=keys.epsg,
-        horizontal_unit=_stated_unit(keys, facts, progress),
-        **_vertical_of(keys),
-    )
-    return _crs_of(text, facts, progress)
+    return None if facts is None else crs_of_facts(text, facts, progress)
 
 
 def compound_wkt(crs: Crs) -> str | None:
@@ -133,45 +116,57 @@ def compound_wkt(crs: Crs) -> str | None:
     'COMPD_CS["site'
     """
     facts = read_wkt(crs.wkt) if crs.wkt else None
-    if facts is None or crs.is_geographic:
+    if crs.wkt is None or facts is None or crs.is_geographic:
         return crs.wkt
-    plain = _crs_of(crs.wkt, facts, SILENT)
+    plain = crs_of_facts(crs.wkt, facts)
     if not math.isclose(plain.horizontal_unit, crs.horizontal_unit, rel_tol=1e-9):
         return None
-    if math.isclose(plain.vertical_unit, crs.vertical_unit, rel_tol=1e-9):
+    has_unit = math.isclose(plain.vertical_unit, crs.vertical_unit, rel_tol=1e-9)
+    if has_unit and (facts.has_vertical or crs.datum is None):
         return crs.wkt
+    # A vertical CRS cannot be added to a CRS that has one.
+    return None if facts.has_vertical else _with_heights(crs, crs.wkt)
+
+
+def _with_heights(crs: Crs, wkt: str) -> str:
+    """Return a text of a horizontal CRS with a vertical one, in the version of the text."""
+    datum = crs.datum or VerticalDatum("heights", "unknown")
+    title, place = f"{crs.map_name or crs.name} + {datum.crs}", datum.name or datum.crs
+    unit = f'["{unit_name(crs.vertical_unit)}",{crs.vertical_unit!r}]'
+    if is_wkt2(wkt):
+        return (
+            f'COMPOUNDCRS["{title}",{wkt},VERTCRS["{datum.crs}",VDATUM["{place}"],'
+            f'CS[vertical,1],AXIS["height",up,LENGTHUNIT{unit}]{_id(datum.crs_epsg, "ID")}]]'
+        )
+    kind = 2002 if datum.is_ellipsoid else 2005
     return (
-        f'COMPD_CS["{facts.name} + heights",{crs.wkt},VERT_CS["heights",'
-        f'VERT_DATUM["unknown",2005],UNIT["{unit_name(crs.vertical_unit)}",'
-        f'{crs.vertical_unit!r}],AXIS["Up",UP]]]'
+        f'COMPD_CS["{title}",{wkt},VERT_CS["{datum.crs}",'
+        f'VERT_DATUM["{place}",{kind}{_id(datum.epsg, "AUTHORITY")}],UNIT{unit},AXIS["Up",UP]]]'
     )
 
 
-def _stated_unit(keys: GeoKeys, facts: WktFacts, progress: Progress) -> float | None:
-    """Return the horizontal unit of the keys, or else of the EPSG code."""
-    stated, known = keys.horizontal_unit, facts.horizontal_unit
-    if stated and known and not facts.is_geographic and not math.isclose(stated, known):
-        progress.warning(
-            f"The CRS {facts.name} has the unit {unit_name(known)}, but the file states"
-            f" {unit_name(stated)}, which is used."
-        )
-    return stated or known
+def _id(code: int | None, keyword: str) -> str:
+    """Return the EPSG code of a part of well-known text."""
+    if code is None:
+        return ""
+    return f',{keyword}["EPSG",{code}]' if keyword == "ID" else f',{keyword}["EPSG","{code}"]'
 
 
-def _vertical_of(keys: GeoKeys) -> dict[str, float | bool | None]:
-    """Return the fields of `WktFacts` for the heights."""
-    unit = keys.vertical_unit
-    text = wkt_of_epsg(keys.vertical_epsg) if unit is None and keys.vertical_epsg else None
-    if text:
-        # `read_wkt` needs a horizontal CRS as well.
-        facts = read_wkt(f'LOCAL_CS["",UNIT["metre",1]],{text}')
-        unit = facts.vertical_unit if facts else None
-    return {"vertical_unit": unit, "has_vertical": unit is not None}
+def crs_of_facts(text: str | None, facts: WktFacts, progress: Progress = SILENT) -> Crs:
+    """Return the CRS, with assumed units if none are stated.
 
-
-def _crs_of(text: str | None, facts: WktFacts, progress: Progress) -> Crs:
-    """Return the CRS, with assumed units if none are stated, and tell the user."""
-    crs = Crs(text, facts.name, 1.0, 1.0, facts.is_geographic, facts.epsg)
+    Parameters
+    ----------
+    text : str or None
+        The CRS as well-known text.
+    facts : WktFacts
+        Its properties.
+    progress : Progress
+        Receives messages on units that are not stated, but assumed.
+    """
+    crs = Crs(
+        text, facts.name, 1.0, 1.0, facts.is_geographic, facts.epsg, facts.map_name, facts.datum
+    )
     if crs.is_geographic:
         return replace(crs, vertical_unit=facts.vertical_unit or 1.0)
     horizontal, vertical = facts.horizontal_unit, facts.vertical_unit

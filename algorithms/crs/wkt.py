@@ -15,8 +15,13 @@ _COMPOUND = {"COMPD_CS", "COMPOUNDCRS"}
 _BOUND = {"BOUNDCRS", "SOURCECRS"}
 _PROJECTED = {"PROJCS", "PROJCRS", "PROJECTEDCRS", "DERIVEDPROJCRS"}
 _LOCAL = {"LOCAL_CS", "ENGCRS", "ENGINEERINGCRS"}
+_SECOND_VERSION = ("PROJCRS", "PROJECTEDCRS", "DERIVEDPROJCRS", "ENGCRS", "ENGINEERINGCRS", "BOUND")
 _GEOGRAPHIC = {"GEOGCS", "GEOGCRS", "GEOGRAPHICCRS", "GEODCRS", "GEODETICCRS", "GEOCCS"}
 _VERTICAL = {"VERT_CS", "VERTCS", "VERTCRS", "VERTICALCRS"}
+_VERTICAL_DATUMS = {"VERT_DATUM", "VDATUM", "VERTICALDATUM", "VRF", "ENSEMBLE"}
+# The type of a datum of WKT 1 for heights above the ellipsoid.
+_ELLIPSOIDAL_HEIGHTS = "2002"
+_NO_NAME = re.compile(r"\s*(unknown|unnamed|undefined|not specified|$)", re.IGNORECASE)
 _UNITS = {"UNIT", "LENGTHUNIT"}
 _UPWARDS = {"up", "down"}
 # Metres in one unit. Other values are no useful units of length.
@@ -42,6 +47,28 @@ class Node(NamedTuple):
         return [each for each in self.values if isinstance(each, Node) and each.keyword in keywords]
 
 
+class VerticalDatum(NamedTuple):
+    """What heights are measured from.
+
+    Attributes
+    ----------
+    crs : str
+        Name of the vertical CRS.
+    name : str
+        Name of its datum; empty if it is not stated.
+    epsg, crs_epsg : int or None
+        EPSG codes of the datum and of the vertical CRS.
+    is_ellipsoid : bool
+        Whether heights are above the ellipsoid.
+    """
+
+    crs: str
+    name: str = ""
+    epsg: int | None = None
+    crs_epsg: int | None = None
+    is_ellipsoid: bool = False
+
+
 class WktFacts(NamedTuple):
     """The properties of a CRS that a classification needs; a unit is None if not stated.
 
@@ -57,6 +84,10 @@ class WktFacts(NamedTuple):
         Whether the coordinates are degrees, or geocentric.
     epsg : int or None
         EPSG code of the horizontal CRS.
+    map_name : str
+        Name of the horizontal CRS.
+    datum : VerticalDatum or None
+        What heights are measured from; None if it is not stated.
     """
 
     name: str
@@ -65,6 +96,8 @@ class WktFacts(NamedTuple):
     has_vertical: bool
     is_geographic: bool
     epsg: int | None
+    map_name: str = ""
+    datum: VerticalDatum | None = None
 
 
 def read_wkt(text: str) -> WktFacts | None:
@@ -91,7 +124,20 @@ def read_wkt(text: str) -> WktFacts | None:
         has_vertical=vertical is not None or upwards is not None,
         is_geographic=horizontal.keyword in _GEOGRAPHIC,
         epsg=_epsg_of(horizontal),
+        map_name=horizontal.name,
+        datum=_datum_of(vertical) or _ellipsoid_of(horizontal, upwards),
     )
+
+
+def is_wkt2(text: str) -> bool:
+    """Return whether a text of a projected or local CRS is WKT 2.
+
+    Examples
+    --------
+    >>> is_wkt2('ENGCRS["site",EDATUM[""],CS[Cartesian,2]]')
+    True
+    """
+    return text.lstrip().upper().startswith(_SECOND_VERSION)
 
 
 def _parse(text: str) -> list[str | Node]:
@@ -147,6 +193,27 @@ def _axis_units(node: Node) -> tuple[float | None, float | None]:
         else:
             horizontal = horizontal or _unit_of(axis)
     return horizontal, vertical
+
+
+def _datum_of(vertical: Node | None) -> VerticalDatum | None:
+    """Return the datum of a vertical CRS; None if that is a placeholder such as "unknown"."""
+    if vertical is None:
+        return None
+    datum = next(iter(vertical.children(_VERTICAL_DATUMS)), Node("", []))
+    name = "" if _NO_NAME.match(datum.name) else datum.name
+    is_ellipsoid = _ELLIPSOIDAL_HEIGHTS in datum.values or "ellips" in name.lower()
+    # A vertical CRS of ESRI can be based on the datum of the horizontal CRS.
+    is_ellipsoid |= bool(vertical.children({"DATUM"}))
+    codes = _epsg_of(datum), _epsg_of(vertical)
+    if not (name or is_ellipsoid or any(codes)):
+        return None
+    return VerticalDatum(vertical.name or name, name, *codes, is_ellipsoid)
+
+
+def _ellipsoid_of(horizontal: Node, upwards: float | None) -> VerticalDatum | None:
+    """Return the datum of the third axis of a horizontal CRS, if it has one."""
+    is_flat = upwards is None or horizontal.keyword not in _PROJECTED
+    return None if is_flat else VerticalDatum("ellipsoidal height", is_ellipsoid=True)
 
 
 def _number(text: str) -> float | None:

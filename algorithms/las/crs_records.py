@@ -6,11 +6,12 @@ import functools
 
 from ..core.progress import SILENT, Notes, Progress
 from ..crs.geokeys import read_geokeys
-from ..crs.matching import described, is_same_crs
+from ..crs.matching import described, has_same_units, is_same_crs
 from ..crs.provider import library
+from ..crs.records import crs_of_records
 from ..crs.stated import HOW
-from ..crs.system import Crs, crs_of_geokeys, crs_of_wkt
-from .lasfile import LasFile, text_of
+from ..crs.system import Crs, crs_of_wkt
+from .lasfile import FIRST_EXTENDED_FORMAT, Evlr, LasFile, Vlr, text_of
 
 WKT_RECORD = ("LASF_Projection", 2112)
 # Records with the directory of GeoTIFF keys, their numbers and their texts.
@@ -21,9 +22,9 @@ _WKT_BIT = 0x10
 def read_crs(file: LasFile, progress: Progress = SILENT) -> Crs:
     """Return the CRS of a file: that of its records, or the one that the user states instead.
 
-    A file can have well-known text and GeoTIFF keys. The global encoding of the header decides
-    which one is valid. If that is missing or not understood, the other one is read. Most files of a
-    survey have equal records, which are read only once.
+    A file can have well-known text and GeoTIFF keys. Point formats 6 to 10 need text; of others,
+    the global encoding of the header says which one is valid. What that lacks comes from the other.
+    Most files of a survey have equal records, which are read only once.
 
     Parameters
     ----------
@@ -33,9 +34,13 @@ def read_crs(file: LasFile, progress: Progress = SILENT) -> Crs:
         Receives a message about units that are assumed, and one if the user states another CRS than
         the file.
     """
-    records = (file.vlr(key) for key in (WKT_RECORD, *GEOKEY_RECORDS))
-    content = tuple(record.data or b"" if record else b"" for record in records)
-    crs, messages = _stated(content, bool(file.global_encoding & _WKT_BIT), library())
+    every: tuple[Vlr | Evlr, ...] = (*file.vlrs, *file.evlrs)
+    texts = (each.data or b"" for each in every if each.key == WKT_RECORD)
+    records = (file.vlr(key) for key in GEOKEY_RECORDS)
+    keys = tuple(record.data or b"" if record else b"" for record in records)
+    prefers_text = bool(file.global_encoding & _WKT_BIT)
+    prefers_text |= file.point_format >= FIRST_EXTENDED_FORMAT
+    crs, messages = _stated(tuple(dict.fromkeys(texts)), keys, prefers_text, library())
     if file.stated is not None:
         crs, messages = _given(file.stated, crs)
     for tell, text in messages:
@@ -54,7 +59,8 @@ def _given(wkt: str, stated: Crs | None) -> tuple[Crs | None, tuple[tuple[str, s
     notes = Notes()
     crs = crs_of_wkt(wkt, notes)
     if crs is not None and stated is not None and not is_same_crs(crs, stated):
-        notes.info(
+        tell = notes.info if has_same_units(crs, stated) else notes.warning
+        tell(
             f"The CRS that was given is used, {described(crs)}, and not the one that the file"
             f" states, {described(stated)}. Point clouds that are written keep their records."
         )
@@ -63,20 +69,12 @@ def _given(wkt: str, stated: Crs | None) -> tuple[Crs | None, tuple[tuple[str, s
 
 @functools.lru_cache(maxsize=64)
 def _stated(
-    content: tuple[bytes, ...], is_wkt: bool, library: object
+    texts: tuple[bytes, ...], keys: tuple[bytes, ...], prefers_text: bool, library: object
 ) -> tuple[Crs | None, tuple[tuple[str, str], ...]]:
     """Return the CRS from records, with messages about it.
 
     The result also depends on the library for EPSG codes.
     """
-    text, keys = text_of(content[0]), read_geokeys(*content[1:])
-    readers = [
-        lambda notes: None if keys is None else crs_of_geokeys(keys, notes),
-        lambda notes: crs_of_wkt(text, notes),
-    ]
-    for reader in reversed(readers) if is_wkt else readers:
-        notes = Notes()
-        crs = reader(notes)
-        if crs is not None:
-            return crs, tuple(notes.messages)
-    return None, ()
+    notes = Notes()
+    crs = crs_of_records([*map(text_of, texts)], read_geokeys(*keys), prefers_text, notes)
+    return crs, tuple(notes.messages)

@@ -14,7 +14,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Box
 from ..core.progress import SILENT, Notes, Progress
-from ..crs.matching import described, has_same_units, is_same_crs
+from ..crs.matching import described, has_same_units, is_other_datum, is_same_crs, is_same_map
 from ..crs.stated import HOW
 from ..crs.system import Crs
 from ..las.crs_records import read_crs
@@ -262,7 +262,8 @@ def _check_extent(layout: LasFile) -> None:
 def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> Crs:
     """Return the common CRS of all tiles; refuse tiles that differ in their CRS."""
     groups: dict[Crs, list[LasFile]] = {}
-    for tile, crs in zip(tiles, stated):
+    # Those that state a vertical datum first, since others can be of the same group as any of them.
+    for tile, crs in sorted(zip(tiles, stated), key=lambda pair: pair[1].datum is None):
         same = next((each for each in groups if is_same_crs(each, crs)), crs)
         groups.setdefault(same, []).append(tile)
     known, unstated = [crs for crs in groups if crs != Crs()], groups.get(Crs(), [])
@@ -275,15 +276,44 @@ def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> 
         )
         return Crs()
     if len(known) > 1 or (unstated and not has_same_units(known[0], Crs())):
+        what, hint = "The files are not in the same CRS", f"{HOW}."
+        if not unstated and all(is_same_map(known[0], crs) for crs in known[1:]):
+            what = "The heights of the files are not in the same unit or above the same datum"
+            hint = f"{HOW}, or with heights --crs EPSG:25832+7837."
         raise BareEarthError(
-            "The files are not in the same CRS: "
+            f"{what}: "
             + "; ".join(f"{described(crs)}: {_names(some)}" for crs, some in groups.items())
             + ". Reproject them to one CRS, or work on each group alone. If they are in one CRS all"
-            f" the same, give it: {HOW}."
+            f" the same, give it: {hint}"
         )
     if unstated:
         progress.warning(f"{lack} that of the others is used, {known[0].name}.")
+    _tell_of_datums(tiles, stated, known[0], progress)
     return known[0]
+
+
+def _tell_of_datums(
+    tiles: list[LasFile], stated: list[Crs], common: Crs, progress: Progress
+) -> None:
+    """Tell of vertical datums that may differ, and of files that state none."""
+    if common.datum is None:
+        return
+    others: dict[str, list[LasFile]] = {}
+    for tile, crs in zip(tiles, stated):
+        if crs != Crs() and is_other_datum(crs.datum, common.datum) is None:
+            others.setdefault(crs.datum.crs if crs.datum else "", []).append(tile)
+    silent = others.pop("", [])
+    if silent:
+        progress.info(
+            f"No vertical datum is stated by {_names(silent)}: that of the others is used,"
+            f" {common.datum.crs}."
+        )
+    if others:
+        progress.warning(
+            f"The vertical datum of most files is {common.datum.crs}; others name it"
+            + "; ".join(f" {name}: {_names(some)}" for name, some in others.items())
+            + ". Their heights are used as they are: check that they fit together."
+        )
 
 
 def _names(tiles: list[LasFile]) -> str:

@@ -3,7 +3,8 @@ import struct
 import pytest
 
 from bare_earth.algorithms.crs import provider
-from bare_earth.algorithms.crs.system import Crs, compound_wkt, unit_name
+from bare_earth.algorithms.crs.matching import is_other_datum
+from bare_earth.algorithms.crs.system import Crs, compound_wkt, crs_of_wkt, unit_name
 from bare_earth.algorithms.crs.wkt import read_wkt
 from bare_earth.algorithms.las.crs_records import read_crs
 from bare_earth.algorithms.las.opening import open_las
@@ -212,6 +213,92 @@ def test_the_header_says_which_of_two_descriptions_holds(las, encoding, unit):
     assert crs.horizontal_unit == pytest.approx(unit, rel=1e-9)
 
 
+NAVD88 = 'VERT_DATUM["North American Vertical Datum 1988",2005,AUTHORITY["EPSG","5103"]]'
+COMPOUND_1 = f'COMPD_CS["c",{projcs(METRE_1)},VERT_CS["NAVD88",{NAVD88},{SURVEY_1}]]'
+COMPOUND_2 = f'COMPOUNDCRS["c",{projcrs("," + METRE_2)},{vertical_2(FOOT_2)}]'
+
+
+@pytest.mark.parametrize(
+    ("point_format", "encoding", "text", "values", "expected"),
+    [
+        # Point formats 6 to 10 need text, whether the bit says so or not.
+        (6, 0x00, COMPOUND_1, {"projected": 32767, "unit": 9001}, (1, SURVEY)),
+        (7, 0x10, projcs(SURVEY_1), {"unit": 9001}, (SURVEY, SURVEY)),
+        (6, 0x00, None, {"unit": 9001, "vertical_unit": 9003}, (1, SURVEY)),
+        # What one lacks comes from the other.
+        (6, 0x10, projcs(METRE_1), {"unit": 9001, "vertical_unit": 9003}, (1, SURVEY)),
+        (6, 0x10, projcs(METRE_1), {"vertical_unit": 9002}, (1, FOOT)),
+        (1, 0x00, COMPOUND_1, {"projected": 32767, "unit": 9001}, (1, SURVEY)),
+        (1, 0x00, COMPOUND_2, {"projected": 26912, "unit": 9001}, (1, FOOT)),
+        (1, 0x00, projcs(SURVEY_1), {"projected": 32767, "vertical_unit": 9001}, (SURVEY, 1)),
+        (1, 0x10, projcs(FOOT_1), {"unit": 9002, "vertical_unit": 9001}, (FOOT, 1)),
+        (6, 0x10, f'COMPD_CS["c",{projcs(METRE_1)},VERT_CS["v",VERT_DATUM["unknown",2005]]]',
+         {"unit": 9001, "vertical_unit": 9002}, (1, FOOT)),
+    ],
+)  # fmt: skip
+def test_units_come_from_all_records(las, point_format, encoding, text, values, expected):
+    records = [] if text is None else [las.vlr(b"LASF_Projection", 2112, text.encode())]
+    layout = open_las(
+        las.make(
+            vlrs=[*geotiff(las, model=1, **values), *records],
+            version=4, point_format=point_format, encoding=encoding,
+        )
+    )  # fmt: skip
+    heard = las.Heard()
+    crs = read_crs(layout, heard)
+    assert (crs.horizontal_unit, crs.vertical_unit) == pytest.approx(expected, rel=1e-9)
+    contradicts = text == projcs(SURVEY_1) and values == {"unit": 9001}
+    assert any("contradict each other" in told for told in heard.warnings) == contradicts
+
+
+@pytest.mark.parametrize("encoding", [0x00, 0x10])
+def test_a_text_behind_the_points_adds_to_keys_before_them(las, encoding):
+    record = las.evlr(b"LASF_Projection", 2112, COMPOUND_1.encode() + b"\0")
+    keys = geotiff(las, model=1, unit=9001)
+    source = las.make(
+        "in.laz", version=4, point_format=6, encoding=encoding, vlrs=keys, evlrs=[record]
+    )
+    assert read_crs(open_las(source)).vertical_unit == pytest.approx(SURVEY)
+
+
+@pytest.mark.parametrize(
+    ("values", "told"),
+    [
+        ({"unit": 9002}, "c + NAVD88 in metre, height US survey foot by the well-known text"),
+        ({"unit": 9001, "vertical_unit": 9001}, "without a name in metre, height metre by the"),
+        ({"unit": 9001, "vertical": 5102}, "datum EPSG:5102 in metre"),
+        ({"unit": 9001, "vertical": 5103}, None),
+        ({"unit": 9001, "vertical_unit": 9003}, None),
+    ],
+)
+def test_records_that_contradict_each_other_are_told(las, values, told):
+    text = las.vlr(b"LASF_Projection", 2112, COMPOUND_1.encode())
+    crs, heard = crs_of(las, text, *geotiff(las, model=1, **values), encoding=0x10)
+    assert crs.vertical_unit == pytest.approx(SURVEY) and crs.datum.epsg == 5103
+    warnings = [each for each in heard.warnings if "contradict each other" in each]
+    assert len(warnings) == (told is not None)
+    assert all(told in each and "--crs" in each for each in warnings)
+
+
+def test_the_code_of_a_compound_crs_gives_both_parts(las):
+    pytest.importorskip("pyproj")
+    crs, heard = crs_of(las, *geotiff(las, model=1, projected=7415))
+    assert crs.epsg == 28992 and crs.datum.epsg == 5109 and not heard.warnings
+
+
+@pytest.mark.parametrize("kind", ["WKT1_GDAL", "WKT1_ESRI", "WKT2_2019"])
+@pytest.mark.parametrize(
+    ("code", "is_other"), [("2193+5770", True), ("2193+7839", False), ("2193", None)]
+)
+def test_the_datum_of_heights_is_known_in_each_form_of_text(kind, code, is_other):
+    pyproj = pytest.importorskip("pyproj")
+    one = crs_of_wkt(provider.wkt_of_text("EPSG:2193+7839"))
+    other = crs_of_wkt(pyproj.CRS.from_user_input(f"EPSG:{code}").to_wkt(kind))
+    # Texts of ESRI have no codes, so another name is no proof.
+    expected = None if is_other and kind == "WKT1_ESRI" else is_other
+    assert is_other_datum(one.datum, other.datum) is expected
+
+
 @pytest.mark.parametrize("encoding", [0x00, 0x10])
 def test_the_other_description_is_read_where_the_one_is_not_there(las, encoding):
     text = las.vlr(b"LASF_Projection", 2112, projcs(SURVEY_1).encode())
@@ -240,8 +327,9 @@ def test_heights_without_a_unit_take_that_of_x_and_y_and_it_is_told(las):
 
 
 @pytest.mark.parametrize("unit", [1.0, FOOT, SURVEY, 0.25])
-def test_compound_text_reads_as_the_units_it_was_made_from(unit):
-    crs = Crs(projcs(METRE_1), "flat", 1.0, unit)
+@pytest.mark.parametrize("text", [projcs(METRE_1), projcrs("," + METRE_2)])
+def test_compound_text_reads_as_the_units_it_was_made_from(text, unit):
+    crs = Crs(text, "flat", 1.0, unit)
     facts = read_wkt(compound_wkt(crs))
     assert facts.horizontal_unit == 1.0
     assert (facts.vertical_unit or facts.horizontal_unit) == pytest.approx(unit, rel=1e-12)

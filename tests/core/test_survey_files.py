@@ -153,6 +153,53 @@ def test_one_crs_written_in_two_ways_is_one(las):
     assert heard.warnings == []
 
 
+def heights(name, datum, unit="1", code=""):
+    """Return a CRS with heights, given their name, datum, unit and the code of the datum."""
+    code = code and f',AUTHORITY["EPSG","{code}"]'
+    return (
+        f'COMPD_CS["site + {name}",{metres("site", 25832)},VERT_CS["{name}",'
+        f'VERT_DATUM["{datum}",2005{code}],UNIT["unit",{unit}],AXIS["Up",UP]]]'
+    )
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        heights("Wellington 1953", "Wellington 1953", code="5168"),
+        heights("NZVD2016 (ft)", "New Zealand Vertical Datum 2016", "0.3048", "1169"),
+        heights("NZVD2016", "New Zealand Vertical Datum 2016", "0.3048006096012192"),
+    ],
+)
+def test_heights_of_another_datum_or_unit_are_refused_and_a_crs_helps(las, other):
+    tile(las, "a.las", wkt=metres("site", 25832))
+    one = heights("NZVD2016 height", "New Zealand Vertical Datum 2016", code="1169")
+    tile(las, "b.las", 100, wkt=one)
+    tile(las, "c.las", 200, wkt=other)
+    with pytest.raises(BareEarthError, match="heights of the files are not in the same") as error:
+        open_survey([las.folder])
+    told = str(error.value)
+    assert "site + NZVD2016 height in metre, height metre: b.las" in told and "c.las" in told
+    assert "--crs EPSG:25832+7837" in told
+    given = open_survey([las.folder], stated=one)
+    assert given.crs.datum.epsg == 1169
+
+
+def test_a_datum_that_is_not_stated_or_named_differently_is_told(las):
+    tile(las, "a.las", wkt=metres("site", 25832))
+    tile(las, "b.las", 100, wkt=heights("NZVD2016 height", "New Zealand Vertical Datum 2016"))
+    heard = las.Heard()
+    assert open_survey([las.folder], progress=heard).crs.datum.crs == "NZVD2016 height"
+    (info,) = [text for text in heard.infos if "datum" in text]
+    assert info.startswith("No vertical datum is stated by a.las") and not heard.warnings
+    tile(las, "c.las", 200, wkt=heights("Vertical", "New_Zealand_Vertical_Datum_2016"))
+    open_survey([las.folder], progress=heard)
+    assert not heard.warnings
+    tile(las, "d.las", 300, wkt=heights("Geoid 2016", "our geoid"))
+    open_survey([las.folder], progress=heard)
+    (warning,) = heard.warnings
+    assert "NZVD2016 height; others name it Geoid 2016: d.las" in warning
+
+
 def test_a_missing_crs_is_taken_from_the_others_if_these_are_metres(las):
     heard = las.Heard()
     tile(las, "a.las")

@@ -1,0 +1,167 @@
+"""Decides the CRS and the units of a file from all that its records say."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple, Sequence
+
+from ..core.progress import Progress
+from .geokeys import GeoKeys
+from .matching import is_other_datum, named
+from .provider import wkt_of_epsg
+from .stated import HOW
+from .system import Crs, crs_of_facts, same_unit, unit_name
+from .wkt import VerticalDatum, WktFacts, read_wkt
+
+_KEYS, _TEXT = "GeoTIFF keys", "well-known text"
+
+
+class _Statement(NamedTuple):
+    """What one record says: the kind of record, the CRS as well-known text, and its facts."""
+
+    kind: str
+    wkt: str | None
+    facts: WktFacts
+
+
+def crs_of_records(
+    texts: Sequence[str], keys: GeoKeys | None, prefers_text: bool, progress: Progress
+) -> Crs | None:
+    """Return the CRS of a file, given all of its records; None if they state none.
+
+    What the preferred record does not state, such as the unit of heights, comes from the others.
+
+    Parameters
+    ----------
+    texts : sequence of str
+        The records with well-known text.
+    keys : GeoKeys or None
+        The GeoTIFF keys.
+    prefers_text : bool
+        Whether well-known text holds where the records contradict each other.
+    progress : Progress
+        Receives warnings of contradictions and of units that are not known.
+    """
+    found = [_Statement(_TEXT, text, facts) for text in texts if (facts := read_wkt(text))]
+    if keys is not None:
+        stated = _statement_of(keys, progress)
+        found = [*found, stated] if prefers_text else [stated, *found]
+    if not found:
+        return None
+    whole = found[0]
+    for other in found[1:]:
+        whole = _joined(whole, other, progress)
+    return crs_of_facts(whole.wkt, whole.facts, progress)
+
+
+def _joined(one: _Statement, other: _Statement, progress: Progress) -> _Statement:
+    """Return a statement, with what it lacks from another one; tell how they differ."""
+    contradicts_map = _contradicts_map(one.facts, other.facts)
+    if contradicts_map or _contradicts_heights(one.facts, other.facts):
+        progress.warning(
+            f"The records of the file contradict each other: its CRS is {_shown(one)} by the"
+            f" {one.kind}, which is used, and {_shown(other)} by the {other.kind}. If the first is"
+            f" wrong, give the CRS: {HOW}."
+        )
+    has_text = one.wkt is not None or contradicts_map or other.wkt is None
+    first, second = (one, other) if has_text else (other, one)
+    facts, more = first.facts, second.facts
+    if not contradicts_map:
+        facts = facts._replace(
+            horizontal_unit=one.facts.horizontal_unit or other.facts.horizontal_unit,
+            epsg=facts.epsg or more.epsg,
+        )
+    unit = one.facts.vertical_unit or other.facts.vertical_unit
+    if one.facts.vertical_unit is None and unit and not same_unit(unit, facts.horizontal_unit):
+        progress.info(f"The unit of the heights, {unit_name(unit)}, is that of the {other.kind}.")
+    facts = facts._replace(
+        vertical_unit=unit,
+        has_vertical=facts.has_vertical or more.has_vertical,
+        datum=one.facts.datum or other.facts.datum,
+    )
+    return _Statement(one.kind, first.wkt, facts)
+
+
+def _contradicts_map(one: WktFacts, other: WktFacts) -> bool:
+    """Return whether two statements differ in x and y, as far as both state them."""
+    if not (_states_map(one) and _states_map(other)):
+        return False
+    if one.is_geographic != other.is_geographic:
+        return True
+    units = one.horizontal_unit, other.horizontal_unit
+    if not one.is_geographic and all(units) and not same_unit(*units):
+        return True
+    return bool(one.epsg and other.epsg and one.epsg != other.epsg)
+
+
+def _states_map(facts: WktFacts) -> bool:
+    return bool(facts.is_geographic or facts.epsg or facts.horizontal_unit)
+
+
+def _contradicts_heights(one: WktFacts, other: WktFacts) -> bool:
+    """Return whether two statements differ in heights, as far as both state them."""
+    units = one.vertical_unit, other.vertical_unit
+    return (all(units) and not same_unit(*units)) or bool(is_other_datum(one.datum, other.datum))
+
+
+def _shown(statement: _Statement) -> str:
+    """Return what a statement says of name and units, without what would be assumed."""
+    facts = statement.facts
+    words = [named(facts.name, facts.datum) or "without a name"]
+    if facts.is_geographic:
+        words.append("in degrees")
+    elif facts.horizontal_unit:
+        words.append(f"in {unit_name(facts.horizontal_unit)}")
+    height = f", height {unit_name(facts.vertical_unit)}" if facts.vertical_unit else ""
+    return " ".join(words) + height
+
+
+def _statement_of(keys: GeoKeys, progress: Progress) -> _Statement:
+    """Return what GeoTIFF keys say; their EPSG code gives the name and the well-known text."""
+    text = wkt_of_epsg(keys.epsg) if keys.epsg else None
+    facts = read_wkt(text) if text else None
+    if facts is None:
+        name = keys.name or (f"EPSG:{keys.epsg}" if keys.epsg else "")
+        facts = WktFacts(name, None, None, False, keys.is_geographic, keys.epsg, name)
+        text = None
+    for code in keys.unknown_units:
+        progress.warning(f"The unit of the CRS, EPSG code {code}, is not known.")
+    unit, datum = _vertical_of(keys)
+    facts = facts._replace(
+        # A code can be that of a compound CRS.
+        epsg=facts.epsg or keys.epsg,
+        horizontal_unit=_horizontal_unit(keys, facts, progress),
+        vertical_unit=unit or facts.vertical_unit,
+        has_vertical=bool(unit or datum) or facts.has_vertical,
+        datum=datum or facts.datum,
+    )
+    return _Statement(_KEYS, text, facts)
+
+
+def _horizontal_unit(keys: GeoKeys, facts: WktFacts, progress: Progress) -> float | None:
+    """Return the horizontal unit of the keys, or else of the EPSG code."""
+    stated, known = keys.horizontal_unit, facts.horizontal_unit
+    if stated and known and not facts.is_geographic and not math.isclose(stated, known):
+        progress.warning(
+            f"The CRS {facts.name} has the unit {unit_name(known)}, but the file states"
+            f" {unit_name(stated)}, which is used."
+        )
+    return stated or known
+
+
+def _vertical_of(keys: GeoKeys) -> tuple[float | None, VerticalDatum | None]:
+    """Return the unit and the datum of the heights."""
+    code, unit, datum = keys.vertical_epsg, keys.vertical_unit, None
+    text = wkt_of_epsg(code) if code else None
+    # `read_wkt` needs a horizontal CRS as well.
+    facts = read_wkt(f'LOCAL_CS["",UNIT["metre",1]],{text}') if text else None
+    if facts is not None and facts.has_vertical:
+        unit, datum = unit or facts.vertical_unit, facts.datum
+    elif code:
+        datum = VerticalDatum(keys.vertical_name or f"EPSG:{code}", crs_epsg=code)
+    elif keys.datum_epsg:
+        name = keys.vertical_name or f"datum EPSG:{keys.datum_epsg}"
+        datum = VerticalDatum(name, epsg=keys.datum_epsg)
+    elif keys.is_above_ellipsoid:
+        datum = VerticalDatum("ellipsoidal height", is_ellipsoid=True)
+    return unit, datum
