@@ -132,7 +132,11 @@ def _comparison(made: Made) -> str:
         return ""
     lines = made.quality.lines
     failed = made.quality.left
-    words = "No comparison fails." if made.quality.passes else "The survey does not meet it."
+    words = {
+        True: "No comparison fails.",
+        None: "No comparison fails, but not all could be decided.",
+        False: "The survey does not meet it.",
+    }[made.quality.passes]  # fmt: skip
     rows = "".join(
         f'<tr><th class="text">{text(each.name)}</th><td class="text">{text(each.found)}</td>'
         f'<td class="text">{text(each.asked)}</td>'

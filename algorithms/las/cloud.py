@@ -60,6 +60,8 @@ class PointCloud:
         GPS time of each point, if it was read.
     strip : numpy.ndarray of uint16, shape (n,), optional
         Flight strip of each point (point source id), if it was read.
+    synthetic : numpy.ndarray of bool, shape (n,), optional
+        Points that were made, and not measured, if it was read.
     records : numpy.ndarray of uint8, shape (n, record length), optional
         The records of the file, if they were kept for writing.
     file : LasFile, optional
@@ -83,6 +85,7 @@ class PointCloud:
     remembered: np.ndarray | None = None
     gps_time: np.ndarray | None = None
     strip: np.ndarray | None = None
+    synthetic: np.ndarray | None = None
     records: np.ndarray | None = None
     file: LasFile | None = None
 

@@ -95,7 +95,7 @@ def read_parts(
     path, progress
         As for `read_cloud`.
     strips, times : bool
-        Whether to read the flight strip and the GPS time of each point.
+        Whether to read the flight strip and the flag of synthetic points, and the GPS times.
 
     Yields
     ------
@@ -119,6 +119,7 @@ def read_parts(
             part.gps_time = np.array(chunk["gps_time"], dtype=np.float64)
         if strips:
             part.strip = np.array(chunk["point_source_id"], dtype=np.uint16)
+            part.synthetic = np.array(chunk["synthetic"], dtype=bool)
         yield part
         start += len(chunk)
         progress(start / layout.count)

@@ -17,9 +17,10 @@ from ..las.crs_records import WKT_RECORD
 from ..las.reading import read_parts
 from ..survey.files import Survey, open_survey
 from ..survey.ground_classes import GroundClasses
+from ..survey.repeated_points import RepeatedPoints
 from .page import check_page
 from .quality_cells import QualityCells, Sizes, Store
-from .quality_figures import Extent, Quality, counted, figures_of, lines_of
+from .quality_figures import Extent, Quality, figures_of, lines_of, totals_of
 from .quality_page import quality_html
 from .quality_rasters import check_rasters, write_rasters
 from .specifications import SPECIFICATIONS
@@ -146,20 +147,21 @@ def _measured(survey: Survey, request: QualityRequest, work: Path, progress: Pro
     west, south, east, north = (each * frame.horizontal_unit for each in survey.box)
     spacing = 2 * asked.spacing if asked.spacing else _SPACING
     sizes = Sizes.over((west, south, east, north), options.cell_size, spacing)
-    store = Store(work, max(sizes.fine.rows * sizes.fine.columns,
-                            sizes.filled.rows * sizes.filled.columns))  # fmt: skip
-    cells = QualityCells(sizes, store, request.ground)
-    for add, share in ((cells.count, (0.02, 0.4)), (cells.compare, (0.45, 0.8))):
+    fine, filled = (window.rows * window.columns for window in (sizes.fine, sizes.filled))
+    store = Store(work, max(fine, filled), sum(tile.count for tile in survey.tiles))
+    repeated = RepeatedPoints(survey.tiles, store.array)
+    cells = QualityCells(sizes, store, request.ground, repeated)
+    for add, share in ((cells.add, (0.02, 0.4)), (cells.compare, (0.45, 0.8))):
         if add == cells.compare:
             cells.make_planes(progress.part(0.4, 0.45))
         weights = progress.part(*share).shares(*(max(each.count, 1) for each in survey.tiles))
         for tile, part in zip(survey.tiles, weights):
-            for points in read_parts(tile, part, strips=True):
+            for points in read_parts(tile, part, strips=True, times=repeated.has_times):
                 points.require_projected()
                 add(points, frame)
     extent, void = Extent.of(cells), options.void_distance
     found = Quality(
-        **counted(cells.counts), **figures_of(cells, extent, asked, void),
+        **totals_of(cells.counts), **figures_of(cells, extent, asked, void),
         specification=options.specification, files=_files(survey),
     )  # fmt: skip
     found = replace(found, lines=lines_of(found, survey, asked))

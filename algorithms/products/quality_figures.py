@@ -8,11 +8,12 @@ from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
+from ..core.words import counted
 from ..las.class_names import named_class
 from ..survey.files import Survey
 from ..survey.point_counts import by_class
-from .quality_cells import FIRST, WET, Counts, QualityCells
-from .quality_rasters import QUALITY_RASTERS, differences, overlap, rows_of, twice
+from .quality_cells import FLAGGED, PULSE, ROUGH, WET, Counts, QualityCells, twice
+from .quality_rasters import QUALITY_RASTERS, differences, overlap, rows_of, strip_differences
 from .specifications import Specification
 
 PASS, FAIL, LOOK = "pass", "fail", "look"
@@ -21,6 +22,8 @@ LIMITS = (0.08, 0.16)
 # Side in metres of the squares by which the area of the survey is told.
 _SQUARE = 10.0
 _GROUND = 2
+# Steepest land in degrees on which strips are judged, and fewest cells of it.
+_STEEPEST, _FEWEST_CELLS = 10.0, 30
 
 
 class Line(NamedTuple):
@@ -53,6 +56,11 @@ class Quality:
         Name of the specification.
     points, withheld : int
         All points, and those that the producer excluded.
+    shared, duplicates, synthetic, flagged : int
+        Points that do not count as pulses: those that another file holds as well, those that repeat
+        one of their file, those that were not measured, and those with the flag of overlap.
+    flagged_area : float
+        Area in m2 in which all first returns have the flag of overlap; densities leave it out.
     classes, returns : dict of int to int
         Number of points of each class, and of each return number.
     strips : list of int
@@ -71,8 +79,8 @@ class Quality:
         Share of cells that are farther from the ground than the given distance.
     overlap_share : float or None
         Share of cells of twice the cell size in which several strips lie.
-    compared : int
-        Cells on even, open land in which strips are compared.
+    overlapping, compared : int
+        Number of these cells, and of those on even, open land in which strips are compared.
     strip_rms, strip_largest : float or None
         Root mean square and largest difference between strips there, in metres.
     strip_shares : list of float, or None
@@ -87,10 +95,15 @@ class Quality:
     specification: str
     points: int
     withheld: int
+    shared: int
+    duplicates: int
+    synthetic: int
+    flagged: int
     classes: dict[int, int]
     returns: dict[int, int]
     strips: list[int]
     area: float
+    flagged_area: float = 0.0
     pulse_density: float | None = None
     point_density: float | None = None
     ground_density: float | None = None
@@ -99,6 +112,7 @@ class Quality:
     void_count: int | None = None
     ground_void_share: float | None = None
     overlap_share: float | None = None
+    overlapping: int = 0
     compared: int = 0
     strip_rms: float | None = None
     strip_largest: float | None = None
@@ -107,9 +121,11 @@ class Quality:
     lines: list[Line] = field(default_factory=list)
 
     @property
-    def passes(self) -> bool:
-        """Whether no line fails."""
-        return all(each.state != FAIL for each in self.lines)
+    def passes(self) -> bool | None:
+        """Whether all lines pass; None if none fails, but some could not be decided."""
+        if any(each.state == FAIL for each in self.lines):
+            return False
+        return None if self.left else True
 
     @property
     def left(self) -> list[Line]:
@@ -128,6 +144,7 @@ class Quality:
         return [
             ("points", f"{self.points:,}"),
             ("withheld", f"{self.withheld:,}"),
+            ("no pulses", self._no_pulses),
             ("classes", ", ".join(f"{name}: {count:,}" for name, count in self.classes.items())),
             ("returns", ", ".join(f"{name}: {count:,}" for name, count in self.returns.items())),
             ("strips", f"{len(self.strips):,}"),
@@ -137,15 +154,30 @@ class Quality:
             ("ground", _number(self.ground_density, " ground points/m2")),
             ("dense cells", _share(self.dense_share)),
             ("filled cells", _share(self.filled_share)),
-            ("void squares", "none" if self.void_count is None else f"{self.void_count:,}"),
+            ("void squares", "not measured" if self.void_count is None else f"{self.void_count:,}"),
             ("ground voids", _share(self.ground_void_share)),
             ("overlap", _share(self.overlap_share)),
+            ("compared", f"{self.compared:,} of {counted(self.overlapping, 'cell')}"),
             ("strips RMSDz", _metres(self.strip_rms)),
             ("largest", _metres(self.strip_largest)),
             ("below 8 cm", _share(shares[0])),
             ("8 to 16 cm", _share(shares[1])),
             ("over 16 cm", _share(shares[2])),
         ]
+
+    @property
+    def _no_pulses(self) -> str:
+        """The points and the area that densities leave out, beside withheld points and noise."""
+        words = [
+            f"{named}: {count:,}"
+            for named, count in (
+                ("shared by files", self.shared), ("duplicates", self.duplicates),
+                ("synthetic", self.synthetic), ("flag of overlap", self.flagged),
+            )
+        ]  # fmt: skip
+        if self.flagged_area:
+            words.append(f"{self.flagged_area:,.0f} m2 have only points with this flag")
+        return ", ".join(words)
 
     def text(self) -> list[str]:
         """Return the figures and the comparison as lines of text."""
@@ -156,15 +188,15 @@ class Quality:
 
 
 def _number(value: float | None, unit: str) -> str:
-    return "none" if value is None else f"{value:.2f}{unit}"
+    return "not measured" if value is None else f"{value:.2f}{unit}"
 
 
 def _share(value: float | None) -> str:
-    return "none" if value is None else f"{100 * value:.2f} %"
+    return "not measured" if value is None else f"{100 * value:.2f} %"
 
 
 def _metres(value: float | None) -> str:
-    return "none" if value is None else f"{value:.3f} m"
+    return "not measured" if value is None else f"{value:.3f} m"
 
 
 class Extent(NamedTuple):
@@ -179,11 +211,16 @@ class Extent(NamedTuple):
         fill in part only.
     dry : numpy.ndarray of bool
         Those of `inner` in squares of 10 m without points of water.
+    pulses : numpy.ndarray of bool
+        Those of `inner` without squares in which all first returns have the flag of overlap. Where
+        this flag marks all points of an overlap, not only those of one strip, nothing would be left
+        to count.
     """
 
     inside: np.ndarray
     inner: np.ndarray
     dry: np.ndarray
+    pulses: np.ndarray
 
     @classmethod
     def of(cls, cells: QualityCells) -> Extent:
@@ -191,13 +228,15 @@ class Extent(NamedTuple):
         from scipy import ndimage
 
         side = max(round(_SQUARE / (2 * cells.sizes.cell)), 1)
-        held, wet = (_any(each, side) for each in (cells.highest > -np.inf, cells.wet > 0))
-        inside = ndimage.binary_fill_holes(held)
+        some = _any(cells.highest > -np.inf, side)
+        wet, flagged, pulses = (_any(cells.marks & bit > 0, side) for bit in (WET, FLAGGED, PULSE))
+        inside = ndimage.binary_fill_holes(some)
         inner = ndimage.binary_erosion(inside, np.ones((3, 3)))
         if not inner.any():
             inner = inside
         shape = cells.sizes.coarse.shape
-        return cls(*(_spread(each, side, shape) for each in (inside, inner, inner & ~wet)))
+        kinds = (inside, inner, inner & ~wet, inner & ~(flagged & ~pulses))
+        return cls(*(_spread(each, side, shape) for each in kinds))
 
 
 def _any(values: np.ndarray, side: int) -> np.ndarray:
@@ -230,25 +269,35 @@ def figures_of(
     void : float
         Distance in metres from which on ground is missing.
     """
-    inner, side = extent.inner, 2 * cells.sizes.cell
-    area = float(np.count_nonzero(inner)) * side**2
+    side = 2 * cells.sizes.cell
     sums, far, dry, dense = np.zeros(3), 0.0, 0, 0
-    names = ("first", "points", "ground_points")
+    names = {"first": extent.pulses, "points": extent.pulses, "ground_points": extent.inner}
     for rows in rows_of(cells.sizes.fine):
-        within, on_land = twice(inner, rows), twice(extent.dry, rows)
-        sums += [getattr(cells, name)[rows][within].sum(dtype=np.float64) for name in names]
+        there = slice(rows.start // 2, rows.stop // 2)
+        if not extent.inner[there].any():
+            continue
+        sums += [
+            getattr(cells, name)[rows][twice(where, rows)].sum(dtype=np.float64)
+            for name, where in names.items()
+        ]
+        on_land = twice(extent.dry, rows)
         voids = QUALITY_RASTERS["voids"].make(cells, rows, extent.inside, void)
         far, dry = far + float(voids[on_land].sum()), dry + int(np.count_nonzero(on_land))
         pulses = cells.first[rows].astype(np.int64)
         four = pulses.reshape(len(pulses) // 2, 2, -1, 2).sum(axis=(1, 3))
-        there = inner[rows.start // 2 : rows.stop // 2]
-        dense += int(np.count_nonzero(four[there] >= (asked.pulses or 0) * side**2))
-    every = int(np.count_nonzero(inner))
-    found: dict[str, Any] = {"area": area, "ground_void_share": far / dry if dry else None}
-    if area:
-        density = ("pulse_density", "point_density", "ground_density")
-        found.update(zip(density, (sums / area).tolist()))
-        found["dense_share"] = dense / every if asked.pulses else None
+        enough = four[extent.pulses[there]] >= (asked.pulses or 0) * side**2
+        dense += int(np.count_nonzero(enough))
+    inner, counted_cells = (int(np.count_nonzero(each)) for each in (extent.inner, extent.pulses))
+    found: dict[str, Any] = {
+        "area": inner * side**2, "flagged_area": (inner - counted_cells) * side**2,
+        "ground_void_share": far / dry if dry else None,
+    }  # fmt: skip
+    if inner:
+        found["ground_density"] = float(sums[2]) / found["area"]
+    if counted_cells:
+        densities = (sums[:2] / (counted_cells * side**2)).tolist()
+        found["pulse_density"], found["point_density"] = densities
+        found["dense_share"] = dense / counted_cells if asked.pulses else None
     return {**found, **_filled(cells, extent, asked), **_strips(cells, extent)}
 
 
@@ -261,19 +310,21 @@ def _filled(cells: QualityCells, extent: Extent, asked: Specification) -> dict[s
     column = np.floor(x / (2 * cells.sizes.cell)).astype(np.int64) - coarse.column
     row = np.floor(y / (2 * cells.sizes.cell)).astype(np.int64) - coarse.row
     column, row = np.clip(column, 0, coarse.columns - 1), np.clip(row, 0, coarse.rows - 1)
-    every = holding = voids = 0
+    land, every, holding, voids = extent.dry & extent.pulses, 0, 0, 0
     for rows in rows_of(window):
         # With one row more, for the squares of two rows.
         own = slice(0, rows.stop - rows.start)
         rows = slice(rows.start, min(rows.stop + 1, window.rows))
         values = cells.filled[rows]
-        there = extent.dry[np.ix_(row[rows], column)] & (values & WET == 0)
-        missing = there & (values & FIRST == 0)
+        there = land[np.ix_(row[rows], column)] & (values & WET == 0)
+        missing = there & (values & PULSE == 0)
         squares = missing[:-1, :-1] & missing[1:, :-1] & missing[:-1, 1:] & missing[1:, 1:]
         voids += int(np.count_nonzero(squares))
         every += int(np.count_nonzero(there[own]))
         holding += int(np.count_nonzero(there[own] & ~missing[own]))
-    return {"filled_share": holding / every if every else None, "void_count": voids}
+    if not every:
+        return {}
+    return {"filled_share": holding / every, "void_count": voids}
 
 
 def _strips(cells: QualityCells, extent: Extent) -> dict[str, Any]:
@@ -285,13 +336,16 @@ def _strips(cells: QualityCells, extent: Extent) -> dict[str, Any]:
         several += int(np.count_nonzero(number > 1))
         total += int(np.count_nonzero(~np.isnan(number)))
         every = differences(cells, rows, extent.inner, 0.0)
-        known = every[~np.isnan(every)]
+        known = every[~np.isnan(every) & extent.inner[rows]]
         kinds += np.bincount(np.searchsorted(LIMITS, known, side="right"), minlength=3)
-        even = every[~np.isnan(every) & (cells.rough[rows] == 0)]
+        open_land = extent.inner[rows] & (cells.marks[rows] & (ROUGH | WET) == 0)
+        even = strip_differences(cells, rows, _STEEPEST)[open_land]
+        even = even[~np.isnan(even)]
         squares, compared = squares + float((even**2).sum()), compared + len(even)
         largest = max(largest, float(even.max(initial=0.0)))
     found: dict[str, Any] = {
-        "overlap_share": several / total if total else None, "compared": compared,
+        "overlap_share": several / total if total else None, "overlapping": several,
+        "compared": compared,
     }  # fmt: skip
     if kinds.any():
         found["strip_shares"] = (kinds / kinds.sum()).tolist()
@@ -300,11 +354,15 @@ def _strips(cells: QualityCells, extent: Extent) -> dict[str, Any]:
     return found
 
 
-def counted(counts: Counts) -> dict[str, Any]:
+def totals_of(counts: Counts) -> dict[str, Any]:
     """Return the counts of points, by the names of `Quality`."""
     return {
         "points": counts.points,
         "withheld": counts.withheld,
+        "shared": counts.shared,
+        "duplicates": counts.duplicates,
+        "synthetic": counts.synthetic,
+        "flagged": counts.flagged,
         "classes": by_class(counts.classes),
         "returns": by_class(counts.returns),
         "strips": sorted(counts.strips),
@@ -321,43 +379,53 @@ def lines_of(found: Quality, survey: Survey, asked: Specification) -> list[Line]
         place = asked.places.get(key)
         lines.append(Line(name, value, wanted, state, f"{asked.source}: {place}" * bool(place)))
 
-    for key, value, least, what in (
+    def judged(value: float | None, is_enough: bool) -> str | bool:
+        """Return what could not be measured as something to look at."""
+        return LOOK if value is None else is_enough
+
+    for key, density, least, what in (
         ("pulses", found.pulse_density, asked.pulses, "first returns/m2"),
         ("points", found.point_density, asked.points, "points/m2"),
     ):
         if least is not None:
-            enough = value is not None and value >= least
-            add(key, "Density", _number(value, f" {what}"), f"at least {least:g}", enough)
+            state = judged(density, (density or 0.0) >= least)
+            add(key, "Density", _number(density, f" {what}"), f"at least {least:g}", state)
     if asked.filled is not None:
         share, least = found.filled_share, asked.filled
         wanted = f"at least {100 * least:g} % of cells of {2 * (asked.spacing or 0):g} m"
-        enough = share is not None and share >= least
-        add("filled", "Cells with a first return", _share(share), wanted, enough)
-    if asked.spacing is not None and found.void_count is not None:
+        state = judged(share, (share or 0.0) >= least)
+        add("filled", "Cells with a first return", _share(share), wanted, state)
+    if asked.spacing is not None:
         wanted = f"none of {4 * asked.spacing:g} x {4 * asked.spacing:g} m, outside water"
+        count = found.void_count
+        squares = "not measured" if count is None else counted(count, "square")
         state = PASS if found.void_count == 0 else LOOK
-        add("voids", "Voids of first returns", f"{found.void_count:,} squares", wanted, state)
+        add("voids", "Voids of first returns", squares, wanted, state)
     if asked.strips is not None:
-        state = LOOK if found.strip_rms is None else PASS
-        if found.strip_rms is not None and found.strip_rms > asked.strips:
-            state = FAIL
-        wanted = f"RMSDz at most {asked.strips:g} m, on even, open land"
-        add("strips", "Differences between strips", _metres(found.strip_rms), wanted, state)
+        rms, wanted = found.strip_rms, f"RMSDz at most {asked.strips:g} m, on even, open land"
+        value = _metres(rms)
+        if rms is not None:
+            value += f" in {found.compared:,} of {counted(found.overlapping, 'cell')}"
+        enough = PASS if found.compared >= _FEWEST_CELLS else LOOK
+        state = judged(rms, False) if rms is None or rms > asked.strips else enough
+        add("strips", "Differences between strips", value, wanted, state)
     _add_classes(add, found, asked)
     if asked.is_modern:
-        old = [each for each in found.files if each["version"] < "1.4" or each["format"] < 6]
-        words = f"{len(old):,} of {len(found.files):,} files are older"
-        add("format", "Files", words, "LAS 1.4, point format 6 or higher", not old)
-        vague = [each for each in found.files if not each["wkt"]]
-        words = f"{len(vague):,} of {len(found.files):,} files do not state it so"
-        add("crs", "CRS", words, "stated as WKT", not vague)
+        count = len(found.files)
+        modern = sum(each["version"] >= "1.4" and each["format"] >= 6 for each in found.files)
+        for key, name, number, wanted in (
+            ("format", "Files", modern, "LAS 1.4, point format 6 or higher"),
+            ("crs", "CRS", sum(each["wkt"] for each in found.files), "stated as WKT"),
+        ):
+            words = f"so in {number:,} of {counted(count, 'file')}"
+            add(key, name, words, wanted, number == count)
     return lines
 
 
 def _add_classes(add: Any, found: Quality, asked: Specification) -> None:
     """Add the comparison of classes."""
     for each in asked.refused:
-        value = f"{found.classes.get(each, 0):,} points"
+        value = counted(found.classes.get(each, 0), "point")
         add("classes", named_class(each).capitalize(), value, "none", each not in found.classes)
     if asked.classes is not None:
         others = [each for each in found.classes if each not in asked.classes]
@@ -369,4 +437,4 @@ def _add_classes(add: Any, found: Quality, asked: Specification) -> None:
         # Land without buildings has no class of buildings: a person must decide.
         state: str | bool = count > 0 if each == _GROUND or count else LOOK
         name = named_class(each).capitalize()
-        add("classes", name, f"{count:,} points", "used", state)
+        add("classes", name, counted(count, "point"), "used", state)

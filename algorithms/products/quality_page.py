@@ -28,7 +28,8 @@ _STRIPS = ("#3a9d5d", "#f0c93a", "#c0262d")
 _OVERLAP = ("#ffffff", "#c6dbef", "#6baed6", "#2171b5", "#08306b")
 _VOIDS = ("#e4ecdf", "#c0262d")
 _TITLES = {
-    "points": "Points", "withheld": "Withheld points", "classes": "Classes", "returns": "Returns",
+    "points": "Points", "withheld": "Withheld points",
+    "no pulses": "Points that do not count as pulses", "classes": "Classes", "returns": "Returns",
     "strips": "Flight strips (point source ids)", "area": "Area of the figures below",
     "pulses": "Density of first returns", "density": "Density of all returns",
     "ground": "Density of ground points",
@@ -37,6 +38,7 @@ _TITLES = {
     "void squares": "Squares of four times the pulse spacing without a first return, outside water",
     "ground voids": "Cells that are far from a ground point, outside water",
     "overlap": "Cells with several strips",
+    "compared": "Cells on even, open land whose strips are compared, of those with several strips",
     "strips RMSDz": "Differences between strips, RMSDz on even, open land",
     "largest": "Largest difference there",
     "below 8 cm": "Cells of all land whose strips differ by less than 8 cm",
@@ -98,9 +100,11 @@ def _figures(found: Quality) -> str:
     )
     return f"""<h2>Figures</h2>
 <table>{rows}</table>
-<p>Withheld points are left out, and noise (classes 7 and 18) is left out of densities. Densities
-and shares are those of the area of the survey without a border of 10 to 20 m, which points fill in
-part only.</p>"""
+<p>Withheld points are left out. Densities leave out noise (classes 7 and 18), points that were not
+measured (synthetic), points with the flag of overlap, and points that repeat others of their file
+or of another one. Densities and shares are those of the area of the survey without a border of 10
+to 20 m, which points fill in part only, and without squares of 10 m in which all first returns have
+the flag of overlap.</p>"""
 
 
 def _maps(cells: QualityCells, extent: Extent, void: float, survey: Survey) -> str:
@@ -143,7 +147,7 @@ def _coloured(name: str, values: np.ndarray, units: Units) -> tuple[np.ndarray, 
     if name == "voids":
         return _by_kind(values, values > 0, _VOIDS, ["ground", "void"])
     if name == "overlap":
-        words = ["0", "1", "2", "3", "4 or more"]
+        words = ["no strip", "1 strip", "2 strips", "3 strips", "4 strips or more"]
         number = np.clip(np.nan_to_num(np.rint(values)), 0, 4).astype(np.int64)
         return _by_kind(values, number, _OVERLAP, words)
     is_height = name == "surface_height"
@@ -152,7 +156,8 @@ def _coloured(name: str, values: np.ndarray, units: Units) -> tuple[np.ndarray, 
     low = low if is_height else 0.0
     high = max(high, low + 1e-6)
     pixels = ramped(values, colours, low, high)
-    ends = [units.height(low), units.height(high)] if is_height else [f"{low:.3g}", f"{high:.3g}"]
+    per_area = [f"{each:.3g} per m²" for each in (low, high)]
+    ends = [units.height(low), units.height(high)] if is_height else per_area
     return pixels, key(colours[0], ends[0]) + key(colours[-1], ends[1])
 
 

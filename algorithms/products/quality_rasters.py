@@ -14,10 +14,16 @@ from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import Rows, check_raster_output, replacing_raster, write_geotiff
-from .quality_cells import STRIPS, QualityCells
+from .quality_cells import STRIPS, QualityCells, twice
+from .quality_planes import plane_of
 
 # Value of bytes without data, and least number of points of a strip in a cell that is compared.
 NO_BYTE, _LEAST_POINTS = 255, 3
+# A strip is even where its lowest points lie so near to a plane through those of the cells around,
+# in metres. Edges of roofs, cars and single trees are not; a strip that is off as a whole is.
+_UNEVEN = 0.25
+# Cells whose surroundings are looked at together.
+_LOOKED_AT = 1 << 18
 # Cells that are made together.
 _TOGETHER = 1 << 21
 
@@ -79,14 +85,60 @@ def overlap(cells: QualityCells, rows: slice, inside: np.ndarray, void: float) -
 
 
 def differences(cells: QualityCells, rows: slice, inside: np.ndarray, void: float) -> np.ndarray:
-    """Return the range of the mean heights of strips in metres; NaN in cells with one strip."""
+    """Return the range of the mean heights of strips in metres; NaN without two even ones."""
+    return strip_differences(cells, rows, 45.0)
+
+
+def strip_differences(cells: QualityCells, rows: slice, steepest: float) -> np.ndarray:
+    """Return the differences on ground that is not steeper than some degrees."""
     number = cells.strip_points[:, rows]
-    means = np.full(number.shape, np.nan)
-    np.divide(cells.strip_sum[:, rows], number, out=means, where=number >= _LEAST_POINTS)
-    is_known = ~np.isnan(means)
-    lowest = np.where(is_known, means, np.inf).min(axis=0)
-    highest = np.where(is_known, means, -np.inf).max(axis=0)
-    return np.where(is_known.sum(axis=0) > 1, highest - lowest, np.nan)
+    enough = number >= _LEAST_POINTS
+    found = np.full(number.shape[1:], np.nan)
+    places = np.flatnonzero(enough.sum(axis=0) > 1)
+    for start in range(0, len(places), _LOOKED_AT):
+        some = places[start : start + _LOOKED_AT]
+        row, column = np.divmod(some, number.shape[2])
+        is_known = enough[:, row, column] & _is_even(cells, row + rows.start, column, steepest)
+        sums = cells.strip_sum[:, rows][:, row, column]
+        means = sums / np.maximum(number[:, row, column], 1)
+        lowest = np.where(is_known, means, np.inf).min(axis=0)
+        highest = np.where(is_known, means, -np.inf).max(axis=0)
+        several = is_known.sum(axis=0) > 1
+        found.ravel()[some[several]] = (highest - lowest)[several]
+    return found
+
+
+def _is_even(
+    cells: QualityCells, row: np.ndarray, column: np.ndarray, steepest: float
+) -> np.ndarray:
+    """Return where each strip of some cells is even; boolean, shape (4, n).
+
+    A plane through the lowest points of the strip itself, in the 3 x 3 cells around, tells. So
+    strips that are far apart count as even, and what rises in single cells does not.
+    """
+    rows, columns = cells.sizes.coarse.shape
+    size = 2 * cells.sizes.cell
+    names, own = cells.strip[:, row, column], cells.strip_low[:, row, column]
+    sums = np.zeros((STRIPS, 9, len(row)))
+    for down in (-1, 0, 1):
+        for right in (-1, 0, 1):
+            there = (row + down >= 0) & (row + down < rows)
+            there &= (column + right >= 0) & (column + right < columns)
+            beside = np.clip(row + down, 0, rows - 1), np.clip(column + right, 0, columns - 1)
+            for slot in range(STRIPS):
+                strip, low = cells.strip[slot][beside], cells.strip_low[slot][beside]
+                # The same strip can be in another slot there.
+                n = (strip == names) & (names > 0) & there & np.isfinite(low)
+                z = np.where(n, low - own, 0.0)
+                x, y = right * size, down * size
+                products = (1.0, x, y, z, x * x, x * y, y * y, x * z, y * z)
+                for total, product in zip(sums.swapaxes(0, 1), products):
+                    total += n * product
+    found = [plane_of(each) for each in sums]
+    is_good, values = np.stack([each[0] for each in found]), np.stack([each[1] for each in found])
+    slope = np.hypot(values[:, 1], values[:, 2])
+    near = np.abs(values[:, 0]) <= _UNEVEN
+    return is_good & near & (slope <= math.tan(math.radians(steepest)))
 
 
 def _highest(cells: QualityCells, rows: slice, inside: np.ndarray, void: float) -> np.ndarray:
@@ -118,12 +170,6 @@ QUALITY_RASTERS = {
         "Maximum surface height", "Height, {unit}", _highest, True, is_height=True
     ),
 }  # fmt: skip
-
-
-def twice(inside: np.ndarray, rows: slice) -> np.ndarray:
-    """Return values of coarse cells for some rows of fine cells; the first row must be even."""
-    coarse = inside[rows.start // 2 : -(-rows.stop // 2)]
-    return coarse.repeat(2, axis=0)[: rows.stop - rows.start].repeat(2, axis=1)
 
 
 def rows_of(window: CellWindow) -> list[slice]:

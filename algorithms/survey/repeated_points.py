@@ -1,0 +1,111 @@
+"""Finds points that a survey holds several times: those that tiles share, and duplicates."""
+
+from __future__ import annotations
+
+import math
+from typing import Callable, Sequence
+
+import numpy as np
+
+from ..las.cloud import PointCloud
+from ..las.lasfile import LasFile
+
+# Keys that are sorted together.
+_SORTED_TOGETHER = 1 << 25
+# Multipliers that spread the bits of a number (Steele, Lea and Flood 2014, SplitMix64).
+_SPREAD = (0xBF58476D1CE4E5B9, 0x94D049BB133111EB)
+
+
+class RepeatedPoints:
+    """Tells which points of a survey were there before, in the order of its files.
+
+    Points are the same if their coordinates, return numbers and, where all files have them, GPS
+    times are equal. They are compared by keys of 64 bits: of a billion points, one in thirty
+    surveys has a pair of equal keys by chance.
+
+    Parameters
+    ----------
+    tiles : sequence of LasFile
+        The files of the survey.
+    array : callable
+        ``array(name, shape, kind)`` returns an array of zeros, in memory or on disk.
+
+    Attributes
+    ----------
+    has_times : bool
+        Whether the parts must have GPS times.
+    shared, duplicates : int
+        Points that an earlier file holds as well, and other points that repeat one of their file.
+    """
+
+    def __init__(
+        self, tiles: Sequence[LasFile], array: Callable[[str, tuple[int, ...], str], np.ndarray]
+    ) -> None:
+        self.has_times = all(tile.has_gps_times for tile in tiles)
+        self.shared = self.duplicates = 0
+        # Coordinates are compared in the smallest unit of all files.
+        self._unit = tuple(min(tile.scale[axis] for tile in tiles) for axis in range(3))
+        self._starts = np.cumsum([0, *(tile.count for tile in tiles)])
+        total = int(self._starts[-1])
+        self._keys = array("keys", (max(total, 1),), "u8")[:total]
+        self._is_repeated = array("repeated", (max(total, 1),), "?")[:total]
+        self._place = 0
+
+    def add(self, part: PointCloud) -> None:
+        """Add the next part of the survey."""
+        stop = self._place + part.count
+        self._keys[self._place : stop] = self._keys_of(part)
+        self._place = stop
+
+    def _keys_of(self, part: PointCloud) -> np.ndarray:
+        columns = [
+            np.rint((whole * scale + offset) / unit).astype(np.int64).view(np.uint64)
+            for whole, scale, offset, unit in zip(
+                (part.x, part.y, part.z), part.scale, part.offset, self._unit
+            )
+        ]
+        columns.append(part.return_number.astype(np.uint64))
+        if self.has_times and part.gps_time is not None:
+            columns.append((part.gps_time + 0.0).view(np.uint64))  # + 0.0: there is a -0.0, too
+        keys = np.zeros(part.count, dtype=np.uint64)
+        for column in columns:
+            keys ^= column
+            for shift, factor in zip((30, 27), _SPREAD):
+                keys ^= keys >> np.uint64(shift)
+                keys *= np.uint64(factor)
+            keys ^= keys >> np.uint64(31)
+        return keys
+
+    def find(self) -> None:
+        """Find the repeated points, when all parts are added, and begin with the parts anew."""
+        bits = math.ceil(math.log2(max(len(self._keys) / _SORTED_TOGETHER, 1.0)))
+        for number in range(1 << bits):
+            if bits:
+                some = np.flatnonzero(self._keys >> np.uint64(64 - bits) == number)
+                self._find_among(some, self._keys[some])
+            else:
+                self._find_among(np.arange(len(self._keys)), self._keys)
+        self._place = 0
+
+    def _find_among(self, places: np.ndarray, keys: np.ndarray) -> None:
+        """Find the repeated points among those whose keys begin alike."""
+        in_order = np.sort(keys)
+        if not np.any(in_order[1:] == in_order[:-1]):
+            return
+        order = np.argsort(keys, kind="stable")
+        places, keys = places[order], keys[order]
+        is_first = np.concatenate(([True], keys[1:] != keys[:-1]))
+        first = places[is_first][np.cumsum(is_first) - 1]
+        again = places[~is_first]
+        self._is_repeated[again] = True
+        before, here = (
+            np.searchsorted(self._starts, some, "right") for some in (first[~is_first], again)
+        )
+        shared = int(np.count_nonzero(before != here))
+        self.shared += shared
+        self.duplicates += len(again) - shared
+
+    def among(self, part: PointCloud) -> np.ndarray:
+        """Return which points of the next part were there before; boolean, shape (n,)."""
+        start, self._place = self._place, self._place + part.count
+        return np.asarray(self._is_repeated[start : self._place])
