@@ -251,7 +251,7 @@ def _water(options: argparse.Namespace) -> int:
     request = WaterRequest.of(chosen(options), crs=options.crs, breaklines=options.breaklines_out)
     with Terminal(options.verbose) as progress:
         summary = write_water(options.input, options.output, request, progress)
-    tell(options, summary, f"{options.output}: {summary.text}")
+    tell(options, summary, f"{options.output}: {summary.text}", always=True)
     return DONE
 
 

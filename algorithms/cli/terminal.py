@@ -70,7 +70,7 @@ def _progress_bar() -> Any:
     return tqdm(total=100, bar_format=layout, leave=False, file=sys.stderr)
 
 
-def tell(options: argparse.Namespace, summary: Any, text: str) -> None:
+def tell(options: argparse.Namespace, summary: Any, text: str, always: bool = False) -> None:
     """Print the result: as JSON, or as a sentence in a terminal.
 
     Parameters
@@ -81,8 +81,10 @@ def tell(options: argparse.Namespace, summary: Any, text: str) -> None:
         The result as a dataclass, for JSON.
     text : str
         The sentence. With `verbose`, it is printed also if the output is no terminal.
+    always : bool
+        Whether the sentence says what was found, so that it is printed anyway.
     """
     if options.json:
         print(json.dumps(dataclasses.asdict(summary)))
-    elif options.verbose or sys.stdout.isatty():
+    elif always or options.verbose or sys.stdout.isatty():
         print(text)

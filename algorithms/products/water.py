@@ -45,7 +45,8 @@ _ABOVE, _MOST_ABOVE = 2.0, 0.05
 _MOST_OFF = 0.5
 # Share of class 9 among the points from which a region needs no rising shore.
 _CLASSIFIED = 0.5
-_GRADES = ((0.75, "certain"), (0.5, "likely"), (0.0, "doubtful"))
+# Least certainty of each grade.
+GRADES = ((0.75, "certain"), (0.5, "likely"), (0.0, "doubtful"))
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,7 @@ class WaterBody(NamedTuple):
     @property
     def grade(self) -> str:
         """The grade of certainty: certain, likely or doubtful."""
-        return next(name for least, name in _GRADES if self.certainty >= least)
+        return next(name for least, name in GRADES if self.certainty >= least)
 
 
 class _Region(NamedTuple):

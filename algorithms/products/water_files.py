@@ -19,7 +19,7 @@ from ..survey.kept_classes import NOISE, is_one_of
 from .constraints import Constraints
 from .line_files import Feature, Layer, feature_writer, files_beside
 from .survey_ground import SurveyGround
-from .water import Water, WaterBody, find_water
+from .water import GRADES, Water, WaterBody, find_water
 from .water_grid import WaterGrid, cell_for
 
 # The classes of water and of the decks of bridges in the LAS specification.
@@ -77,6 +77,8 @@ class WaterSummary:
         Number of polygons by grade of certainty.
     cell : float
         Side in metres of the cells in which points were counted.
+    min_area, min_width : float
+        Smallest area in square metres, and smallest width of a river in metres.
     """
 
     lakes: int
@@ -84,15 +86,22 @@ class WaterSummary:
     area: float
     grades: dict[str, int]
     cell: float
+    min_area: float
+    min_width: float
 
     @property
     def text(self) -> str:
         """The result as words."""
+        if not self.lakes + self.rivers:
+            return (
+                f"no lake of {self.min_area:,g} m² or more, and no river as large and at least"
+                f" {self.min_width:g} m wide, in cells of {self.cell:g} m"
+            )
         grades = ", ".join(f"{count:,} {grade}" for grade, count in self.grades.items())
         lakes = f"{self.lakes:,} lake{'' if self.lakes == 1 else 's'}"
         rivers = "1 part of a river" if self.rivers == 1 else f"{self.rivers:,} parts of rivers"
         return (
-            f"{lakes} and {rivers}, {self.area / 10_000:,.1f} ha{f' ({grades})' if grades else ''},"
+            f"{lakes} and {rivers}, {self.area / 10_000:,.1f} ha ({grades}),"
             f" in cells of {self.cell:g} m"
         )
 
@@ -109,11 +118,14 @@ class SurveyWater:
         The CRS of the points.
     cell : float
         Side of the cells in metres.
+    how : Water
+        Which water was looked for.
     """
 
     bodies: list[WaterBody]
     crs: Crs
     cell: float
+    how: Water
 
     @classmethod
     def of(
@@ -144,7 +156,7 @@ class SurveyWater:
             _add(grid, cloud, survey, (ground, used & is_water, used & last, used & is_deck))
         survey.check()
         found = find_water(grid, request.water, progress.part(0.9, 1.0))
-        return cls(found, survey.survey.crs, cell)
+        return cls(found, survey.survey.crs, cell, request.water)
 
     @property
     def summary(self) -> WaterSummary:
@@ -153,7 +165,8 @@ class SurveyWater:
         grades = [each.grade for each in self.bodies]
         return WaterSummary(
             kinds.count("lake"), kinds.count("river"), sum(each.area for each in self.bodies),
-            {each: grades.count(each) for each in dict.fromkeys(sorted(grades))}, self.cell,
+            {name: grades.count(name) for _, name in GRADES if name in grades}, self.cell,
+            self.how.min_area, self.how.min_width,
         )  # fmt: skip
 
     def in_crs(self, places: np.ndarray) -> np.ndarray:

@@ -252,6 +252,17 @@ def test_a_terrain_model_with_the_water_that_is_found(survey, tmp_path):
     assert abs(heights[inside][0] - LEVEL) < 0.3
 
 
+def test_the_command_prints_what_it_found_and_the_limits_if_it_found_nothing(
+    survey, tmp_path, capsys
+):
+    run("water", survey / "in.laz", tmp_path / "one.geojson")
+    assert (
+        "one.geojson: 1 lake and 0 parts of rivers, 1.6 ha (1 certain)" in capsys.readouterr().out
+    )
+    run("water", survey / "in.laz", tmp_path / "none.geojson", "--min-area", 20_000)
+    assert "no lake of 20,000 m² or more, and no river as large" in capsys.readouterr().out
+
+
 def test_what_cannot_be_done_is_said(survey, tmp_path, capsys):
     source, target = survey / "in.laz", tmp_path / "water.gpkg"
     assert main(["water", str(source), str(tmp_path / "water.tif")]) == 1
