@@ -174,9 +174,7 @@ def with_found_water(
     with Terminal(options.verbose) as progress:
         found = SurveyWater.of(options.input, request, progress)
         progress.info(f"Water: {found.summary.text}.")
-    return dataclasses.replace(
-        known, water=found.constraints.water, rivers=(*known.rivers, *found.constraints.rivers)
-    )
+        return known.with_water(found.constraints, progress)
 
 
 def water_polygons_of(options: argparse.Namespace, sets: Sequence[ParameterSet]) -> WaterPolygons:
@@ -191,7 +189,7 @@ def water_polygons_of(options: argparse.Namespace, sets: Sequence[ParameterSet])
         # To find the water can take minutes.
         if is_one_file(options.input):
             check_cloud(options.input[0], options.output)
-        return WaterPolygons(with_found_water(options, NO_CONSTRAINTS, sets).water)
+        return WaterPolygons(with_found_water(options, NO_CONSTRAINTS, sets).water_outlines)
     return WaterPolygons(read_boundary(Path(options.water)))
 
 

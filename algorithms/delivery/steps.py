@@ -197,7 +197,7 @@ class DeliverySteps:
         if how is None or not known.water:
             return
         asked = WaterClassRequest(
-            parameters=how, ground=self.request.ground, water=WaterPolygons(known.water),
+            parameters=how, ground=self.request.ground, water=WaterPolygons(known.water_outlines),
             **self._further,
         )  # fmt: skip
         done = self._change(asked, WATER, second)
@@ -247,9 +247,8 @@ class DeliverySteps:
         self.made.water = found.summary
         progress.info(f"Water: {found.summary.text}.")
         if found.bodies:
-            self.made.found, known = found, found.constraints
-            rivers = (*request.constraints.rivers, *known.rivers)
-            self.made.constraints = replace(request.constraints, water=known.water, rivers=rivers)
+            self.made.found = found
+            self.made.constraints = request.constraints.with_water(found.constraints, progress)
 
     def _draw(self, progress: Progress) -> None:
         """Make the rasters."""

@@ -61,6 +61,10 @@ class CellWindow(NamedTuple):
             self.row - cells, self.column - cells, self.rows + both, self.columns + both
         )
 
+    def strip(self, start: int, end: int) -> CellWindow:
+        """Return the cells of some rows, which are counted from the north."""
+        return self._replace(row=self.row + self.rows - end, rows=end - start)
+
     def within(self, other: CellWindow) -> CellWindow:
         """Return the cells that both windows share; its size is 0 or negative if they are apart."""
         row, column = max(self.row, other.row), max(self.column, other.column)

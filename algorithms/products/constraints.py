@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -36,9 +36,11 @@ class Constraints(Geometry):
         Lines that no triangle crosses: edges of walls, dykes, terraces. Where z is NaN, the terrain
         on each side of a line has the height of the nearest ground point on that side.
     water : tuple of polygon
-        Water, as in `Area`: flattened to one level.
+        Water, as in `Area`: flattened to one level, which follows from the ground along it. If the
+        corners have z, shape (n, 3), this is the level in the vertical unit of the CRS.
     rivers : tuple of numpy.ndarray of float64, shape (n, 3)
-        Lines along which the level of water falls, in either direction; z is not used.
+        Lines along which the level of water falls, in either direction. z is used only in water
+        whose corners have z.
     no_ground : tuple of polygon
         Areas in which no point is ground, such as bridges and roofs.
     """
@@ -71,9 +73,25 @@ class Constraints(Geometry):
         """Return how many rivers have no place in any water; `step` is in units of the CRS."""
         if not self.water:
             return len(self.rivers)
-        water = Area(None, self.water)
+        water = Area(None, self.water_outlines)
         flat = (np.nan_to_num(river) * (1.0, 1.0, 0.0) for river in self.rivers)
         return sum(not water.contains(*along(each, step)[:, :2].T).any() for each in flat)
+
+    def with_water(self, found: Constraints, progress: Progress = SILENT) -> Constraints:
+        """Return these with water that was found, whose level is known along its own rivers.
+
+        Progress receives a warning if there are other rivers, which then have no effect.
+        """
+        if self.rivers:
+            progress.warning(
+                "The rivers have no effect on water that is found. Give the water as polygons, too."
+            )
+        return replace(self, water=found.water, rivers=found.rivers)
+
+    @property
+    def water_outlines(self) -> tuple[Polygon, ...]:
+        """The polygons of water without their levels."""
+        return tuple(tuple(ring[:, :2] for ring in polygon) for polygon in self.water)
 
     @property
     def any(self) -> bool:
@@ -89,7 +107,7 @@ class Constraints(Geometry):
     @cached_property
     def _excluded(self) -> Area | None:
         """The area in which points are not ground."""
-        excluded = (*self.no_ground, *self.water)
+        excluded = (*self.no_ground, *self.water_outlines)
         return Area(None, excluded) if excluded else None
 
 

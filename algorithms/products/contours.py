@@ -15,6 +15,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
+from ..grids.morphology import within_square
 from ..rasters.rows import RowsOfRaster
 from .line_files import Feature, Layer, feature_writer, files_beside
 
@@ -224,13 +225,14 @@ def _lines_of(
     cells = math.hypot(b, d) * unit, math.hypot(a, c) * unit
     sigma = how.contour_smoothing / 2 / cells[0], how.contour_smoothing / 2 / cells[1]
     smooths = max(sigma) > _LEAST_SIGMA
-    reach, lines = reach_of(sigma[0]) if smooths else 0, Isolines(interval, columns)
+    half = max(round(max(sigma)), 1)
+    reach, lines = max(reach_of(sigma[0]), 3 * half) if smooths else 0, Isolines(interval, columns)
     for start in range(0, max(count - 1, 1), rows):
         end = min(start + rows + 1, count)  # the next strip begins with the last row
         first = max(start - reach, 0)
         heights = raster.read(first, end + reach)
         if smooths:
-            heights = local_trend(heights, sigma)
+            heights = np.where(_is_level(heights, half), heights, local_trend(heights, sigma))
         for line in lines.add(heights[start - first : end - first], start, end == count):
             row, column = (line.places + 0.5).T
             corners = np.column_stack((x + a * column + b * row, y + c * column + d * row))
@@ -238,6 +240,17 @@ def _lines_of(
                 height = float(f"{line.level * interval:.9g}")
                 yield ContourLine(height, line.level % INDEX == 0, corners)
         progress(end / count)
+
+
+def _is_level(heights: np.ndarray, half: int) -> np.ndarray:
+    """Return which cells are as high as a square near them that has exactly one height.
+
+    Such squares are water that was flattened. Smoothing would draw the lines of its banks into it.
+    `half` is half the side of the square; up to three times as far cells matter.
+    """
+    low, high = (within_square(each, heights, half) for each in (np.minimum, np.maximum))
+    levels = np.where(low == high, heights, -np.inf)
+    return within_square(np.maximum, levels, 2 * half) == heights
 
 
 def _is_speck(line: Isoline, corners: np.ndarray, least: float) -> bool:

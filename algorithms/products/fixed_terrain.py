@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Callable, Iterable, Iterator, NamedTuple, Sequence
+from functools import cached_property, partial
+from typing import Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
@@ -18,9 +18,8 @@ from ..survey.area import Area, Polygon
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import IGNORED_GROUND
 from .constraints import NEAR, STATION, Constraints
+from .level_water import LevelWater
 
-# Returns the level of water at places of shape (n, 2), in metres.
-Levels = Callable[[np.ndarray], np.ndarray]
 # This share of the ground along the border of water is below its level: banks are higher.
 _LEVEL = 10.0
 # Metres between vertices inside water.
@@ -41,11 +40,14 @@ class FixedTerrain:
         Places along lines and borders, and inside of water: metres, in the frame of the survey.
     cell : float
         Side in metres of the cells in which points are thinned.
+    waters : tuple of LevelWater
+        The water in the frame of the survey, if its level is known.
     """
 
     edges: np.ndarray
     inside: np.ndarray
     cell: float
+    waters: tuple[LevelWater, ...] = ()
 
     def added_to(
         self, points: Points, ground: np.ndarray, corner: tuple[float, float]
@@ -127,12 +129,14 @@ def fixed_terrain(
     """
     if not constraints.any:
         return None
-    given = GivenTerrain.of(constraints, clouds, frame, ground, cell / PER_CELL)
-    flat = list(_flattened(given, progress))
-    borders, insides = zip(*flat) if flat else ((), ())
+    step = cell / PER_CELL
+    given = GivenTerrain.of(constraints, clouds, frame, ground, step)
+    waters = tuple(each for each in given.waters if each.is_known)
+    _tell_of_dry(len(given.waters) - len(waters), progress)
     lines, none = _along_breaklines(given.lines, given.ground, progress), np.zeros((0, 3))
+    borders = (along(ring, step) for each in waters for ring in each.rings)
     edges = np.concatenate([none, *lines, *borders])
-    return FixedTerrain(edges, np.concatenate([none, *insides]), cell)
+    return FixedTerrain(edges, np.concatenate([none, *map(_inside, waters)]), cell, waters)
 
 
 class GivenTerrain(NamedTuple):
@@ -142,22 +146,15 @@ class GivenTerrain(NamedTuple):
     ----------
     lines : list of numpy.ndarray of float64, shape (n, 3)
         Places along each breakline.
-    waters : list of polygon
-        Each with rings of shape (n, 3), whose z is not used.
-    borders : list of numpy.ndarray of float64, shape (n, 3)
-        Places along the rings of each polygon of water.
-    rivers : list of numpy.ndarray of float64, shape (n, 2)
-        Stations along each river.
-    ground, shore : NearestHeights
-        The ground near breaklines, and near water, where ignored ground counts too.
+    waters : list of LevelWater
+        The water; its level is not known if no ground is near it.
+    ground : NearestHeights
+        The ground near breaklines and water.
     """
 
     lines: list[np.ndarray]
-    waters: list[Polygon]
-    borders: list[np.ndarray]
-    rivers: list[np.ndarray]
+    waters: list[LevelWater]
     ground: NearestHeights
-    shore: NearestHeights
 
     @classmethod
     def of(
@@ -169,54 +166,65 @@ class GivenTerrain(NamedTuple):
         step: float,
     ) -> GivenTerrain:
         """Return constraints with the ground near them; places are at most a step apart."""
-        unit, origin = frame.horizontal_unit, np.array(frame.origin)
-        lines = [
-            along((line - (*origin, 0.0)) * (unit, unit, frame.vertical_unit), step)
-            for line in constraints.breaklines
-        ]
-        waters = [
-            tuple(np.column_stack(((ring - origin) * unit, np.zeros(len(ring)))) for ring in each)
-            for each in constraints.water
-        ]
+        metres = partial(_in_metres, frame)
+        lines = [along(metres(line), step) for line in constraints.breaklines]
+        polygons = [tuple(map(metres, polygon)) for polygon in constraints.water]
         borders = [
             np.concatenate([along(ring, step, is_closed=True) for ring in polygon])
-            for polygon in waters
-        ]
-        rivers = [
-            along((line - (*origin, 0.0)) * (unit, unit, 1.0), STATION)[:, :2]
-            for line in constraints.rivers
+            for polygon in polygons
         ]
         near, is_ground = _ground_near([*lines, *borders], clouds, ground, frame)
-        if waters:
+        if polygons:
             # Points in the water are not on its banks.
-            water = Area(None, tuple(tuple(ring[:, :2] for ring in each) for each in waters))
-            dry = ~water.contains(*near[:, :2].T)
+            dry = ~Area(None, tuple(map(_outline_of, polygons))).contains(*near[:, :2].T)
             near, is_ground = near[dry], is_ground[dry]
         heights = NearestHeights(near[is_ground], NEAR)
         # The level is that of the foot of the bank, where ground is ignored by the surface.
         shore = heights if is_ground.all() else NearestHeights(near, NEAR)
-        return cls(lines, waters, borders, rivers, heights, shore)
+        rivers = [along(metres(line), STATION) for line in constraints.rivers]
+        waters = [
+            _with_level(polygon, border, rivers, shore)
+            for polygon, border in zip(polygons, borders)
+        ]
+        return cls(lines, waters, heights)
 
-    def lines_in(self, area: Area) -> list[np.ndarray]:
-        """Return the stations of each river that lie in an area."""
-        return [each[area.contains(*each.T)] for each in self.rivers]
 
-    def levels(self, number: int) -> Levels | None:
-        """Return what tells the level of a polygon of water; None without ground on its border."""
-        border = self.borders[number][:, :2]
-        heights = self.shore.at(border)
-        if np.isnan(heights).all():
-            return None
-        line = np.concatenate([np.zeros((0, 2)), *self.lines_in(area_of(self.waters[number]))])
+def _in_metres(frame: Frame, line: np.ndarray) -> np.ndarray:
+    """Return the corners of a line or ring in metres, shape (n, 3); NaN for z without any."""
+    x, y = ((line[:, :2] - frame.origin) * frame.horizontal_unit).T
+    has_z = line.shape[1] > 2
+    return np.column_stack((x, y, line[:, 2] * frame.vertical_unit if has_z else np.nan * x))
+
+
+def _outline_of(polygon: Polygon) -> Polygon:
+    return tuple(ring[:, :2] for ring in polygon)
+
+
+def _with_level(
+    polygon: Polygon, border: np.ndarray, rivers: Sequence[np.ndarray], shore: NearestHeights
+) -> LevelWater:
+    """Return a polygon with its level: that of its corners, or of the ground along its border."""
+    rings = tuple(along(ring, STATION, is_closed=True) for ring in polygon)
+    area = Area(None, (_outline_of(polygon),))
+    parts = [line[area.contains(*line[:, :2].T)] for line in rivers]
+    parts = [part for part in parts if len(part) > 1]
+    if not np.isnan(border[:, 2]).any():
+        return LevelWater(rings, tuple(parts))
+    places = border[:, :2]
+    heights = shore.at(places)
+    if np.isnan(heights).all():
+        return LevelWater(rings)
+    line = np.concatenate([np.zeros((0, 3)), *parts])[:, :2]
+    level = float(np.nanpercentile(heights, _LEVEL))
+
+    def raised(some: np.ndarray) -> np.ndarray:
+        z = np.full(len(some), level)
         if len(line) > 1:
-            return lambda places: falling(line, border, heights, places, _LEVEL)
-        level = np.nanpercentile(heights, _LEVEL)
-        return lambda places: np.full(len(places), level)
+            z = falling(line, places, heights, some[:, :2], _LEVEL)
+        return np.column_stack((some[:, :2], z))
 
-
-def area_of(polygon: Polygon) -> Area:
-    """Return a polygon of water as an area."""
-    return Area(None, (tuple(ring[:, :2] for ring in polygon),))
+    downstream = (each if each[0, 2] >= each[-1, 2] else each[::-1] for each in map(raised, parts))
+    return LevelWater(tuple(map(raised, rings)), tuple(downstream))
 
 
 def parts_of(files: Sequence[LasFile], progress: Progress = SILENT) -> Iterator[PointCloud]:
@@ -242,24 +250,18 @@ def _along_breaklines(
         )
 
 
-def _flattened(given: GivenTerrain, progress: Progress) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield the vertices of each water polygon, on its border and inside."""
-    dry = 0
-    for number, (polygon, border) in enumerate(zip(given.waters, given.borders)):
-        levels = given.levels(number)
-        if levels is None:
-            dry += 1
-            yield np.zeros((0, 3)), np.zeros((0, 3))
-            continue
-        area = area_of(polygon)
-        inside = inside_grid(area.bounds, _INSIDE)
-        inside = inside[area.contains(*inside.T)]
-        places = np.concatenate((border[:, :2], inside))
-        vertices = np.column_stack((places, levels(places)))
-        yield vertices[: len(border)], vertices[len(border) :]
-    if dry:
+def _inside(water: LevelWater) -> np.ndarray:
+    """Return vertices inside of water, shape (n, 3)."""
+    x, y = inside_grid(water.bounds, _INSIDE).T
+    inside = water.contains(x, y)
+    x, y = x[inside], y[inside]
+    return np.column_stack((x, y, water.level_at(x, y)))
+
+
+def _tell_of_dry(count: int, progress: Progress) -> None:
+    if count:
         progress.warning(
-            f"Polygons of water that are not flattened: {dry:,}. They have no ground point"
+            f"Polygons of water that are not flattened: {count:,}. They have no ground point"
             f" within {NEAR:g} m of their border. The terrain uses no ground points in them."
         )
 

@@ -12,40 +12,12 @@ from ..las.cloud import PointCloud, survey_frame
 from ..survey.area import Polygon
 from ..survey.ground_classes import GroundClasses
 from .constraints import STATION, Constraints
-from .fixed_terrain import PER_CELL, GivenTerrain, area_of
+from .fixed_terrain import PER_CELL, GivenTerrain
+from .level_water import LevelWater
 from .line_files import Feature
 
 # What stands for the grade of certainty of water that was not found.
 _GRADE = "given"
-
-
-class LevelWater(NamedTuple):
-    """Water of the user with its level, in metres; without ground near it, without a level.
-
-    Attributes
-    ----------
-    rings : tuple of numpy.ndarray of float64, shape (n, 3)
-        Shore and islands, closed; places at most `STATION` apart.
-    rivers : tuple of numpy.ndarray of float64, shape (m, 3)
-        The parts of rivers in it, downstream.
-    area : float
-        In square metres.
-    """
-
-    rings: tuple[np.ndarray, ...]
-    rivers: tuple[np.ndarray, ...]
-    area: float
-
-    @property
-    def levels(self) -> tuple[float, float]:
-        """The highest and the lowest level; NaN if it is not known."""
-        heights = np.concatenate(self.rings)[:, 2]
-        return float(heights.max()), float(heights.min())
-
-    @property
-    def is_known(self) -> bool:
-        """Whether the level is known."""
-        return not np.isnan(self.levels).any()
 
 
 class GivenWater(NamedTuple):
@@ -97,14 +69,13 @@ class GivenWater(NamedTuple):
             If the user asked to stop.
         """
         given = GivenTerrain.of(constraints, clouds, survey_frame(crs), ground, cell / PER_CELL)
-        waters = (_with_levels(given, number) for number in range(len(given.waters)))
         units = crs.horizontal_unit, crs.horizontal_unit, crs.vertical_unit
         lines = (
             (number, each)
             for number, line in enumerate(constraints.breaklines, start=1)
             for each in _with_heights(line * units, given)
         )
-        return cls(constraints.water, tuple(waters), tuple(lines), crs)
+        return cls(constraints.water_outlines, tuple(given.waters), tuple(lines), crs)
 
     def features(self) -> Iterator[Feature]:
         """Yield the polygons with the fields of found water; what is not known is empty."""
@@ -114,7 +85,7 @@ class GivenWater(NamedTuple):
             high, low = (round(level / up, 3) for level in each.levels)
             area = round(each.area, 3)
             values = number, kind, high, low, none, none, _GRADE, area, none, none, none
-            yield Feature(values, [_closed(ring[:, :2]) for ring in rings])
+            yield Feature(values, [_closed(ring) for ring in rings])
 
     def lines(self) -> Iterator[Feature]:
         """Yield shores, islands, rivers and breaklines, if their heights are known."""
@@ -128,22 +99,6 @@ class GivenWater(NamedTuple):
                     yield Feature((number, "river"), line / units)
         for number, line in self.breaklines:
             yield Feature((number, "breakline"), line / units)
-
-
-def _with_levels(given: GivenTerrain, number: int) -> LevelWater:
-    """Return a polygon of water with its level."""
-    polygon = given.waters[number]
-    area, level = area_of(polygon), given.levels(number)
-
-    def raised(places: np.ndarray) -> np.ndarray:
-        heights = np.full(len(places), np.nan) if level is None else level(places[:, :2])
-        return np.column_stack((places[:, :2], heights))
-
-    rings = tuple(raised(along(ring, STATION, is_closed=True)) for ring in polygon)
-    rivers = [raised(each) for each in given.lines_in(area) if len(each) > 1]
-    downstream = tuple(each if each[0, 2] >= each[-1, 2] else each[::-1] for each in rivers)
-    shore, *islands = (_area(ring) for ring in polygon)
-    return LevelWater(rings, downstream, shore - sum(islands))
 
 
 def _with_heights(line: np.ndarray, given: GivenTerrain) -> Iterator[np.ndarray]:
@@ -162,9 +117,3 @@ def _with_heights(line: np.ndarray, given: GivenTerrain) -> Iterator[np.ndarray]
 
 def _closed(ring: np.ndarray) -> np.ndarray:
     return ring if np.array_equal(ring[0], ring[-1]) else np.concatenate((ring, ring[:1]))
-
-
-def _area(ring: np.ndarray) -> float:
-    """Return the area inside a ring in square metres."""
-    x, y = (ring[:, :2] - ring[0, :2]).T
-    return abs(float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))) / 2.0

@@ -14,7 +14,8 @@ from ..grids.morphology import within_square
 from ..grids.outline import Outline
 from ..grids.surface import CellLattice, Surface
 from ..survey.area import Area
-from .raster_block import BlockRasters
+from .level_water import NO_WATER_CELLS, WaterCells
+from .raster_block import HELD, TOP, BlockRasters
 
 # Cells that are joined at a time.
 _CELLS_A_STRIP = 4_000_000
@@ -37,6 +38,9 @@ class Mosaic:
         Side of a cell in metres.
     outline : Outline, optional
         Cells outside have no value.
+    water : WaterCells
+        Cells that have the level of water: in the terrain all of them, in the surface those without
+        a point.
     """
 
     def __init__(
@@ -46,7 +50,9 @@ class Mosaic:
         window: CellWindow,
         cell: float,
         outline: Outline | None = None,
+        water: WaterCells = NO_WATER_CELLS,
     ) -> None:
+        self._water = water
         self._made, self._layer, self.window, self._cell = made, layer, window, cell
         self._whole, self._outlines = window, [outline] if outline else []
         self._area: Area | None = None
@@ -73,13 +79,17 @@ class Mosaic:
         numpy.ndarray of `kind`, shape (end - start, columns)
         """
         whole = self.window
-        strip = CellWindow(whole.row + whole.rows - end, whole.column, end - start, whole.columns)
+        strip = whole.strip(start, end)
         empty = np.nan if issubclass(kind, np.floating) else 0
         heights: np.ndarray = np.full(strip.shape, empty, dtype=kind)
         for each in self._made:
             target, source = _overlap(strip, each.window), _overlap(each.window, strip)
             if target is not None:
                 heights[target] = each.layers[self._layer][source]
+        if self._layer == "terrain":
+            self._water.burn(heights, strip)
+        elif self._layer == "surface":
+            self._water.burn(heights, strip, self._has_top(strip))
         if self._outlines:
             outside = ~self._inside(start, end)[::-1]
             if self._gaps is not None:
@@ -89,6 +99,15 @@ class Mosaic:
             x, y = np.meshgrid(*strip.centres(self._cell))
             heights[~self._area.contains(x.ravel(), y.ravel()).reshape(x.shape)] = np.nan
         return heights[::-1]
+
+    def _has_top(self, strip: CellWindow) -> np.ndarray:
+        """Return which cells of a strip hold a point of the surface, rows from the south."""
+        found = np.zeros(strip.shape, dtype=bool)
+        for each in self._made:
+            target, source = _overlap(strip, each.window), _overlap(each.window, strip)
+            if target is not None:
+                found[target] = each.layers[HELD][source] >= TOP
+        return found
 
     def _inside(self, start: int, end: int) -> np.ndarray:
         """Return which cells of some rows lie in all outlines."""

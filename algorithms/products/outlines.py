@@ -1,9 +1,9 @@
 """Where rasters end: the outlines of the survey, of the terrain and of the canopy.
 
 The survey is the closing of the cells with points by a disc, with all gaps inside. The terrain is
-the same of the cells with ground points. A place is in a closing if no disc round it is free of
-points. So the triangles there have circumcircles smaller than the disc, and no slivers along the
-hull take part.
+the same of the cells with ground points. Water with a level counts as points and as ground. A place
+is in a closing if no disc round it is free of points. So the triangles there have circumcircles
+smaller than the disc, and no slivers along the hull take part.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from ..grids.cell_window import CellWindow
 from ..grids.cells import are_inside, usual_count
 from ..grids.morphology import closing, within_square
 from ..grids.outline import MOST_CELLS, Discs, Outline, with_gaps_inside
+from .level_water import NO_WATER_CELLS, WaterCells
 from .mosaic import Mosaic
 from .raster_block import ANY, HELD, QUARTERS, BlockRasters, RasterStep
 
@@ -44,19 +45,32 @@ class Held:
         All cells.
     cell : float
         Side of a cell in metres.
+    water : WaterCells
+        Cells of water, which count as cells with points and ground.
     """
 
-    def __init__(self, made: Sequence[BlockRasters], window: CellWindow, cell: float) -> None:
+    def __init__(
+        self,
+        made: Sequence[BlockRasters],
+        window: CellWindow,
+        cell: float,
+        water: WaterCells = NO_WATER_CELLS,
+    ) -> None:
         self._mosaic, self._made = Mosaic(made, HELD, window, cell), made
-        self.window = window
+        self.window, self.water = window, water
 
     def points(self, start: int, end: int) -> np.ndarray:
-        """Return which cells hold any point, as `ReadRows`."""
-        return self._mosaic.rows(start, end, np.uint8) >= ANY
+        """Return which cells hold any point or water, as `ReadRows`."""
+        return self.of_water(start, end) | (self._mosaic.rows(start, end, np.uint8) >= ANY)
 
     def ground(self, start: int, end: int) -> np.ndarray:
-        """Return which cells hold ground points, as `ReadRows`."""
-        return self._mosaic.rows(start, end, np.uint8) % ANY > 0
+        """Return which cells hold ground points or water, as `ReadRows`."""
+        held = self._mosaic.rows(start, end, np.uint8)
+        return self.of_water(start, end) | (held % ANY > 0)
+
+    def of_water(self, start: int, end: int) -> np.ndarray:
+        """Return which cells lie in water with a level, as `ReadRows`."""
+        return self.water.inside(self.window.strip(start, end))[::-1]
 
     def quarters(self, start: int, end: int, columns: slice) -> np.ndarray:
         """Return which quarters of cells hold ground points; bool, twice as many each way."""
@@ -68,7 +82,10 @@ class Held:
         for number in range(QUARTERS):
             # Rows go from north to south, so the northern quarters come first.
             quarters[1 - number // 2 :: 2, number % 2 :: 2] = held & (1 << number)
-        return quarters
+        strip = window.strip(start, end)._replace(
+            column=window.column + columns.start, columns=columns.stop - columns.start
+        )
+        return quarters | self.water.inside(strip)[::-1].repeat(2, axis=0).repeat(2, axis=1)
 
     def spacings(self) -> tuple[float, float]:
         """Return the usual distances, in cells, between cells with points and with ground."""
@@ -136,6 +153,7 @@ class Outlines:
     def __init__(self, held: Held, step: RasterStep) -> None:
         window, cell = held.window, step.cell
         self._held, self._shape, self._longest = held, window.shape, step.longest_edge / cell
+        self.water = held.water
         self._corner = window.row + window.rows, window.column
         of_all, of_ground = held.spacings()
         self._near = _radius(_SPACINGS * of_all)
@@ -155,7 +173,9 @@ class Outlines:
             cells = wide.rows(start - 1, end + 1)
             if ground.group == 1:
                 self._refine(cells, start - 1)
-            inside.set(start, cells[1:-1] & survey.rows(start, end))
+            inside.set(
+                start, (cells[1:-1] & survey.rows(start, end)) | self._held.of_water(start, end)
+            )
             progress(0.8 + 0.2 * end / self._shape[0])
         return inside
 
@@ -223,7 +243,7 @@ def mosaics_of(
     survey, mosaics = outlines.survey(next(parts)), {}
     for name in step.layers:
         outline = outlines.terrain(survey, next(parts)) if name == "terrain" else survey
-        mosaics[name] = Mosaic(made, name, window, step.cell, outline)
+        mosaics[name] = Mosaic(made, name, window, step.cell, outline, outlines.water)
         loose = [each.loose[name] for each in made if name in each.loose]
         if loose and step.max_edge is None:
             vertices = np.concatenate(loose)

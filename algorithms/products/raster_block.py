@@ -25,8 +25,8 @@ _LONGEST_EDGE, _LONGEST_CELLS = 50.0, 20.0
 # Reach of a triangle in longest edges. Its circumcircle hardly ever reaches farther.
 _EDGES = 2.0
 # The layer that tells what each cell holds: bits for ground points in its four quarters, from
-# southwest to northeast, and a bit for any points.
-HELD, QUARTERS, ANY = "held", 4, 16
+# southwest to northeast, a bit for any points, and one for points of the surface.
+HELD, QUARTERS, ANY, TOP = "held", 4, 16, 32
 # Rounding error of coordinates in metres.
 _ROUNDING = 1e-6
 # Least number of points that are processed together.
@@ -155,12 +155,14 @@ Made = tuple[np.ndarray, "np.ndarray | None"]
 def _held(step: RasterStep, seen: Seen) -> np.ndarray:
     """Return what each cell holds, as `HELD` says."""
     window = CellWindow(*(2 * each for each in seen.window))
-    holds_any, holds_ground = np.zeros((2, window.rows, window.columns), dtype=bool)
+    holds_any, holds_ground, holds_top = np.zeros((3, *window.shape), dtype=bool)
     for part in parts_of(seen.points.count, _POINTS_A_PART):
         x, y = seen.points.x[part], seen.points.y[part]
         row, column = window.places(x, y, seen.corner, step.cell / 2.0)
         inside = are_inside(row, column, window.shape)
         holds_any[row[inside], column[inside]] = True
+        is_top = inside & seen.top[part]
+        holds_top[row[is_top], column[is_top]] = True
         inside &= seen.ground[part]
         holds_ground[row[inside], column[inside]] = True
         # A point on the middle line of a cell lies in the quarters on both sides.
@@ -174,6 +176,7 @@ def _held(step: RasterStep, seen: Seen) -> np.ndarray:
         quarter = slice(number // 2, None, 2), slice(number % 2, None, 2)
         held |= holds_ground[quarter].view(np.uint8) << number
         held |= holds_any[quarter].view(np.uint8) * np.uint8(ANY)
+        held |= holds_top[quarter].view(np.uint8) * np.uint8(TOP)
     return held
 
 

@@ -16,7 +16,9 @@ import numpy as np
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isolines
+from ..grids.lines import along
 from ..grids.morphology import closing, dilation, erosion
+from .constraints import STATION
 from .water_bridges import below_decks, beside_decks
 from .water_grid import WaterGrid
 from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
@@ -328,14 +330,22 @@ def _made(
         y, x = ((places + start + 0.5) * grid.cell).T
         return np.column_stack((x, y, levels.at(places)))
 
-    rings = tuple(placed(each) for each in rings_of(region.water))
+    rings = rings_of(region.water)
     lines: tuple[np.ndarray, ...] = ()
     if kind == "river":
+        # The level also changes between the corners.
+        rings = [_divided(each, STATION / grid.cell) for each in rings]
         lines = (np.column_stack((placed(levels.line)[:, :2], levels.heights)),)
+    high, low = float(levels.heights[0]), float(levels.heights[-1])
     return WaterBody(
-        kind, rings, lines, float(levels.heights[0]), float(levels.heights[-1]), levels.spread,
+        kind, tuple(map(placed, rings)), lines, high, low, levels.spread,
         certainty, float(region.water.sum()) * grid.cell**2, width, share, filled,
     )  # fmt: skip
+
+
+def _divided(ring: np.ndarray, step: float) -> np.ndarray:
+    """Return a ring with places that are at most a step apart."""
+    return along(np.column_stack((ring, np.zeros(len(ring)))), step)[:, :2]
 
 
 def rings_of(cells: np.ndarray) -> list[np.ndarray]:

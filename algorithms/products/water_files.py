@@ -176,11 +176,9 @@ class SurveyWater:
 
     @property
     def constraints(self) -> Constraints:
-        """The water as constraints of a terrain model, in coordinates of the CRS."""
+        """The water and its levels as constraints of a terrain model, in units of the CRS."""
         return Constraints(
-            water=tuple(
-                tuple(self.in_crs(ring)[:, :2] for ring in each.rings) for each in self.bodies
-            ),
+            water=tuple(tuple(map(self.in_crs, each.rings)) for each in self.bodies),
             rivers=tuple(self.in_crs(line) for each in self.bodies for line in each.lines),
         )
 

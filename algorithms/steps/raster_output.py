@@ -15,6 +15,7 @@ from ..core.files import new_folder, replacing
 from ..core.points import Box, Frame, box_in_words
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
+from ..products.level_water import WaterCells
 from ..products.mosaic import Mosaic, gathered_strips
 from ..products.outlines import Held, Outlines, mosaics_of
 from ..products.raster_block import BlockRasters
@@ -94,7 +95,8 @@ def write_rasters(
         area = step.area.scaled(frame.horizontal_unit, frame.origin)
         whole = _window_in(area.buffered_box(AROUND_AREA), window, cell, step.area)
         window = _window_in(area.bounds, window, cell, step.area)
-    outlines = Outlines(Held(made, whole, cell), step.of_block)
+    water = WaterCells(step.fixed.waters if step.fixed else (), whole, cell)
+    outlines = Outlines(Held(made, whole, cell, water), step.of_block)
     mosaics = mosaics_of(made, whole, step.of_block, outlines, progress.part(0.0, 0.3))
     window = _covered(window, step, frame)
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))

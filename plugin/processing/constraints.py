@@ -130,7 +130,7 @@ def water_of(
     request = WaterRequest(ground=ground, crs=algorithm.stated)
     found = SurveyWater.of([algorithm.source], request, progress)
     progress.info(f"Water: {found.summary.text}.")
-    return WaterPolygons(found.constraints.water)
+    return WaterPolygons(found.constraints.water_outlines)
 
 
 def _option(name: str) -> str:

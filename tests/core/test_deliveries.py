@@ -10,6 +10,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+from independent_water import compare, corners_in_flat_water
 from scipy.spatial import cKDTree
 
 from bare_earth.algorithms import (
@@ -244,11 +245,12 @@ def test_water_is_flat_in_the_terrain_model_and_it_is_that_of_the_commands(made,
     summary, folder = made("flood")
     assert summary.water.lakes == 1 and summary.water.area == pytest.approx(1520.0, rel=0.15)
     cloud = folder / "points" / "whole.laz"
-    water = read_boundary(folder / "water.gpkg")
+    # The breakline of the shore is the polygon with its level.
+    (shore,) = read_lines(folder / "breaklines.gpkg")
     how = TerrainRequest(
         rasters=RasterFiles(dtm=tmp_path / "own.tif"),
         terrain=TerrainModel(dtm_cell_size=summary.cell_size),
-        constraints=Constraints(water=tuple(water)),
+        constraints=Constraints(water=((shore,),)),
     )
     terrain(cloud, how)
     dtm = heights(folder / "dtm.tif")
@@ -258,7 +260,12 @@ def test_water_is_flat_in_the_terrain_model_and_it_is_that_of_the_commands(made,
     lake = dtm[
         int((DEPTH - 53) / cell) : int((DEPTH - 37) / cell), int(105 / cell) : int(125 / cell)
     ]
-    assert np.ptp(lake) < 0.01 and lake.mean() == pytest.approx(100.0, abs=0.2)
+    assert np.ptp(lake) == 0.0 and lake.mean() == pytest.approx(100.0, abs=0.2)
+    polygons = folder / "water.gpkg"
+    files = (folder / name for name in ("breaklines.gpkg", "dtm.tif", "dsm.tif"))
+    (found,) = compare(polygons, *files).values()
+    assert found.missing == 0 and max(found.level, found.lines) < 0.002
+    assert corners_in_flat_water(polygons, folder / "contours.gpkg", folder / "dtm.tif") == 0
 
 
 def given_water(distance):
@@ -774,6 +781,13 @@ def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp
     assert 'href="water.gpkg"' in page and 'href="breaklines.gpkg"' in page
     if not is_one:
         return
+    known = tmp_path / "out"
+    found = compare(
+        *(known / f"{name}.gpkg" for name in ("water", "breaklines")), known / "dtm.tif"
+    )
+    for number in (1, 2):
+        assert found[number].missing == 0
+        assert max(found[number].level, found[number].lines) < 0.01
     # The polygons can be used again.
     again = Constraints(water=tuple(read_boundary(summary.layers["water"])[:2]))
     second = deliver(scene[1], tmp_path / "again", replace(how, constraints=again))

@@ -1,0 +1,180 @@
+"""Polygons of water with their level, and the cells of rasters that lie in them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Iterator, NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.points import Box
+from ..grids.cell_window import CellWindow
+from ..grids.lines import NearestHeights, near_rings
+from ..grids.outline import Outline
+from ..grids.tin import Tin
+from ..survey.area import Area
+
+# A place within so many metres of the shore lies in the water: the border belongs to it.
+_ON_SHORE = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class LevelWater:
+    """A polygon of water with its level, in metres.
+
+    Attributes
+    ----------
+    rings : tuple of numpy.ndarray of float64, shape (n, 3)
+        Shore and islands, closed. z is the level, which falls evenly between two corners; NaN if it
+        is not known.
+    rivers : tuple of numpy.ndarray of float64, shape (m, 3)
+        The parts of rivers in it, downstream.
+    """
+
+    rings: tuple[np.ndarray, ...]
+    rivers: tuple[np.ndarray, ...] = ()
+
+    @property
+    def levels(self) -> tuple[float, float]:
+        """The highest and the lowest level; NaN if it is not known."""
+        heights = np.concatenate(self.rings)[:, 2]
+        return float(heights.max()), float(heights.min())
+
+    @property
+    def is_known(self) -> bool:
+        """Whether the level is known."""
+        return not np.isnan(self.levels).any()
+
+    @property
+    def area(self) -> float:
+        """Its area in square metres."""
+        shore, *islands = map(_area_in, self.rings)
+        return shore - sum(islands)
+
+    @property
+    def bounds(self) -> Box:
+        """Smallest x and y, largest x and y."""
+        return self._outline.bounds
+
+    def contains(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return which places lie in the water or on its shore; bool, shape (k,)."""
+        return self._outline.contains(x, y) | near_rings(
+            x, y, [ring[:, :2] for ring in self.rings], _ON_SHORE
+        )
+
+    def level_at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return the level at places in the water: that of the TIN of its shore and rivers.
+
+        Parameters
+        ----------
+        x, y : numpy.ndarray of float64, shape (k,)
+            Places in metres.
+
+        Returns
+        -------
+        numpy.ndarray of float64, shape (k,)
+        """
+        high, low = self.levels
+        if not high > low:
+            return np.full(len(x), high)
+        found = self._surface.interpolate(x, y)
+        beyond = np.isnan(found)
+        corners = NearestHeights(np.concatenate((*self.rings, *self.rivers)), np.inf)
+        found[beyond] = corners.at(np.column_stack((x, y))[beyond])
+        return found
+
+    @cached_property
+    def _outline(self) -> Area:
+        return Area(None, (tuple(ring[:, :2] for ring in self.rings),))
+
+    @cached_property
+    def _surface(self) -> Tin:
+        return Tin(*np.concatenate((*self.rings, *self.rivers)).T)
+
+
+def _area_in(ring: np.ndarray) -> float:
+    """Return the area inside a ring in square metres."""
+    x, y = (ring[:, :2] - ring[0, :2]).T
+    return abs(float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))) / 2.0
+
+
+class _CellsOfWater(NamedTuple):
+    """The cells of a window whose centres lie in a polygon of water, rows from the south."""
+
+    water: LevelWater
+    window: CellWindow
+    cells: Outline
+
+
+class WaterCells:
+    """The cells of rasters whose centres lie in water with a level.
+
+    Parameters
+    ----------
+    waters : sequence of LevelWater
+        The water, in the frame of the rasters.
+    window : CellWindow
+        All cells.
+    cell : float
+        Side of a cell in metres.
+    """
+
+    def __init__(self, waters: Sequence[LevelWater], window: CellWindow, cell: float) -> None:
+        self._cell = cell
+        self._parts = [
+            _CellsOfWater(each, part, _cells_in(each, part, cell))
+            for each in waters
+            if min((part := CellWindow.around(each.bounds, cell).within(window)).shape) > 0
+        ]
+
+    def inside(self, strip: CellWindow) -> np.ndarray:
+        """Return which cells of a strip lie in water, rows from the south; bool."""
+        found = np.zeros(strip.shape, dtype=bool)
+        for where, cells, *_ in self._among(strip):
+            found[where] |= cells
+        return found
+
+    def burn(self, heights: np.ndarray, strip: CellWindow, kept: np.ndarray | None = None) -> None:
+        """Set the heights of cells in water to its level, in place.
+
+        Parameters
+        ----------
+        heights : numpy.ndarray of float, shape (rows, columns)
+            Heights of the cells of a strip in metres, rows from the south.
+        strip : CellWindow
+            The cells.
+        kept : numpy.ndarray of bool, shape (rows, columns), optional
+            Cells that keep their height.
+        """
+        for where, cells, water, part in self._among(strip):
+            rows, columns = np.nonzero(cells if kept is None else cells & ~kept[where])
+            x, y = ((at + 0.5) * self._cell for at in (part.column + columns, part.row + rows))
+            heights[where][rows, columns] = water.level_at(x, y)
+
+    def _among(
+        self, strip: CellWindow
+    ) -> Iterator[tuple[tuple[slice, slice], np.ndarray, LevelWater, CellWindow]]:
+        """Yield, for each water, its part of a strip, which cells of it lie in it, and these."""
+        for water, window, cells in self._parts:
+            part = window.within(strip)
+            if min(part.shape) > 0:
+                row, column = part.row - window.row, part.column - window.column
+                inside = cells.rows(row, row + part.rows, column, column + part.columns)
+                row, column = part.row - strip.row, part.column - strip.column
+                where = slice(row, row + part.rows), slice(column, column + part.columns)
+                yield where, inside, water, part
+
+
+NO_WATER_CELLS = WaterCells((), CellWindow(0, 0, 0, 0), 1.0)
+
+
+def _cells_in(water: LevelWater, window: CellWindow, cell: float) -> Outline:
+    """Return which cells of a window have their centre in water."""
+    cells = Outline(window.shape)
+    x, y = window.centres(cell)
+    for start, end in cells.strips():
+        places = np.meshgrid(x, y[start:end])
+        inside = water.contains(*(each.ravel() for each in places))
+        cells.set(start, inside.reshape(places[0].shape))
+    return cells

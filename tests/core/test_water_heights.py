@@ -1,0 +1,74 @@
+"""The heights of water are the same in all that is handed over, and no cell of it is empty."""
+
+import numpy as np
+import pytest
+from independent_water import compare, corners_in_flat_water, features, share_at_level
+from test_checkpoints import write
+from test_water import LEVEL, Scene, lake, river, run
+
+from bare_earth.algorithms.products.contours import Contours, write_contours
+
+pytest.importorskip("pyogrio")
+WATERS = ("river", "lake")
+
+
+@pytest.fixture(scope="module")
+def surveys(tmp_path_factory):
+    """Return what makes a survey with water of a kind, as one file and as four.
+
+    The river crosses the survey from border to border. A wood stands on the shore of the lake.
+    """
+    folder, known = tmp_path_factory.mktemp("surveys"), {}
+
+    def make(kind):
+        if kind in known:
+            return known[kind]
+        scene = Scene(500.0, 300.0, 3.0) if kind == "river" else Scene(density=3.0)
+        away = river if kind == "river" else lake
+        scene.basin(away, (lambda x, y: LEVEL - 0.002 * x) if kind == "river" else LEVEL)
+        scene.keep(scene.inside(away) > 0)
+        wood = (scene.inside(away) < 30.0) & (scene.random.random(len(scene.x)) < 0.4)
+        scene.z[wood] += scene.random.uniform(5.0, 20.0, wood.sum())
+        scene.classes[wood] = 5
+        columns = np.round(scene.x, 3), np.round(scene.y, 3), np.round(scene.z, 3), scene.classes
+        tiles = folder / kind / "tiles"
+        tiles.mkdir(parents=True)
+        for number in range(4):
+            there = (columns[0] >= 200.3) + 2 * (columns[1] >= 140.7) == number
+            write(tiles / f"{number}.laz", *(each[there] for each in columns))
+        known[kind] = write(folder / kind / "one.laz", *columns), tiles
+        return known[kind]
+
+    return make
+
+
+@pytest.mark.parametrize("kind", WATERS)
+@pytest.mark.parametrize("is_one", [True, False])
+def test_each_cell_of_water_has_the_level_of_polygons_and_breaklines(
+    surveys, tmp_path, kind, is_one, threads_for_processes
+):
+    source = surveys(kind)[0 if is_one else 1]
+    water, lines = tmp_path / "water.gpkg", tmp_path / "lines.gpkg"
+    dtm, dsm = tmp_path / "dtm.tif", tmp_path / "dsm.tif"
+    run("water", source, water, "--breaklines-out", lines)
+    run("terrain", source, "--dtm", dtm, "--dsm", dsm, "--water", "automatic")
+    ((fields, _),) = features(water)
+    assert (fields["KIND"], fields["GRADE"]) == (kind, "certain")
+    (found,) = compare(water, lines, dtm, dsm).values()
+    assert found.cells > 10_000 and found.missing == 0
+    assert found.level < 0.01 and found.lines < 0.02, found
+    # Nothing was measured in the water: its surface is that of the water, not of trees beside it.
+    assert share_at_level(water, dsm) > 0.97
+
+
+def test_no_contour_line_runs_through_flat_water(surveys, tmp_path):
+    source, _ = surveys("lake")
+    water, dtm = tmp_path / "water.gpkg", tmp_path / "dtm.tif"
+    run("water", source, water)
+    run("terrain", source, "--dtm", dtm, "--water", "automatic")
+    ((fields, _),) = features(water)
+    # A line just above the level, and one right at it.
+    for number, interval in enumerate((LEVEL / 999.0, fields["LEVEL"] / 500.0)):
+        contours = tmp_path / f"{number}.gpkg"
+        write_contours(dtm, contours, Contours(interval))
+        assert corners_in_flat_water(water, contours, dtm) == 0
