@@ -16,7 +16,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..rasters.sampling import HeightRaster, HeightSampler
+from ..rasters.sampling import FAR_BELOW, HeightRaster, HeightSampler
 from ..survey.checkpoint_files import Checkpoints
 from ..survey.files import Survey
 from ..survey.ground_classes import GroundClasses
@@ -174,11 +174,14 @@ def _residuals(
     checkpoints = checkpoints.located(ground.place, progress, reach)
     x, y, z = checkpoints.xyz.T
     across, up = survey.crs.horizontal_unit, survey.crs.vertical_unit
-    dtm = _sampled(request.dtm, ground, x, y, up)
-    sure = _sampled(request.confidence, ground, x, y)
+    model, confidence = (_raster(each, ground) for each in (request.dtm, request.confidence))
+    dtm, sure = _sampled(model, x, y, up), _sampled(confidence, x, y)
     if dtm is not None:
         _tell_of_gaps(checkpoints, np.isnan(dtm), progress)
     heights = ground.heights(np.column_stack((x, y)) * across, reach, progress).heights
+    if model is not None and dtm is not None:
+        model.tell(survey.crs, progress)
+        model.tell_of_heights(heights - dtm * up, 1.0, FAR_BELOW, progress)
     if ground.counts.classes.any():  # else no file is near, and all checkpoints are outside
         ground.check()
     states = np.full(len(x), COUNTED, dtype=object)
@@ -196,14 +199,21 @@ def _residuals(
     )  # fmt: skip
 
 
-def _sampled(
-    source: str | None, ground: SurveyGround, x: np.ndarray, y: np.ndarray, up: float | None = None
-) -> np.ndarray | None:
-    """Return values of a raster at places; heights in units of `up` metres. None for no raster."""
+def _raster(source: str | None, ground: SurveyGround) -> HeightRaster | None:
+    """Return a raster in the CRS of the points."""
     if not source:
         return None
     raster = HeightRaster.of(source)
     raster.check(ground.survey.crs, ground.place.name)
+    return raster
+
+
+def _sampled(
+    raster: HeightRaster | None, x: np.ndarray, y: np.ndarray, up: float | None = None
+) -> np.ndarray | None:
+    """Return values of a raster at places; heights in units of `up` metres. None for no raster."""
+    if raster is None:
+        return None
     values = HeightSampler(raster).heights(x, y)
     return values if up is None else values * (raster.unit or up) / up
 

@@ -16,7 +16,8 @@ from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
 from ..crs.measurable import length_scale, wrong_lengths
-from ..crs.system import crs_of_wkt, unit_name
+from ..crs.system import crs_of_wkt, same_unit, unit_name
+from ..crs.unit_names import unit_in
 from ..crs.wkt import read_wkt
 from .libraries import GdalErrors, library
 
@@ -30,14 +31,6 @@ _STEP = 1 << 20
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 _PART = re.compile(r'[A-Z][A-Z0-9_]+:"?(?P<file>.+?)"?(:[^:\\/]*)?$')
 _DESCRIPTION = 1 << 20
-_SURVEY_FOOT = 1200 / 3937
-# Metres in the units of heights, by their names in files.
-_UNITS = {
-    "m": 1.0, "metre": 1.0, "meter": 1.0, "metres": 1.0, "meters": 1.0,
-    "ft": 0.3048, "foot": 0.3048, "feet": 0.3048, "international foot": 0.3048,
-    "us-ft": _SURVEY_FOOT, "us survey foot": _SURVEY_FOOT, "us survey feet": _SURVEY_FOOT,
-    "foot_us": _SURVEY_FOOT, "ftus": _SURVEY_FOOT, "sft": _SURVEY_FOOT,
-}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -156,7 +149,7 @@ class Raster(NamedTuple):
     whole : tuple of int
         Rows and columns of the file, if only some cells were read.
     states_unit : bool
-        Whether the band or the CRS states the unit of the heights.
+        Whether the band, its description or the CRS states the unit of the heights.
     """
 
     heights: np.ndarray
@@ -215,8 +208,7 @@ def read_raster(
         heights = (values * content.scale + content.offset).astype(np.float32)
     heights[~(valid & np.isfinite(values))] = np.nan
     frame = frame_of(source, content, progress)
-    stated = read_wkt(content.wkt) if content.wkt else None
-    states_unit = content.unit.strip().lower() in _UNITS or bool(stated and stated.has_vertical)
+    states_unit = any(stated_units(content))
     whole = content.shape
     return Raster(heights, content.geotransform, frame, content.unit, whole, states_unit)
 
@@ -259,9 +251,13 @@ def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) 
             " metres."
         )
         horizontal = 1.0
-    vertical = _UNITS.get(content.unit.strip().lower())
-    if vertical is None and facts is not None:
-        vertical = facts.vertical_unit
+    of_band, of_crs = stated_units(content)
+    if of_band and of_crs and not same_unit(of_band, of_crs):
+        progress.warning(
+            f"The heights of {source} are in {unit_name(of_band)} by its band, which is used, and"
+            f" in {unit_name(of_crs)} by its CRS."
+        )
+    vertical = of_band or of_crs
     if vertical is None:
         vertical = horizontal
         if not math.isclose(horizontal, 1.0):
@@ -270,6 +266,13 @@ def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) 
                 f" {unit_name(horizontal)}."
             )
     return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
+
+
+def stated_units(content: Content) -> tuple[float | None, float | None]:
+    """Return the units of heights that the band, or its description, and the CRS state."""
+    facts = read_wkt(content.wkt) if content.wkt else None
+    of_band = unit_in(content.unit) or unit_in(content.description)
+    return of_band, facts.vertical_unit if facts is not None else None
 
 
 def _require_measurable(source: str | Path, content: Content) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from ..core.points import Frame
 from ..crs.system import unit_symbol
 from ..crs.wkt import read_wkt
-from .geotiff import NO_CELLS, frame_of, read_content, read_raster
+from .geotiff import NO_CELLS, frame_of, read_content, read_raster, stated_units
 
 
 class RowsOfRaster(NamedTuple):
@@ -45,10 +45,8 @@ class RowsOfRaster(NamedTuple):
         content = read_content(source, window=NO_CELLS)
         frame = frame_of(source, content)
         facts = read_wkt(content.wkt) if content.wkt else None
-        # The description that `write_geotiff` gives to bands of terrain models.
-        unit = content.description.partition(", ")[2]
-        if not unit and facts is not None:
-            unit = unit_symbol(frame.vertical_unit)
+        is_stated = facts is not None or any(stated_units(content))
+        unit = unit_symbol(frame.vertical_unit) if is_stated else ""
         epsg = facts.epsg if facts is not None else None
         return cls(source, content.shape, content.geotransform, frame, unit, epsg)
 

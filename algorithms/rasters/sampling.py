@@ -11,12 +11,19 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
-from ..crs.matching import is_same_map
-from ..crs.system import Crs, crs_of_wkt
+from ..crs.matching import described, is_other_datum, is_same_map
+from ..crs.system import Crs, crs_of_wkt, same_unit, unit_name
 from .geotiff import read_raster
 
 # Cells along a side of the squares that are read, and how many of these stay in memory.
 _SIDE, _MOST_KEPT = 512, 16
+# If nearly all points lie so many metres above or below a terrain model, something is wrong.
+FAR_ABOVE, FAR_BELOW = 20.0, 2.0
+# Points from which this is known.
+_ENOUGH = 1_000_000
+_STATE_IT = (
+    "If the unit of the raster is another one, state it: 'gdal_edit.py -units ft RASTER', or m."
+)
 
 
 @dataclass(frozen=True)
@@ -36,7 +43,10 @@ class HeightRaster:
     crs : Crs or None
         Its CRS; None if it states none.
     unit : float or None
-        Metres in the unit of the heights, if the band or the CRS states it.
+        Metres in the unit of the heights: as the band or the CRS states, or else that of x and y;
+        None if it states neither a unit nor a CRS.
+    states_unit : bool
+        Whether it states the unit of the heights.
     """
 
     path: str
@@ -45,6 +55,7 @@ class HeightRaster:
     geotransform: tuple[float, ...]
     crs: Crs | None
     unit: float | None
+    states_unit: bool
 
     @classmethod
     def of(cls, source: str | Path, progress: Progress = SILENT) -> HeightRaster:
@@ -61,8 +72,8 @@ class HeightRaster:
         stamp = () if state is None else (state.st_size, state.st_mtime_ns)
         name = str(path.absolute()) if path.exists() else str(source)
         crs = crs_of_wkt(wkt) if wkt else None
-        unit = first.frame.vertical_unit if first.states_unit else None
-        return cls(name, stamp, first.whole, first.geotransform, crs, unit)
+        unit = first.frame.vertical_unit if first.states_unit or crs else None
+        return cls(name, stamp, first.whole, first.geotransform, crs, unit, first.states_unit)
 
     def check(self, crs: Crs, points: str | Path) -> None:
         """Refuse points in another CRS.
@@ -79,6 +90,49 @@ class HeightRaster:
             " the raster first: in QGIS with 'Warp (reproject)', elsewhere with 'gdalwarp -t_srs"
             " EPSG:... INPUT OUTPUT'."
         )
+
+    def tell(self, crs: Crs, progress: Progress) -> None:
+        """Warn if heights of points in a CRS may not fit to those of the raster."""
+        if self.unit and not self.states_unit and not same_unit(self.unit, crs.vertical_unit):
+            progress.warning(
+                f"{self.path} does not state the unit of its heights: {unit_name(self.unit)} is"
+                f" used, while heights of the points are in {unit_name(crs.vertical_unit)}."
+                f" {_STATE_IT}"
+            )
+        if self.crs is not None and is_other_datum(self.crs.datum, crs.datum):
+            progress.warning(
+                f"The heights of {self.path} and of the points are not above the same datum:"
+                f" {described(self.crs)} and {described(crs)}. They are compared as they are."
+            )
+
+    def tell_of_heights(
+        self, heights: np.ndarray, unit: float, above: float, progress: Progress
+    ) -> None:
+        """Warn if nearly all points lie far above or far below the raster.
+
+        Parameters
+        ----------
+        heights : numpy.ndarray of float, shape (n,)
+            Heights of points above the raster; NaN for points without one.
+        unit : float
+            Metres in their unit.
+        above : float
+            How many metres above it points can lie.
+        progress : Progress
+            Receives the warning.
+        """
+        heights = heights[:: max(len(heights) // _ENOUGH, 1)]
+        heights = heights[~np.isnan(heights)] * unit
+        if not len(heights):
+            return
+        lowest, highest = np.percentile(heights, (5, 95)).tolist()
+        if lowest > above or highest < -FAR_BELOW:
+            off, side = (lowest, "above") if lowest > above else (-highest, "below")
+            progress.warning(
+                f"Nearly all points lie at least {off:.1f} m {side} {self.path}, so that their"
+                f" heights do not belong together. Check the units and the vertical datums."
+                f" {_STATE_IT}"
+            )
 
 
 class _Square(NamedTuple):

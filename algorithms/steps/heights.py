@@ -23,7 +23,7 @@ from ..las.crs_records import read_crs
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..products.height_above_ground import GroundSurface, with_roads
-from ..rasters.sampling import HeightRaster, HeightSampler
+from ..rasters.sampling import FAR_ABOVE, HeightRaster, HeightSampler
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from .output import HEIGHT_DIMENSION, height_dimension
@@ -201,8 +201,12 @@ class HeightsOfPoints(PointResult):
         BareEarthError
             If they do not fit into z, or no point lies on the raster.
         """
-        if self._step.dtm is not None and self._unknown_count:
-            self._tell_of_unknown(cloud.path, self._step.dtm, progress)
+        dtm = self._step.dtm
+        if dtm is not None:
+            dtm.tell(cloud.crs, progress)
+            if self._unknown_count:
+                self._tell_of_unknown(cloud.path, dtm, progress)
+            dtm.tell_of_heights(self.heights, self._unit, FAR_ABOVE, progress)
         if self._as_z:
             z, offset = _z_of(cloud, self.heights)
             return Edits(z=z, z_offset=offset)

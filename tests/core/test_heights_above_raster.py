@@ -1,17 +1,23 @@
 """Heights above a given raster: of one file and many, in every unit, and where it has no value."""
 
+import dataclasses
 import json
 
 import laspy
 import numpy as np
+import pyproj
 import pytest
+import rasterio
 from conftest import Heard
+from realdata import real
 from runs import said
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import SILENT, Notes
-from bare_earth.algorithms.crs.provider import wkt_of_epsg
+from bare_earth.algorithms.crs.provider import wkt_of_epsg, wkt_of_text
+from bare_earth.algorithms.crs.system import crs_of_wkt
+from bare_earth.algorithms.crs.unit_names import unit_in
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.rasters import sampling
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
@@ -22,6 +28,7 @@ from bare_earth.algorithms.runs.requests import HeightRequest
 from bare_earth.algorithms.steps.heights import HeightOutput
 
 EAST, NORTH, SIDE = 500_000.0, 5_700_000.0, 60
+SURVEY, UTM = 1200 / 3937, wkt_of_epsg(25832)
 
 
 def terrain(x, y):
@@ -162,7 +169,8 @@ def test_a_raster_without_crs_is_taken_as_that_of_the_points(tmp_path):
 
 def test_heights_of_a_raster_in_its_stated_unit(tmp_path):
     source, metres = points(tmp_path / "in.las"), dtm(tmp_path / "metres.tif")
-    assert HeightRaster.of(metres).unit is None
+    unstated = HeightRaster.of(metres)
+    assert unstated.unit == 1.0 and not unstated.states_unit
     raster, feet = read_raster(metres), tmp_path / "feet.tif"
     grid = raster._replace(unit="ft")
     write_geotiff(feet, raster.heights / np.float32(0.3048), grid, NODATA, SILENT, "heights")
@@ -170,6 +178,67 @@ def test_heights_of_a_raster_in_its_stated_unit(tmp_path):
     assert known.unit == 0.3048 and known.shape == (SIDE, SIDE)
     heights(source, tmp_path / "out.las", HeightRequest(dtm=known))
     np.testing.assert_allclose(found(tmp_path / "out.las"), true_heights(source), atol=0.001)
+
+
+@pytest.mark.parametrize(
+    ("shows", "unit", "expected", "warnings"),
+    [
+        ("heights", 1.0, 1.0, ["does not state the unit"]),
+        ("heights", SURVEY, 1.0, ["does not state the unit", "m below"]),
+        ("Height, {unit}", 1.0, 1.0, []),
+        ("Height, {unit}", SURVEY, SURVEY, []),
+        ("Elevation (ft)", 0.3048, 0.3048, []),
+    ],
+)
+def test_a_raster_beside_points_whose_heights_are_feet(tmp_path, shows, unit, expected, warnings):
+    source, target = points(tmp_path / "in.las", epsg=25832), tmp_path / "out.las"
+    las = laspy.read(source)
+    las.header.vlrs.extract("WktCoordinateSystemVlr")
+    las.header.vlrs.append(
+        laspy.vlrs.known.WktCoordinateSystemVlr(pyproj.CRS("EPSG:25832+8228").to_wkt("WKT1_GDAL"))
+    )
+    heights_in_feet, foot = np.asarray(las.z) / 0.3048, 0.3048
+    las.z = heights_in_feet
+    las.write(str(source))
+    grid = RasterGrid(EAST, NORTH + SIDE, 1.0, SIDE, SIDE, Frame((0, 0), 1.0, unit, UTM))
+    values = (terrain(grid.x[None, :], grid.y[:, None]) / unit).astype(np.float32)
+    write_geotiff(tmp_path / "dtm.tif", values, grid, NODATA, SILENT, shows)
+    raster, heard = HeightRaster.of(tmp_path / "dtm.tif"), Heard()
+    assert raster.unit == pytest.approx(expected, rel=1e-8)
+    heights(source, target, HeightRequest(dtm=raster), heard)
+    assert len(heard.warnings) == len(warnings)
+    for told, words in zip(heard.warnings, warnings):
+        assert words in told and "gdal_edit.py -units" in told
+    if unit == expected:
+        truth = heights_in_feet - terrain(np.asarray(las.x), np.asarray(las.y)) / foot
+        np.testing.assert_allclose(found(target), truth, atol=0.01)
+
+
+def test_points_far_above_a_raster_or_above_another_datum_are_told(tmp_path):
+    source, heard = points(tmp_path / "in.las"), Heard()
+    far = dtm(tmp_path / "far.tif")
+    with rasterio.open(far, "r+", IGNORE_COG_LAYOUT_BREAK="YES") as raster:
+        raster.write(raster.read() - 47.0)
+    heights(source, tmp_path / "out.las", HeightRequest(dtm=HeightRaster.of(far)), heard)
+    (warning,) = heard.warnings
+    assert "Nearly all points lie at least 48." in warning and "vertical datums" in warning
+    here, there = (crs_of_wkt(wkt_of_text(f"EPSG:25832+{code}")) for code in (7837, 5621))
+    raster = dataclasses.replace(HeightRaster.of(far), crs=there)
+    raster.tell(here, heard)
+    assert "EVRF2007 height" in heard.warnings[1] and "DHHN2016 height" in heard.warnings[1]
+
+
+def test_a_terrain_model_in_metres_is_checked_beside_points_in_feet(tmp_path):
+    source, raster = real("field2/points-ftus.laz"), real("field2/dem-metres-no-unit.tif")
+    las = laspy.read(source)
+    ground = np.column_stack((las.x, las.y, las.z))[np.asarray(las.classification) == 2][::900]
+    rows = [",".join(map(str, ["point", *row])) for row in ground.tolist()]
+    (tmp_path / "points.csv").write_text("\n".join(["name,x,y,z", *rows]))
+    words = "check", source, "--checkpoints", tmp_path / "points.csv", "--dtm", raster, "--json"
+    code, result, told = said(*words)
+    assert code == 0 and json.loads(result)["dtm_nva"]["rmse"] < 0.01
+    assert told.count("does not state the unit of its heights: metre is used") == 1
+    assert "Nearly all points" not in told
 
 
 def test_points_in_feet_above_a_raster_in_feet(tmp_path):
@@ -196,3 +265,18 @@ def test_values_at_the_border_and_outside(tmp_path):
     expected = [first, first, terrain(EAST + 30.25, NORTH + 30.0), last]
     np.testing.assert_allclose(values[1:5], expected, atol=1e-4)
     assert not len(sampler.heights(np.zeros(0), np.zeros(0)))
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [
+        ("Height, m", 1.0), ("Height, US survey ft", SURVEY), ("Height, units of 0.25 m", 0.25),
+        ("elevation (ft)", 0.3048), ("Elevation_ft", 0.3048), ("Foot_US", SURVEY),
+        ("Höhe [m ü. NHN]", 1.0), ("Height in feet", 0.3048), ("us-ft", SURVEY), ("metre", 1.0),
+        ("U.S. survey feet", SURVEY), ("z in cm", 0.01), ("DTM of 1 m", None), ("dtm_1m", None),
+        ("Slope, degrees", None), ("Density, points/m2", None), ("heights", None), ("", None),
+        ("m 2020", None), ("Points in the cell", None),
+    ],
+)  # fmt: skip
+def test_units_in_descriptions(text, unit):
+    assert unit_in(text) == (unit and pytest.approx(unit, rel=1e-12))

@@ -1,0 +1,65 @@
+"""The names of units of length in texts, such as descriptions of bands and names of columns."""
+
+from __future__ import annotations
+
+import re
+
+from .wkt import is_unit
+
+FOOT, US_FOOT = 0.3048, 1200.0 / 3937.0
+# Metres in a unit, by the letters of its name; a foot of unknown kind is the international one.
+UNITS = {
+    **dict.fromkeys(
+        ("m", "metre", "metres", "meter", "meters", "metro", "metros", "metri", "mètre",
+         "mètres", "mtr"),
+        1.0,
+    ),
+    **dict.fromkeys(("cm", "centimetre", "centimetres", "centimeter", "centimeters"), 0.01),
+    **dict.fromkeys(("mm", "millimetre", "millimetres", "millimeter", "millimeters"), 0.001),
+    **dict.fromkeys(
+        ("ft", "foot", "feet", "ift", "intlft", "intlfoot", "intlfeet", "internationalft",
+         "internationalfoot", "internationalfeet", "fuss", "fuß", "pied", "pieds", "pies"),
+        FOOT,
+    ),
+    **dict.fromkeys(
+        ("ftus", "usft", "sft", "ussft", "footus", "usfoot", "feetus", "usfeet", "sfeet",
+         "surveyft", "surveyfoot", "surveyfeet", "ussurveyft", "ussurveyfoot", "ussurveyfeet"),
+        US_FOOT,
+    ),
+}  # fmt: skip
+# As `unit_symbol` writes those without a name.
+_SIZE = re.compile(r"units of ([0-9.eE+-]+) m$")
+_AFTER = re.compile(r"[(\[]([^)\]]*)[)\]]|,\s*(.*)$|\bin\s+(.*)$", re.IGNORECASE)
+_LETTERS = re.compile(r"[^\W_]+")
+
+
+def unit_in(text: str) -> float | None:
+    """Return the metres in the unit that a text is or states; None if it states none.
+
+    A unit stands alone, in brackets, after a comma or "in", or at the end.
+
+    Examples
+    --------
+    >>> unit_in("Height, m"), unit_in("Elevation [US survey feet]"), unit_in("DTM of 1 m")
+    (1.0, 0.3048006096012192, None)
+    """
+    text = text.strip()
+    size = _SIZE.search(text)
+    if size:
+        metres = float(size[1])
+        return metres if is_unit(metres) else None
+    parts = [_words(part) for match in _AFTER.findall(text) for part in match if part]
+    words = _words(text)
+    # After the unit can follow from where heights are measured: "m above sea level".
+    starts = ["".join(part[:count]) for part in parts for count in (3, 2, 1)]
+    ends = [
+        "".join(words[-count:])
+        for count in (3, 2, 1)
+        if len(words) == count or (len(words) > count and not words[-count - 1][0].isdigit())
+    ]
+    return next((UNITS[each] for each in (*starts, *ends) if each in UNITS), None)
+
+
+def _words(text: str) -> list[str]:
+    """Return the words of a text in small letters; "U.S." is one."""
+    return [each.lower() for each in _LETTERS.findall(text.replace(".S.", "S"))]
