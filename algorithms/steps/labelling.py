@@ -13,6 +13,7 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
+from ..core.words import counted
 from ..engine.blocks import Blocks
 from ..engine.memory import Resources
 from ..engine.step import Allocate, PointResult, PointStep, with_classes
@@ -282,18 +283,19 @@ class ClassifiedPoints(PointResult):
         selection = self._step.selection
         if selection.low_noise_class:
             progress.info(
-                f"{self.area_low_count:,} points lie more than {selection.low_noise_depth:g} m"
-                " below the ground, or in groups below ground all round them: low noise."
+                f"{counted(self.area_low_count, 'point lies', 'points lie')} more than"
+                f" {selection.low_noise_depth:g} m below the ground, or in groups below ground all"
+                " round them: low noise."
             )
         if selection.high_noise_class:
             progress.info(
-                f"{self.area_high_count:,} points hang {selection.high_noise_height:g} m and more"
-                " above all others of their place: high noise."
+                f"{counted(self.area_high_count, 'point hangs', 'points hang')}"
+                f" {selection.high_noise_height:g} m and more above all others of their place: high"
+                " noise."
             )
         if self.area_deck_count:
-            progress.info(
-                f"{self.area_deck_count:,} points lie on decks of bridges: they are not ground."
-            )
+            words = "point on a deck of a bridge is", "points on decks of bridges are"
+            progress.info(f"{counted(self.area_deck_count, *words)} not ground.")
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return which points are written.
@@ -306,9 +308,8 @@ class ClassifiedPoints(PointResult):
         output, count, ground = self._step.output, self._count, self._ground_count
         if output.area_only:
             count, ground = self.area_count, self.area_ground_count
-            progress.info(
-                f"{self._count - count:,} points outside of the area are left out of the output."
-            )
+            words = "point outside of the area is", "points outside of the area are"
+            progress.info(f"{counted(self._count - count, *words)} left out of the output.")
         if output.needs_ground and not ground:
             raise BareEarthError(
                 f"{cloud.path} has no ground points, so there are no ground points to write,"
@@ -316,9 +317,8 @@ class ClassifiedPoints(PointResult):
                 " points."
             )
         if output.ground_only:
-            progress.info(
-                f"{count - ground:,} points that are not ground are left out of the output."
-            )
+            words = "point that is not ground is", "points that are not ground are"
+            progress.info(f"{counted(count - ground, *words)} left out of the output.")
         return Edits(kept=self.kept)
 
     def summary(self, name: str, class_counts: dict[int, int]) -> ClassifiedSummary:

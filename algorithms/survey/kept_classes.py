@@ -7,6 +7,7 @@ from typing import Collection, Sequence
 import numpy as np
 
 from ..core.progress import Progress
+from ..core.words import counted
 from ..las.class_names import named_class
 from ..las.cloud import PointCloud
 from .point_counts import PointCounts
@@ -57,8 +58,11 @@ def tell_of_kept(counts: PointCounts, others: Collection[int], progress: Progres
 
 def _counted(counts: PointCounts, classes: Sequence[int]) -> str:
     """Return the numbers of points of some classes in words."""
-    first, *more = (f"{counts.classes[each]:,} {{}}of {named_class(each)}" for each in classes)
-    return ", ".join([first.format("points "), *(each.format("") for each in more)])
+    first, *more = (int(counts.classes[each]) for each in classes)
+    found = [f"{counted(first, 'point')} of {named_class(classes[0])}"]
+    return ", ".join(
+        [*found, *(f"{count:,} of {named_class(each)}" for count, each in zip(more, classes[1:]))]
+    )
 
 
 def overlapping(cloud: PointCloud) -> np.ndarray:

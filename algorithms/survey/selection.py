@@ -10,6 +10,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import Progress
+from ..core.words import counted
 from ..las.cloud import PointCloud
 from ..las.extrabytes import REMEMBERED
 from .corrections import ByHand, Corrections, changed_since
@@ -245,27 +246,32 @@ class Selection(ParameterSet):
         if left_out:
             progress.info(f"Noise is left out: {left_out}.")
         if counts.withheld:
-            progress.info(f"{counts.withheld:,} withheld points are left out.")
+            words = "withheld point is", "withheld points are"
+            progress.info(f"{counted(counts.withheld, *words)} left out.")
         self.tell_of_kept(counts, progress)
         if self.returns == "last" and counts.unnumbered == counts.points:
             progress.warning("The points have no return numbers: all of them are used.")
         elif self.returns == "last" and counts.unnumbered:
-            progress.warning(
-                f"{counts.unnumbered:,} points have no return number: they are taken as single"
-                " returns."
+            words = (
+                "point has no return number: it is taken as a single return.",
+                "points have no return number: they are taken as single returns.",
             )
+            progress.warning(counted(counts.unnumbered, *words))
         if not counts.of_returns:
             raise BareEarthError(counts.why_empty(f"{path} in the area" if in_area else f"{path}"))
         if self.seed_classes:
             classes = ", ".join(map(str, self.seed_classes))
             if counts.known:
-                progress.info(f"{counts.known:,} points of class {classes} are known ground.")
+                words = f"point of class {classes} is", f"points of class {classes} are"
+                progress.info(f"{counted(counts.known, *words)} known ground.")
             else:
                 progress.warning(f"There are no points of known ground (class {classes}).")
         if counts.by_hand:
-            progress.info(
-                f"{counts.by_hand:,} points have a class that was set by hand, and keep it."
+            words = (
+                "point has a class that was set by hand, and keeps it.",
+                "points have a class that was set by hand, and keep it.",
             )
+            progress.info(counted(counts.by_hand, *words))
         progress.info(f"{counts.selected:,} of {counts.points:,} points take part.")
 
     def tell_of_kept(self, counts: PointCounts, progress: Progress) -> None:
@@ -273,8 +279,11 @@ class Selection(ParameterSet):
         if not self.from_classes:
             tell_of_kept(counts, {self.to_class, *(self.seed_classes or ())}, progress)
         if counts.overlap:
-            fate = "are left out" if self.overlap == "leave-out" else "take part as others do"
-            progress.info(f"{counts.overlap:,} points of overlap {fate}.")
+            words = "point of overlap takes", "points of overlap take"
+            fate = "part as others do"
+            if self.overlap == "leave-out":
+                words, fate = ("point of overlap is", "points of overlap are"), "left out"
+            progress.info(f"{counted(counts.overlap, *words)} {fate}.")
 
     @property
     def roads(self) -> tuple[int, ...]:

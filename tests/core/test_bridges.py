@@ -224,7 +224,7 @@ def test_a_bridge_is_other_or_of_the_class_that_is_wanted(parameters, las):
     assert np.mean(marked[deck] == 17) > 0.75
     assert np.mean(marked[~deck] == 17) < 0.006
     found = np.count_nonzero(marked == 17)
-    assert f"{found:,} points lie on decks of bridges: they are not ground." in heard.infos
+    assert f"{found:,} points on decks of bridges are not ground." in heard.infos
 
 
 @pytest.mark.parametrize(

@@ -52,7 +52,7 @@ def test_the_log_names_the_classes_that_stay_and_how_to_classify_them(las):
     selected_by(Selection(), cloud_of([1, 9, 9, 10, 11, 11, 17, 64, 7]), heard)
     assert heard.infos == [
         "Noise is left out: 1 of class 7.",
-        "1 points of class 10 (rail), 2 of class 11 (road surface) keep their class. Where they lie"
+        "1 point of class 10 (rail), 2 of class 11 (road surface) keep their class. Where they lie"
         " on the ground, they support it.",
         "2 points of class 9 (water), 1 of class 17 (bridge deck), 1 of class 64 keep their class"
         ' and do not take part. To classify them too, give "all" for the classes to classify'
@@ -124,7 +124,7 @@ def test_withheld_points_take_no_part_and_are_told(las):
     heard = las.Heard()
     selected = selected_by(Selection(), cloud_of([1, 1, 1], withheld=[0, 1, 0]), heard)
     assert selected.tolist() == [True, False, True]
-    assert "1 withheld points are left out." in heard.infos
+    assert "1 withheld point is left out." in heard.infos
 
 
 def test_last_and_single_returns_take_part():
