@@ -76,7 +76,8 @@ def contours_after(
     a temporary file.
     """
     from ..core.files import temporary_folder
-    from ..products.contours import Contours, check_contours, write_contours
+    from ..products.contours import Contours, write_contours
+    from ..products.line_files import check_features
     from ..products.raster_files import virtual_of
     from ..runs.options import RasterOutput
 
@@ -85,7 +86,7 @@ def contours_after(
     if options.contours is None:
         yield rasters, rest
         return
-    check_contours(options.contours, tuple(options.input))
+    check_features(options.contours, tuple(options.input))
     with temporary_folder(options.contours.parent) as folder:
         dtm = rasters.dtm or folder / "dtm.tif"
         yield dataclasses.replace(rasters, dtm=dtm), rest

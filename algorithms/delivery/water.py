@@ -85,7 +85,7 @@ def _given(
 def vector_format() -> str:
     """Return the ending of vector files: GeoPackage if it can be written, else GeoJSON."""
     try:
-        feature_writer(Path("x.gpkg"), "lines")
+        feature_writer(Path("x.gpkg"))
     except BareEarthError:
         return ".geojson"
     return ".gpkg"

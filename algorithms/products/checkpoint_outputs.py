@@ -23,7 +23,7 @@ from ..survey.checkpoint_files import Checkpoints
 from ..survey.files import Survey
 from .checkpoint_page import checkpoint_html
 from .checkpoint_results import Check, Residuals
-from .line_files import Feature, Layer, feature_writer, files_beside
+from .line_files import Feature, Layer, check_features, feature_writer, files_beside
 from .page import check_page
 
 # Fields of the layer. Heights are in the unit of the points, errors in metres.
@@ -71,7 +71,7 @@ class CheckOutputs(NamedTuple):
             if self.table.suffix.lower() != ".csv":
                 raise BareEarthError(f"Cannot write {self.table}: the table is CSV, name it .csv.")
         if self.residuals:
-            check_residuals(self.residuals, sources)
+            check_features(self.residuals, sources)
 
     def write(
         self, check: Check, found: Residuals | None, survey: Survey, progress: Progress = SILENT
@@ -112,18 +112,6 @@ class CheckOutputs(NamedTuple):
                 replace_with_files_of(folder, self.residuals, files_beside(self.residuals))
 
 
-def check_residuals(target: Path, sources: tuple[Path, ...] = ()) -> None:
-    """Refuse, before any work is done, a layer that could not be written at the end.
-
-    Raises
-    ------
-    BareEarthError
-        If the name or folder is unsuitable, or a library is missing.
-    """
-    check_output(target, sources)
-    feature_writer(target, "the errors at checkpoints")
-
-
 def _rows_of(found: Residuals) -> Iterator[tuple[Any, ...]]:
     """Yield x, y, and the values of `FIELDS` of each checkpoint."""
     points = found.checkpoints
@@ -139,7 +127,7 @@ def _write_layer(target: Path, found: Residuals, survey: Survey, progress: Progr
     layer = Layer("checkpoints", "Point Z", FIELDS, survey.crs.wkt, survey.crs.epsg)
     places = found.checkpoints.places
     features = (Feature(row[2:], place) for row, place in zip(_rows_of(found), places))
-    feature_writer(target, "the errors at checkpoints")(target, features, layer, progress)
+    feature_writer(target)(target, features, layer, progress)
 
 
 def _table_of(found: Residuals) -> str:

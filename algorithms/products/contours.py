@@ -10,14 +10,14 @@ from typing import Iterator, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, replace_with_files_of, temporary_folder
+from ..core.files import replace_with_files_of, temporary_folder
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
 from ..grids.morphology import within_square
 from ..rasters.rows import RowsOfRaster
-from .line_files import Feature, Layer, feature_writer, files_beside
+from .line_files import Feature, Layer, check_features, feature_writer, files_beside
 
 # A map with about so many lines is easy to read.
 _LINES = 20
@@ -132,18 +132,6 @@ class Interval:
         return f"{lines * self.height:g} {self.unit}".rstrip()
 
 
-def check_contours(target: Path, others: tuple[Path, ...] = ()) -> None:
-    """Refuse, before any work is done, contour lines that could not be written at the end.
-
-    Raises
-    ------
-    BareEarthError
-        If the name or folder is unsuitable, or a library is missing.
-    """
-    check_output(target, others)
-    feature_writer(target, "contour lines")
-
-
 def write_contours(
     source: Path, target: Path, contours: Contours = Contours(), progress: Progress = SILENT
 ) -> Interval:
@@ -174,8 +162,8 @@ def write_contours(
         is left behind.
     """
     target = Path(target)
-    check_contours(target, (Path(source),))
-    write = feature_writer(target, "contour lines")
+    check_features(target, (Path(source),))
+    write = feature_writer(target)
     raster = RowsOfRaster.of(source)
     low, high = _range_of(raster, progress.part(0.0, 0.2))
     height = contours.interval(low, high, raster.frame.vertical_unit)

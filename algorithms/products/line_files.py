@@ -13,6 +13,7 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..core.files import check_output
 from ..core.progress import SILENT, Progress
 from ..core.temporary import shown
 from ..rasters.libraries import GdalErrors
@@ -71,7 +72,19 @@ class Feature(NamedTuple):
     corners: Any
 
 
-def feature_writer(target: Path, what: str) -> Callable[..., int]:
+def check_features(target: Path, sources: tuple[Path, ...] = ()) -> None:
+    """Refuse, before any work is done, a vector layer that could not be written at the end.
+
+    Raises
+    ------
+    BareEarthError
+        If the name or folder is unsuitable, or a library is missing.
+    """
+    check_output(target, sources)
+    feature_writer(target)
+
+
+def feature_writer(target: Path) -> Callable[..., int]:
     """Return the function that writes features: ``write(target, features, layer, progress)``.
 
     It returns the number of features.
@@ -80,8 +93,6 @@ def feature_writer(target: Path, what: str) -> Callable[..., int]:
     ----------
     target : Path
         The file to make.
-    what : str
-        What the features are, for messages: "contour lines".
 
     Raises
     ------
@@ -91,7 +102,7 @@ def feature_writer(target: Path, what: str) -> Callable[..., int]:
     suffix = target.suffix.lower()
     if suffix not in FORMATS:
         raise BareEarthError(
-            f"Cannot write {target}: {what} are written as {', '.join(FORMATS)}. Name it so."
+            f"Cannot write {target}: vector layers are written as {', '.join(FORMATS)}. Name it so."
         )
     if importlib.util.find_spec("osgeo") is not None:
         return _by_gdal

@@ -9,7 +9,7 @@ from typing import Any, Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ..core.files import check_distinct, check_output, replace_with_files_of, temporary_folder
+from ..core.files import check_distinct, replace_with_files_of, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..crs.system import Crs
@@ -17,7 +17,7 @@ from ..las.cloud import PointCloud
 from ..survey.ground_classes import GroundClasses
 from ..survey.kept_classes import NOISE, is_one_of
 from .constraints import Constraints
-from .line_files import Feature, Layer, feature_writer, files_beside
+from .line_files import Feature, Layer, check_features, feature_writer, files_beside
 from .survey_ground import SurveyGround
 from .water import GRADES, Water, WaterBody, find_water
 from .water_grid import WaterGrid, cell_for
@@ -248,7 +248,7 @@ def write_features(
         folders = []
         for output, features, layer in layers:
             folders.append(opened.enter_context(temporary_folder(output.parent)))
-            write = feature_writer(output, "water")
+            write = feature_writer(output)
             write(folders[-1] / output.name, features, layer, progress)
         progress(1.0)  # the last moment to cancel
         for (output, _, _), folder in zip(layers, folders):
@@ -308,8 +308,7 @@ def write_water(
     outputs = [target] if request.breaklines is None else [target, Path(request.breaklines)]
     check_distinct(outputs)
     for each in outputs:
-        check_output(each, tuple(paths))
-        feature_writer(each, "water")
+        check_features(each, tuple(paths))
     found = SurveyWater.of(paths, request, progress.part(0.0, 0.95))
     found.write(target, request.breaklines, progress)
     return found.summary

@@ -11,7 +11,8 @@ from typing import NamedTuple, Sequence
 from ..core.files import replacing, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..las.writing import check_cloud
-from ..products.contours import Contours, Interval, check_contours, write_contours
+from ..products.contours import Contours, Interval, write_contours
+from ..products.line_files import check_features
 from ..products.raster_files import RasterFiles
 from ..products.terrain_model import MapTerrain
 from ..rasters.writing import replacing_raster
@@ -122,7 +123,7 @@ def make_maps(
         cloud = files.cloud or waiting / "cloud.las"
         files.rasters.check((*sources, cloud))
         if files.contours:
-            check_contours(files.contours, tuple(sources))
+            check_features(files.contours, tuple(sources))
         if files.cloud and is_one:
             check_cloud(sources[0], cloud)
             cloud = outputs.enter_context(replacing(cloud))

@@ -14,9 +14,8 @@ from qgis.core import (
 
 from ...algorithms.core.files import check_output
 from ...algorithms.las.writing import check_cloud
-from ...algorithms.products.checkpoint_outputs import check_residuals
-from ...algorithms.products.contours import check_contours
 from ...algorithms.products.line_files import FORMATS as LINE_FORMATS
+from ...algorithms.products.line_files import check_features
 from ...algorithms.products.page import check_page
 from ...algorithms.rasters.writing import check_raster_output
 from ...algorithms.survey.files import is_one_file
@@ -62,7 +61,7 @@ def _check_of(output: QgsProcessingParameterDefinition) -> Check:
         return _check_folder
     ending = f".{output.defaultFileExtension()}"
     if ending in LINE_FORMATS:
-        return check_contours if output.name() == "CONTOURS" else check_residuals
+        return check_features
     checks: dict[str, Check] = {
         ".html": check_page,
         ".tif": check_raster_output,
