@@ -20,6 +20,7 @@ from qgis.core import (
     QgsProcessingUtils,
     QgsProviderRegistry,
     QgsRasterLayer,
+    QgsVectorLayer,
 )
 
 from .i18n import tr
@@ -152,6 +153,14 @@ def place_on_line(settings: core.QgsPalLayerSettings) -> None:
     lines = settings.lineSettings()
     lines.setPlacementFlags(flags)
     settings.setLineSettings(lines)
+
+
+def colour_profile(layer: QgsVectorLayer, colour: str) -> None:
+    """Set the colour of lines in elevation profiles, which QGIS would choose at random."""
+    properties = layer.elevationProperties()
+    if properties is not None:  # since QGIS 3.26
+        line = {"line_color": colour, "line_width": "0.6"}
+        properties.setProfileLineSymbol(QgsLineSymbol.createSimple(line))
 
 
 def mark_as_elevation(layer: QgsRasterLayer, colour: str) -> None:

@@ -2562,8 +2562,8 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Verdichtung</translation>
     </message>
     <message>
-        <source>finer cells away from the surface</source>
-        <translation>feinere Zellen abseits der Oberfläche</translation>
+        <source>finer cells off surface</source>
+        <translation>feine Zellen abseits</translation>
     </message>
     <message>
         <source>gentle regions</source>
@@ -2572,10 +2572,6 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>grid,raster,rasterize,interpolate</source>
         <translation>Raster,Gitter,rastern,interpolieren</translation>
-    </message>
-    <message>
-        <source>ground on one grid only</source>
-        <translation>Boden nur in einem Gitter</translation>
     </message>
     <message>
         <source>ground,accuracy,quality,error,validation,kappa,confusion matrix,reference</source>
@@ -2630,12 +2626,12 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Lidar,Laserscanning,Airborne Laserscanning,Drohne,las,laz,copc,Punktwolke</translation>
     </message>
     <message>
-        <source>low outliers in dense points</source>
-        <translation>tiefe Ausreißer in dichten Punkten</translation>
+        <source>low outliers</source>
+        <translation>tiefe Ausreißer</translation>
     </message>
     <message>
-        <source>lowest points, never in doubt</source>
-        <translation>tiefste Punkte, nie bezweifelt</translation>
+        <source>lowest points, undisputed</source>
+        <translation>tiefste Punkte, unstrittig</translation>
     </message>
     <message>
         <source>lowest,minimum</source>
@@ -2662,8 +2658,12 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>kein Schlüsselpunkt</translation>
     </message>
     <message>
-        <source>no point near the surface</source>
-        <translation>kein Punkt nahe der Oberfläche</translation>
+        <source>none near surface</source>
+        <translation>keiner nahe Oberfläche</translation>
+    </message>
+    <message>
+        <source>on one grid only</source>
+        <translation>nur in einem Gitter</translation>
     </message>
     <message>
         <source>pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.</source>
@@ -2682,8 +2682,8 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Pflanzen oder Ausreißer</translation>
     </message>
     <message>
-        <source>plateaus cut by openings</source>
-        <translation>von Öffnungen angeschnittene Plateaus</translation>
+        <source>plateaus cut off</source>
+        <translation>angeschnittene Plateaus</translation>
     </message>
     <message>
         <source>points</source>

@@ -2562,8 +2562,8 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>densification</translation>
     </message>
     <message>
-        <source>finer cells away from the surface</source>
-        <translation>cellules plus fines loin de la surface</translation>
+        <source>finer cells off surface</source>
+        <translation>cellules fines à l'écart</translation>
     </message>
     <message>
         <source>gentle regions</source>
@@ -2572,10 +2572,6 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>grid,raster,rasterize,interpolate</source>
         <translation>grille,raster,rastériser,interpoler</translation>
-    </message>
-    <message>
-        <source>ground on one grid only</source>
-        <translation>sol sur une seule grille</translation>
     </message>
     <message>
         <source>ground,accuracy,quality,error,validation,kappa,confusion matrix,reference</source>
@@ -2630,12 +2626,12 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>lidar,laser aéroporté,drone,las,laz,copc,nuage de points</translation>
     </message>
     <message>
-        <source>low outliers in dense points</source>
-        <translation>points aberrants bas dans des points denses</translation>
+        <source>low outliers</source>
+        <translation>points aberrants bas</translation>
     </message>
     <message>
-        <source>lowest points, never in doubt</source>
-        <translation>points les plus bas, jamais mis en doute</translation>
+        <source>lowest points, undisputed</source>
+        <translation>points bas incontestés</translation>
     </message>
     <message>
         <source>lowest,minimum</source>
@@ -2662,8 +2658,12 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>aucun point clé</translation>
     </message>
     <message>
-        <source>no point near the surface</source>
-        <translation>aucun point près de la surface</translation>
+        <source>none near surface</source>
+        <translation>aucun près de la surface</translation>
+    </message>
+    <message>
+        <source>on one grid only</source>
+        <translation>sur une seule grille</translation>
     </message>
     <message>
         <source>pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.</source>
@@ -2682,8 +2682,8 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>plantes ou points aberrants</translation>
     </message>
     <message>
-        <source>plateaus cut by openings</source>
-        <translation>plateaux entamés par des ouvertures</translation>
+        <source>plateaus cut off</source>
+        <translation>plateaux entamés</translation>
     </message>
     <message>
         <source>points</source>

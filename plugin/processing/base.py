@@ -78,6 +78,12 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     stated: str | None = None
     unused: tuple[str, ...] = ()
     inputs: Sequence[Path] = ()
+    _has_page = False
+
+    def __init__(self) -> None:
+        super().__init__()
+        # Of the pages: in the list of results each has the name of the input before its label.
+        self._page_labels: dict[str, str] = {}
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the declared parameters, in the order of the dialog."""
@@ -116,6 +122,16 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         stated_crs_of(self, parameters, context)
         self.find_inputs(parameters, context)
         check_outputs(self, parameters, context, self.inputs)
+        self._has_page = self.makes_page(parameters, context)
+        for each in self.outputDefinitions():
+            if each.type() == "outputHtml" and self.subject:
+                label = self._page_labels.setdefault(each.name(), each.description())
+                each.setDescription(f"{self.subject}: {label}")
+
+    def makes_page(self, parameters: dict[str, Any], context: QgsProcessingContext) -> bool:
+        """Return whether a run with these values makes a page."""
+        pages = [each.name() for each in self.outputDefinitions() if each.type() == "outputHtml"]
+        return any(not compat.is_empty(parameters.get(name)) for name in pages)
 
     def chosen(
         self, parameters: dict[str, Any], context: QgsProcessingContext
@@ -170,6 +186,13 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         self._looks[path] = look
 
     # QGIS calls the following methods.
+
+    def hasHtmlOutputs(self) -> bool:
+        """Return whether the run that was checked last makes a page.
+
+        QGIS 3.22 asks after a run, and then tells the user to look at the pages that were made.
+        """
+        return self._has_page
 
     def name(self) -> str:
         """Return the second half of the id."""

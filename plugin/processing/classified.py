@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from ...algorithms.runs.requests import ClassifyRequest
     from ...algorithms.runs.terrain_maps import MapRequest
 
+# Side of a cell of a raster in metres, unless the run has rasters of its own.
+_USUAL_CELL = 1.0
+
 
 def show_classified(
     algorithm: BareEarthAlgorithm,
@@ -44,7 +47,7 @@ def show_classified(
     request : ClassifyRequest, MapRequest or DeliveryRequest
         Holds the class of the ground, and the cell size of the raster.
     context : QgsProcessingContext
-        The raster is made only if QGIS will load other layers.
+        Gets the layers to load.
     progress : FeedbackProgress
         Receives messages.
     hides : int
@@ -61,19 +64,44 @@ def show_classified(
             _load_virtual(algorithm, cloud, classes, context)
         return
     progress.info(f"This QGIS cannot show such a file as a layer. It is at {cloud}.")
-    if not context.layersToLoadOnCompletion():
+    cells = request.terrain.dtm_cell_size or _USUAL_CELL, request.terrain.dtm_cell_unit == "crs"
+    shown = [] if is_virtual else classes
+    show_class_raster(algorithm, cloud, shown, ground_class, context, progress, hides, cells)
+
+
+def show_class_raster(
+    algorithm: BareEarthAlgorithm,
+    cloud: str,
+    classes: Iterable[int],
+    ground_class: int,
+    context: QgsProcessingContext,
+    progress: FeedbackProgress,
+    hides: int = layers.CLOUD,
+    cells: tuple[float, bool] = (_USUAL_CELL, False),
+) -> None:
+    """Show a raster of the classes of a cloud that QGIS cannot show.
+
+    It is made only if QGIS will load other layers, or a dialog shows the run: else nobody sees it.
+
+    Parameters
+    ----------
+    algorithm, cloud, classes, context, progress, hides
+        As for `show_classified`; the classes that the raster has if empty.
+    ground_class : int
+        The class of the ground.
+    cells : (float, bool)
+        Size of the cells, and whether it is in units of the CRS instead of metres.
+    """
+    if not (context.layersToLoadOnCompletion() or progress.is_of_dialog):
         return
     # Imported here, since it needs packages that QGIS may lack when it starts.
     from ...algorithms.products.class_raster import write_class_raster
 
-    path = _place_of_raster(cloud)
-    # Only that of a delivery can be open.
-    cell_size = request.terrain.dtm_cell_size or 1.0
-    in_units = request.terrain.dtm_cell_unit == "crs"
+    path, (cell_size, in_units) = _place_of_raster(cloud), cells
     try:
         files = Path(cloud), Path(path)
         found = write_class_raster(
-            *files, cell_size, ground_class, progress.beyond(), request.crs, in_units
+            *files, cell_size, ground_class, progress.beyond(), algorithm.stated, in_units
         )
     except Cancelled:
         # All outputs of the run are complete.
@@ -82,7 +110,7 @@ def show_classified(
         progress.warning(str(error))
         return
     compat.load_raster(path, context)
-    algorithm.show(path, layers.class_raster(found if is_virtual else classes, hides))
+    algorithm.show(path, layers.class_raster(list(classes) or found, hides))
 
 
 def _load_virtual(

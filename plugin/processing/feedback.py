@@ -15,6 +15,7 @@ from qgis.core import QgsApplication, QgsProcessingAlgorithm, QgsProcessingFeedb
 
 from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.core.progress import Progress
+from ...algorithms.core.words import counted
 from ...algorithms.las.class_names import CLASSES
 from ..i18n import tr
 
@@ -52,6 +53,11 @@ class FeedbackProgress(Progress):
         self._feedback, self._begun = feedback, time.monotonic()
         self._choices: list[str] = []
         self._commands: list[str] = []
+
+    @property
+    def is_of_dialog(self) -> bool:
+        """Whether a dialog shows the run, and then its results in the map."""
+        return self._feedback.metaObject().className() == "QgsProcessingAlgorithmDialogFeedback"
 
     def report(self, fraction: float) -> None:
         """Move the bar; raise `Cancelled` if the user pressed Cancel before the end.
@@ -106,7 +112,7 @@ class FeedbackProgress(Progress):
         for value in sorted(class_counts, key=lambda value: (value != _GROUND, value)):
             count, name = class_counts[value], CLASSES.get(value, "")
             title = f"Class {value} ({name})" if name else f"Class {value}"
-            self.info(f"{title}: {count:,} points ({count / every:.1%})")
+            self.info(f"{title}: {counted(count, 'point')} ({count / every:.1%})")
         for each in self._choices:
             self.info(f"Chosen automatically: {each}")
         self.info(f"Time: {time.monotonic() - self._begun:.1f} s")

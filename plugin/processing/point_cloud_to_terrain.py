@@ -56,6 +56,10 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         super().check(parameters, context)
         delivery.check_folder(self, parameters, context)
 
+    def makes_page(self, parameters, context):
+        """Return whether a delivery is chosen, which has a page."""
+        return bool(delivery.delivery_of(self.chosen(parameters, context)))
+
     def compute(self, parameters, context, progress):
         """Make a delivery, or the wanted outputs."""
         limits = limits_of(self, parameters, context, self.crs_of(*self.inputs), progress)

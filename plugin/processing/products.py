@@ -9,9 +9,12 @@ from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 
 from ...algorithms.core.files import split_name
 from ...algorithms.survey.files import is_one_file
+from ...algorithms.survey.ground_classes import GroundClasses
+from ...algorithms.survey.kept_classes import GROUND
 from .. import compat
 from ..styles import layers
 from .base import BareEarthAlgorithm
+from .classified import show_class_raster
 from .feedback import FeedbackProgress
 from .inputs import ANY_CLOUD_HELP, SurveyInput, ignored_filter, name_of, source_path
 from .outputs import add_cloud, after_cancel, do_not_load
@@ -69,6 +72,8 @@ class ProductAlgorithm(BareEarthAlgorithm):
     ) -> None:
         """Find the input, and warn of a filter that is ignored."""
         super().prepare(parameters, context, progress)
+        ground = GroundClasses.among(self.chosen(parameters, context)).ground_classes
+        self._ground = (*ground, GROUND)[0]
         if ignored_filter(self, parameters, "INPUT", context):
             progress.warning("The layer's filter is not applied: all points are read.")
 
@@ -120,6 +125,8 @@ class ProductAlgorithm(BareEarthAlgorithm):
                 progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
         self.class_counts = getattr(summary, "class_counts", {})
         self.show(output, look)
+        if not compat.can_load(output):
+            show_class_raster(self, output, self.class_counts, self._ground, context, progress)
         return {"OUTPUT": output, **self.numbers_of(summary)}
 
     def numbers_of(self, summary: Any) -> dict[str, Any]:

@@ -99,7 +99,7 @@ def canopy(layer: QgsRasterLayer) -> None:
 
 
 def confidence(layer: QgsRasterLayer) -> None:
-    """Colour cells with low confidence; cells with high confidence are transparent."""
+    """Colour cells from low to high confidence, so that also a map of sure cells has a colour."""
     _spread(layer, ramps.CONFIDENCE, 0.0, 1.0)
 
 

@@ -11,14 +11,14 @@ from ..i18n import mark, tr
 
 
 class Verdict(NamedTuple):
-    """What a rule did with a cell, in plain words, and its colour."""
+    """What a rule did with a cell, in words that fit into the panel of layers, and its colour."""
 
     text: str
     colour: str
 
 
 GROUND = {
-    "lowest-points": Verdict(mark("lowest points, never in doubt"), "#e6d6b0"),
+    "lowest-points": Verdict(mark("lowest points, undisputed"), "#e6d6b0"),
     "gentle-regions": Verdict(mark("gentle regions"), "#8a9a2f"),
     "between-ditches": Verdict(mark("between ditches"), "#2f6b4f"),
     "seeds": Verdict(mark("seeds"), "#c08a45"),
@@ -33,19 +33,19 @@ OTHER = {
     "raised-objects": Verdict(mark("raised objects"), "#c8322f"),
     "tall-objects": Verdict(mark("tall objects"), "#c8322f"),
     "progressive-opening": Verdict(mark("cut off by openings"), "#f08c3a"),
-    "cut-plateaus": Verdict(mark("plateaus cut by openings"), "#7d1538"),
+    "cut-plateaus": Verdict(mark("plateaus cut off"), "#7d1538"),
     "steep-rises": Verdict(mark("steep rises"), "#f6cf3f"),
     "rims": Verdict(mark("rims of low objects"), "#8a4fb0"),
     "plants": Verdict(mark("plants or outliers"), "#e07ac0"),
-    "seeds": Verdict(mark("ground on one grid only"), "#7a6a9e"),
-    "fine-seeds": Verdict(mark("finer cells away from the surface"), "#b9a6e0"),
-    "near-surface": Verdict(mark("no point near the surface"), "#464a6e"),
+    "seeds": Verdict(mark("on one grid only"), "#7a6a9e"),
+    "fine-seeds": Verdict(mark("finer cells off surface"), "#b9a6e0"),
+    "near-surface": Verdict(mark("none near surface"), "#464a6e"),
     "only-key-points": Verdict(mark("no key point"), "#9db2e6"),
     "narrow-pits": Verdict(mark("narrow pits"), "#2f6fc0"),
     "block-pits": Verdict(mark("pits in blocks"), "#1b3f8a"),
     "isolated-low-points": Verdict(mark("single low points"), "#49c0d6"),
     "low-groups": Verdict(mark("groups of low points"), "#1a2455"),
-    "dense-outliers": Verdict(mark("low outliers in dense points"), "#127a86"),
+    "dense-outliers": Verdict(mark("low outliers"), "#127a86"),
 }
 # Rules that change no cell, but what other rules see.
 UNSEEN = ("woods", "tolerance-surface", "plain-surface", "paper-surface")

@@ -11,6 +11,7 @@ from qgis.core import (
     QgsPalLayerSettings,
     QgsRuleBasedLabeling,
     QgsRuleBasedRenderer,
+    QgsSingleSymbolRenderer,
     QgsTextBufferSettings,
     QgsTextFormat,
     QgsVectorLayer,
@@ -31,7 +32,8 @@ _WATER = {
     "likely": ("130,185,235,170", "20,80,170"),
     "doubtful": ("190,215,240,150", "150,90,30"),
 }
-_SHORE = {"line_color": "20,80,170,230", "line_width": "0.4"}
+_SHORE_COLOUR = "#1450aa"
+_SHORE = {"line_color": _SHORE_COLOUR, "line_width": "0.4"}
 # Of the labels: colours of text and halo, and sizes in points and millimetres.
 _TEXT, _HALO = (96, 60, 28), (255, 255, 255, 200)
 _SIZE, _HALO_SIZE = 7.0, 0.7
@@ -101,7 +103,9 @@ def water(layer: QgsVectorLayer) -> None:
 
 def breaklines(layer: QgsVectorLayer) -> None:
     """Draw breaklines of water in dark blue."""
-    layer.renderer().setSymbol(QgsLineSymbol.createSimple(_SHORE))
+    # Not a symbol for the renderer that is there: the legend would keep the random colour of QGIS.
+    layer.setRenderer(QgsSingleSymbolRenderer(QgsLineSymbol.createSimple(_SHORE)))
+    compat.colour_profile(layer, _SHORE_COLOUR)
 
 
 def _mark(colour: str, size: str = "3") -> QgsMarkerSymbol:

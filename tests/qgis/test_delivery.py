@@ -51,6 +51,16 @@ def test_the_dialog_offers_all_deliveries(registry):
     assert field.options() == ["own", *DELIVERIES] and field.defaultValue() == "own"
 
 
+def test_only_a_delivery_has_a_page_named_after_the_input(registry, scene, tmp_path, context):
+    algorithm = registry.createAlgorithmById(ALL_IN_ONE)
+    values = {"INPUT": str(scene.path), "DELIVERY_FOLDER": str(tmp_path / "delivery")}
+    for name, has_page in (("own", False), ("survey", True), ("flood", True)):
+        assert algorithm.checkParameterValues({**values, "DELIVERY": name}, context)[0]
+        # What QGIS 3.22 tells of at the end.
+        assert algorithm.hasHtmlOutputs() == has_page
+    assert algorithm.outputDefinition("PAGE").description() == "scene: Page of the delivery"
+
+
 def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
     results, root, log = deliver("flood", DTM_CELL_SIZE=1)
     folder = tmp_path / "delivery"

@@ -9,13 +9,16 @@ import pytest
 from osgeo import gdal
 from qgis.core import (
     Qgis,
+    QgsApplication,
     QgsPointCloudAttribute,
     QgsPointCloudLayer,
     QgsProcessingException,
     QgsProcessingParameterDefinition,
+    QgsProject,
     QgsProviderRegistry,
 )
-from support import Log, layer_of, write_scene
+from qgis.PyQt.QtWidgets import QTextEdit
+from support import Log, layer_of, remove, write_scene
 
 gdal.UseExceptions()
 
@@ -24,6 +27,7 @@ ABOVE = "bareearth:classifyaboveground"
 KEY_POINTS = "bareearth:modelkeypoints"
 TERRAIN = "bareearth:terrainmodel"
 WATER = "bareearth:waterclasses"
+LAKE = "POLYGON((500002 5700060, 500012 5700060, 500012 5700070, 500002 5700070, 500002 5700060))"
 
 
 @pytest.fixture
@@ -86,6 +90,37 @@ def test_heights_above_a_raster_need_no_classes(labelled, out):
     assert f"--dtm {dtm}" in log.text
     with pytest.raises(QgsProcessingException):
         processing.run(HEIGHT, parameters_for(HEIGHT, labelled, out))
+
+
+@pytest.mark.skipif(
+    "pdal" in QgsProviderRegistry.instance().providerList(), reason="shows the points themselves"
+)
+@pytest.mark.parametrize("name", [HEIGHT, ABOVE, KEY_POINTS, WATER])
+def test_a_dialog_shows_classes_where_it_cannot_show_points(labelled, out, name):
+    import processing
+    from processing.gui.AlgorithmDialog import AlgorithmDialog
+
+    project = QgsProject.instance()
+    dialog = AlgorithmDialog(QgsApplication.processingRegistry().createAlgorithmById(name))
+    given = {"WATER": layer_of("Polygon", LAKE)} if name == WATER else {}
+    project.addMapLayers(list(given.values()))
+    values = {"INPUT": str(labelled.path), "OUTPUT": str(out / "out.las"), **given}
+    dialog.setParameters(values)
+    ended = []
+    dialog.algorithmFinished.connect(lambda *done: ended.append(done))
+    dialog.runButton().click()
+    while not ended:
+        QgsApplication.processEvents()
+    # Without a dialog nobody would see the raster.
+    processing.run(name, {**values, "OUTPUT": str(out / "script.las")})
+    assert {path.name for path in out.glob("*.tif")} == {"out_classes.tif"}
+    said = [each.toPlainText() for each in dialog.findChildren(QTextEdit)]
+    assert ended[0][0] and "results dialog" not in "".join(said)
+    (layer,) = project.mapLayersByName("scene: Classes")
+    labels = [each.label for each in layer.renderer().classes()]
+    assert labels[0] == "Ground" and len(labels) > 1
+    remove(dialog)
+    project.clear()
 
 
 @pytest.mark.parametrize("mark", ["class", "flag"])

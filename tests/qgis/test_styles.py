@@ -208,6 +208,13 @@ def test_ranges_that_mean_something_are_kept(tmp_path, dress, expected):
         assert limits(layer)[1] == expected[1]
 
 
+def test_a_map_of_sure_cells_is_not_blank(tmp_path):
+    layer = raster(tmp_path / "r.tif", np.ones((20, 20)))
+    rasters.confidence(layer)
+    sure = colour_at([layer], 500_010, 5_699_990)
+    assert sure.lightness() < 220 and sure.green() > sure.red()
+
+
 def test_relief_has_its_middle_at_zero(tmp_path):
     layer = raster(tmp_path / "r.tif", np.linspace(-1.0, 3.0, 10_000).reshape(100, 100))
     rasters.local_relief(layer)
@@ -396,7 +403,7 @@ def test_a_layer_tells_which_rule_decided_each_cell(run, scene, tmp_path, name):
     # On the building and beside it; the first row is in the north.
     north = layer.extent().yMaximum() - 5_700_000
     house, field = (categories[codes[int(north - y), x]] for x, y in ((39, 33), (10, 60)))
-    assert field.label == "Ground: lowest points, never in doubt"
+    assert field.label == "Ground: lowest points, undisputed"
     assert house.label == {
         "gridminimum": "Not ground: tall objects",
     }.get(name, "Not ground: raised objects")
@@ -469,6 +476,8 @@ def test_every_rule_has_a_name_and_the_rules_of_a_filter_have_their_own_colours(
             ]
             found = rules.categories_of(usual, numbers)
             assert len({colour.name() for _, colour in found.values()}) == len(found) > 4
+            # The panel of layers cuts longer ones.
+            assert max(len(label) for label, _ in found.values()) <= 36
             # Ground is brown to green.
             ground = [colour for code, (_, colour) in found.items() if code < NOT_GROUND]
             assert ground and all(20 <= colour.hsvHue() <= 170 for colour in ground)

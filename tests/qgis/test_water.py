@@ -5,6 +5,7 @@ from qgis.core import (
     QgsCoordinateReferenceSystem,
     QgsCoordinateTransform,
     QgsCoordinateTransformContext,
+    QgsLayerTreeModel,
     QgsProcessingException,
     QgsProject,
 )
@@ -45,10 +46,23 @@ def test_a_lake_is_found_and_drawn_in_blue(registry, cloud, tmp_path):
     assert water.geometry().area() == pytest.approx(results["AREA"], rel=0.02)
     rules = layers["Water"].renderer().rootRule().children()
     assert [each.label() for each in rules] == ["Given", "Certain", "Likely", "Doubtful"]
+    # The legend keeps its picture unless the renderer is a new one.
+    assert layers["Breaklines"].renderer().symbol().color().name() == "#1450aa"
+    model = QgsLayerTreeModel(QgsProject.instance().layerTreeRoot())
+    node = QgsProject.instance().layerTreeRoot().findLayer(layers["Breaklines"].id())
+    assert model.layerLegendNodes(node)[0].symbol().color().name() == "#1450aa"
     (line,) = layers["Breaklines"].getFeatures()
     assert line.geometry().constGet().is3D() and line["KIND"] == "shore"
     assert line.geometry().constGet().pointN(0).z() == pytest.approx(water["LEVEL"], abs=0.002)
     QgsProject.instance().clear()
+
+
+def test_a_name_that_cannot_be_written_is_told_in_words_of_any_layer(
+    registry, cloud, tmp_path, context
+):
+    values = {"INPUT": str(cloud), "OUTPUT": str(tmp_path / "water.txt")}
+    fits, text = registry.createAlgorithmById(ALGORITHM).checkParameterValues(values, context)
+    assert not fits and "vector layers are written as .gpkg" in text and "checkpoints" not in text
 
 
 def square(crs="EPSG:25832", transform=None):
