@@ -2,7 +2,8 @@
 
 Each rule is left out of its pipeline, alone and in groups (`benchmarks/rules.py`), on the ISPRS
 samples in some phases of the grid, on the real tiles, and on generated scenes of seeds that nobody
-tuned with. On real tiles whose labels are trusted the labels count, on others the terrain model.
+tuned with. On all real tiles the terrain model counts, with its spikes and pits, and on those whose
+labels are trusted the labels as well.
 
 What has been measured is kept in ~/.cache/bare-earth/benchmarks (or $BARE_EARTH_CACHE) until a
 filter, a grid or the data change, so that a run that was stopped goes on where it stopped.
@@ -126,7 +127,7 @@ class _Scorer:
         else:
             cloud, self._reference = data.load(job.place.path())
             self._cloud = shifted(cloud, *job.place.which) if job.place.which else cloud
-            if job.place.tile and not job.place.tile.is_trusted:
+            if job.place.tile:
                 self._model = ReferenceModel(self._cloud, self._reference)
         self._ground, _ = self._found(BASE)
         self._base = self._measured(self._ground)
@@ -157,11 +158,15 @@ class _Scorer:
         if self._scene is not None:
             score = score_scene(self._scene, ground, with_dtm=False)
             return {"type_1": score.type_1, "type_2": score.type_2}
+        tile, found = self._place.tile, {}
+        if tile is None or tile.is_trusted:
+            options = AssessmentOptions(ignored_classes=tile.left_out if tile else ())
+            found["total"] = compare(ground, self._reference, options).total_error
         if self._model is not None:
-            return {"rmse": self._model.error(ground).rmse}
-        left_out = self._place.tile.left_out if self._place.tile else ()
-        found = compare(ground, self._reference, AssessmentOptions(ignored_classes=left_out))
-        return {"total": found.total_error}
+            error = self._model.error(ground)
+            found["rmse"], found["bias"] = error.rmse, error.bias
+            found["spikes"], found["pits"] = map(float, (error.spikes.count, error.pits.count))
+        return found
 
 
 def _digest(job: Job) -> str:

@@ -21,10 +21,10 @@ COMMENTS = Path(__file__).parent / "rules_comments.md"
 _WORSE = 1.0
 _HEAD = (
     "Left out", "lines", "CPU, %", "ISPRS", "labels: worst", "best", "DTM: worst", "best",
-    "scenes worse", "better", "the worst",
+    "spikes", "pits", "scenes worse", "better", "the worst",
 )  # fmt: skip
 _BASE_HEAD = (
-    "All rules", "ISPRS total error, %", "tiles with labels, %", "DTM: RMSE, m",
+    "All rules", "ISPRS total error, %", "tiles with labels, %", "DTM: RMSE, m", "spikes", "pits",
     "samples and phases", "tiles", "scenes",
 )  # fmt: skip
 _ABOUT = """# What each rule is worth
@@ -39,6 +39,8 @@ is measured again. A rule is worth its code if errors get worse without it, abov
   positions of the grid. Bold if it is larger than the range of the base over these positions.
 - *labels*: the real tiles on which the total error changes most, in percentage points, of {labels}.
 - *DTM*: the real tiles on which the RMSE of the terrain model changes most, in metres, of {models}.
+- *spikes*, *pits*: change of their number on all tiles: connected places of 3 m² and more where the
+  terrain model is over 1 m above, or below, that of the reference.
 - *scenes*: generated scenes ({scenes}) whose type I or type II error gets worse, or better, by more
   than one point without the rule, and the worst of them. Nobody tuned with their seeds.
 
@@ -103,6 +105,12 @@ def _ends(changes: dict[str, float], digits: int) -> list[str]:
     ]
 
 
+def _summed(places: Places, name: str, figure: str) -> str:
+    """Return by how many the spikes or pits of all tiles change."""
+    changes = _changes(places, name, "real", figure)
+    return _signed(sum(changes.values()), 0) if changes else tables.NONE
+
+
 def _of_scenes(places: Places, name: str) -> list[str]:
     """Return how many scenes get worse and better, and the worst as text."""
     changes = {
@@ -136,6 +144,7 @@ def table(places: Places, method: str) -> list[str]:
             _of_samples(places, name),
             *_ends(_changes(places, name, "real", "total"), 2),
             *_ends(_changes(places, name, "real", "rmse"), 3),
+            *(_summed(places, name, figure) for figure in ("spikes", "pits")),
             *_of_scenes(places, name),
         ]
         for name in variants(method)
@@ -151,6 +160,10 @@ def _base(method: str, places: Places) -> list[str]:
         METHODS[method].label,
         tables.ranged(_phases(places)),
         *(f"{np.mean(found):.3f}" if found else tables.NONE for found in real),
+        *(
+            f"{sum(_of(places, BASE, 'real', figure).values()):.0f}"
+            for figure in ("spikes", "pits")
+        ),
         *(str(sum(kind == of_kind for of_kind, _ in places)) for kind in KINDS),
     ]
 

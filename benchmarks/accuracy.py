@@ -72,6 +72,7 @@ def measure_real(filters: Sequence[GroundFilter]) -> tables.TileScores:
     if results:
         show(tables.labels(results), tables.doubtful(results))
         show(*(tables.dtm(results, *each) for each in tables.DTM_FIGURES))
+        show(tables.spikes(results))
         show(tables.seconds(results), tables.problems(results))
     return results
 

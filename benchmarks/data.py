@@ -66,6 +66,11 @@ REAL = (
     RealTile("mountain_forest.laz"),
     RealTile("rainforest_ridge.laz"),
     RealTile("yard_photogrammetry.laz", True),
+    RealTile("roofs_photogrammetry.laz", True),
+    RealTile("broadleaf_sparse.laz", True),
+    RealTile("house_slope.laz", True),
+    RealTile("tall_crops.laz", True, (65,), (3,)),
+    RealTile("pond_powerline.laz", True, (5, 9, 26)),
 )
 
 

@@ -22,6 +22,7 @@ from bare_earth.algorithms.runs.one_file import classify_cloud
 
 from . import data
 from .phases import PHASES, Phased, shifted
+from .spikes import Places, counted, places_off
 from .work import side_by_side
 
 GROUND = 2
@@ -109,12 +110,30 @@ class DtmError(NamedTuple):
         Of the absolute difference in metres, where both have a height.
     bare : float
         Share in percent of the reference's cells where the model has no height.
+    bias : float
+        Mean difference in metres; positive where the model is too high.
+    spikes, pits : Places
+        Connected places of 3 cells of 1 m and more where the model is over 1 m off.
+    area : float
+        Area of the reference in km2.
     """
 
     rmse: float
     median: float
     percentile_95: float
     bare: float
+    bias: float
+    spikes: Places
+    pits: Places
+    area: float
+
+    @property
+    def seen(self) -> str:
+        """The spikes and pits in words: their numbers, and how far the largest are off."""
+        return " / ".join(
+            f"{found.count} ({found.largest:.1f} m)" if found.count else "0"
+            for found in (self.spikes, self.pits)
+        )
 
 
 class TileScore(NamedTuple):
@@ -167,13 +186,23 @@ class ReferenceModel:
 
     def error(self, ground: np.ndarray) -> DtmError:
         """Return how far the terrain model of a ground mask lies from this one."""
-        difference = np.abs(self.of(ground) - self.heights)[np.isfinite(self.heights)]
+        difference = self.of(ground) - self.heights
+        spikes, pits = counted(places_off(difference))
+        difference = difference[np.isfinite(self.heights)]
+        area = len(difference) * self.cell_size**2 / 1e6
         known = difference[np.isfinite(difference)]
         if not len(known):
-            return DtmError(*[float("nan")] * 3, 100.0)
-        middle, most = np.percentile(known, (50, 95))
+            return DtmError(*[float("nan")] * 3, 100.0, float("nan"), spikes, pits, area)
+        middle, most = np.percentile(np.abs(known), (50, 95))
         bare = 100.0 * (1.0 - len(known) / len(difference))
-        return DtmError(float(np.sqrt(np.mean(known**2))), float(middle), float(most), bare)
+        rmse, bias = float(np.sqrt(np.mean(known**2))), float(np.mean(known))
+        return DtmError(rmse, float(middle), float(most), bare, bias, spikes, pits, area)
+
+    def centre(self, row: int, column: int) -> tuple[float, float]:
+        """Return x and y in metres of the centre of a cell."""
+        x, y = self._grid.corner
+        south = y + (self._grid.rows - row - 0.5) * self.cell_size
+        return x + (column + 0.5) * self.cell_size, south
 
 
 def score_tile(

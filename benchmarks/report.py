@@ -52,6 +52,11 @@ _TILES = {
     "mountain_forest": "forest with shrubs on slopes of 30 to 45°, 2.3 points/m²",
     "rainforest_ridge": "rain forest on steep ridges, 20 points/m² of which 0.2 reach the ground",
     "yard_photogrammetry": "trees and yards in points from drone images, 54 points/m²",
+    "roofs_photogrammetry": "roofs and yards in points from drone images, 45 points/m²",
+    "broadleaf_sparse": "dense broadleaf wood, IGN LiDAR HD thinned to 0.28 points/m²",
+    "house_slope": "a house and trees on a slope, 29 points/m²",
+    "tall_crops": "a field of tall crops beside a wood, IGN, 20 points/m²",
+    "pond_powerline": "a power line and a pond, AHN4, 17 points/m²",
 }
 
 
@@ -124,7 +129,9 @@ def write(
         "tiles": [f"- **{tile}**: {_TILES.get(tile, '')}." for tile in real],
         "labels": tables.labels(real),
         "doubtful": tables.doubtful(real),
-        "dtm": _blocks(tables.dtm(real, *each) for each in tables.DTM_FIGURES),
+        "dtm": _blocks(
+            [*(tables.dtm(real, *each) for each in tables.DTM_FIGURES), tables.spikes(real)]
+        ),
         "relief": _pictures(pictures, RELIEF_NAME),
         "scenes": _scenes(scenes),
         "scenes_worst": _pictures(pictures, SCENE_NAME),

@@ -32,6 +32,7 @@ GOALS = {
 # Title of a table on terrain models, its figure and digits.
 DTM_FIGURES = (
     ("RMSE, m", "rmse", 3),
+    ("Bias, m", "bias", 3),
     ("Median, m", "median", 3),
     ("95th percentile, m", "percentile_95", 3),
     ("Cells without height, %", "bare", 2),
@@ -170,6 +171,22 @@ def dtm(results: TileScores, title: str, figure: str, digits: int) -> list[str]:
         for name, values in QUOTED_RMSE.items():
             rows.append([f"{name} (quoted)", *(values.get(tile, NONE) for tile in results)])
     return table([title, *results], rows)
+
+
+def spikes(results: TileScores) -> list[str]:
+    """Return how many spikes and pits the terrain models have, and the sums over all tiles."""
+    rows = []
+    for name in _filters(results):
+        models = {tile: scores[name].dtm for tile, scores in results.items()}
+        known = [model for model in models.values() if model]
+        area = sum(model.area for model in known) or math.nan
+        sums = (sum(getattr(model, kind).count for model in known) for kind in ("spikes", "pits"))
+        counts = tuple(sums)
+        per_area = (number(count / area, 0) for count in counts)
+        cells = [" / ".join(map(str, counts)), " / ".join(per_area)]
+        cells += [model.seen if model else "failed" for model in models.values()]
+        rows.append([label(name), *cells])
+    return table(["Spikes / pits (largest)", "sum", "per km2", *results], rows)
 
 
 def seconds(results: TileScores) -> list[str]:

@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.parameters import Declaration
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.comparison import compare
-from benchmarks import accuracy, cache, data, maps, measure, peers, report, tables, work
+from benchmarks import accuracy, cache, data, maps, measure, peers, report, spikes, tables, work
 from benchmarks.measure import Filter
 from benchmarks.scenes import KINDS, make
 from benchmarks.scenes.simple import village
@@ -167,9 +169,44 @@ def test_las_for_peers_holds_the_same_points(folder):
 def test_terrain_model_of_the_reference_has_no_error(folder):
     cloud, reference = data.load(data.isprs()[0])
     model = measure.ReferenceModel(cloud, reference)
-    assert model.error(reference == 2) == (0.0, 0.0, 0.0, 0.0)
+    error = model.error(reference == 2)
+    assert error[:5] == (0.0, 0.0, 0.0, 0.0, 0.0)
+    assert error.spikes == error.pits == (0, 0.0) and error.seen == "0 / 0"
     half = (reference == 2) & (cloud.x < np.median(cloud.x))
     assert 40.0 < model.error(half).bare < 60.0
+
+
+def test_spikes_and_pits_are_places_of_three_cells_more_than_a_metre_off():
+    difference = np.zeros((20, 30))
+    difference[2:4, 2:4] = 1.5  # a spike of 4 cells
+    difference[10, 10], difference[11, 11], difference[12, 12] = 2.0, 3.0, 1.2  # corner to corner
+    difference[15, 3:5] = 4.0  # too small
+    difference[5:8, 20:25] = 0.9  # too low
+    difference[16:18, 20:23] = -7.0
+    difference[0, :] = np.nan
+    places = spikes.places_off(difference)
+    assert [(place.height, place.cells) for place in places] == [(-7.0, 6), (3.0, 3), (1.5, 4)]
+    assert spikes.counted(places) == ((2, 3.0), (1, 7.0))
+
+
+def test_each_spike_is_drawn_with_the_rule_that_decided(folder, capsys):
+    # A mound that the reference leaves out is a spike of ours.
+    x, y = np.random.default_rng(1).uniform(0, 60, (2, 8000))
+    away = np.hypot(x - 30, y - 30)
+    mound = np.clip(3.0 - away / 4.0, 0.0, None)
+    write_labelled(folder / "data/real/ahn3_urban.laz", (x, y, 50.0 + mound), mound < 0.1)
+    spikes.main(["--tile", "ahn3_urban", "--folder", str(folder / "pictures")])
+    (line,) = capsys.readouterr().out.splitlines()
+    (picture,) = (folder / "pictures").iterdir()
+    stem, _, told = line.partition(": ")
+    assert stem.startswith("ahn3_urban-spike-01-") and picture.name == f"{stem}.png"
+    assert (
+        stem[20:]
+        in METHODS["tin-densification"]
+        .pipeline(Points(*np.eye(3)), METHODS["tin-densification"].parameters(), SILENT)
+        .names
+    )
+    assert float(told.split()[0]) == pytest.approx(3.0, abs=0.3) and "(30, 30)" in told
 
 
 def test_classes_left_out_do_not_count(folder):
