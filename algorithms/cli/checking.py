@@ -27,7 +27,7 @@ def add_columns(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.accuracy import VEGETATED, Accuracy
+    from ..products.accuracy import Accuracy
     from ..products.checkpoints import CheckOptions
     from ..products.line_files import FORMATS as LAYERS
     from ..survey.checkpoint_files import FORMATS
@@ -40,9 +40,9 @@ def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Non
     )
     add_columns(parser)
     parser.add_argument(
-        "--vegetated", metavar="WORD", nargs="+", default=VEGETATED,
-        help="land covers with a word that begins or ends so are vegetated (default:"
-        f" {' '.join(VEGETATED[:5])} and others)",
+        "--vegetated", metavar="WORD", nargs="+", default=(),
+        help="land covers with one of these words are vegetated, and no others (default: words such"
+        " as forest, crops and brush in several languages)",
     )  # fmt: skip
     parser.add_argument(
         "--dtm", metavar="RASTER", help="check this terrain model as well, in the CRS of the points"

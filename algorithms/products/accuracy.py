@@ -8,9 +8,7 @@ the checkpoints, the error of their survey, land cover, and how accuracy is stat
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
-from typing import Sequence
 
 import numpy as np
 
@@ -18,16 +16,6 @@ from ..core.parameters import ParameterSet, parameter
 
 # Fewest checkpoints for a test by the standard.
 NEEDED = 30
-# A land cover is vegetated if a word of its name begins or ends with one of these.
-VEGETATED = (
-    "veg", "vva", "forest", "wood", "tree", "shrub", "brush", "bush", "scrub", "crop", "weed",
-    "tall grass", "high grass", "reed", "hedge", "orchard", "vineyard", "wald", "baum", "busch",
-    "gebüsch", "strauch", "schilf", "hohes gras", "foret", "forêt", "bois", "arbre", "bosque",
-    "arbol", "árbol", "matorral", "bosco", "skog",
-)  # fmt: skip
-# But not if the name begins so.
-_NOT = re.compile(r"non|unveg|nva|(not|no|nicht|keine?|ohne|sans|sin|without)(?![^\W\d_])")
-_WORD = re.compile(r"[^\W\d_]+")
 _STANDARD = "ASPRS Positional Accuracy Standards for Digital Geospatial Data, Edition 2 (2023)"
 
 
@@ -110,32 +98,6 @@ class Figures:
             np.percentile(np.abs(errors), 95.0),
         )  # fmt: skip
         return cls(len(errors), *(round(float(each), 6) for each in values))
-
-
-def is_vegetated(cover: str, words: Sequence[str] = VEGETATED) -> bool:
-    """Return whether a land cover is vegetated, by its name.
-
-    Parameters
-    ----------
-    cover : str
-        The land cover, such as "Forest" or "NVA"; an empty one is not vegetated.
-    words : sequence of str
-        The names, or parts of them, of land covers that are vegetated.
-
-    Examples
-    --------
-    >>> [is_vegetated(each) for each in ("Mixed forest", "VVA", "non-vegetated", "Street", "")]
-    [True, True, False, False, False]
-    """
-    name = cover.strip().lower()
-    if _NOT.match(name):
-        return False
-    given = [each.strip().lower() for each in words]
-    return any(
-        each.startswith(word) or each.endswith(word) or (" " in word and word in name)
-        for each in _WORD.findall(name)
-        for word in given
-    )
 
 
 def statement(nva: Figures | None, vva: Figures | None, accuracy_class: float | None) -> str:

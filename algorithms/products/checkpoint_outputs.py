@@ -115,11 +115,12 @@ class CheckOutputs(NamedTuple):
 def _rows_of(found: Residuals) -> Iterator[tuple[Any, ...]]:
     """Yield x, y, and the values of `FIELDS` of each checkpoint."""
     points = found.checkpoints
-    kinds = np.where(found.vegetated, "VVA", "NVA").tolist()
     rounded = [np.round(each, 4).tolist() for each in (
         found.ground, found.errors, found.dtm, found.dtm_errors)]  # fmt: skip
     places = points.xyz.tolist()
-    for place, *others in zip(places, points.names, points.covers, kinds, found.states, *rounded):
+    for place, *others in zip(
+        places, points.names, found.written, found.kinds, found.states, *rounded
+    ):
         yield (*place[:2], *others[:4], place[2], *others[4:])
 
 

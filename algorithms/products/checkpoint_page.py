@@ -17,6 +17,7 @@ _MOST_ROWS = 1000
 _STYLE = """
 svg { width: 100%; max-width: 860px; height: auto; }
 blockquote { margin: 1em 0; padding: .4em 1em; border-left: 4px solid #888; background: #f6f6f6; }
+.doubt { padding: .4em 1em; border-left: 4px solid #b2182b; background: #fdecea; }
 """
 
 
@@ -63,11 +64,12 @@ def _summary(check: Check) -> str:
             f"The mean difference would be removed by a shift of {-check.shift:+.3f} m. Nothing was"
             " shifted."
         )
+    doubt = f'<p class="doubt">{text(check.doubt)}</p>' if check.doubt else ""
     quotes = {"": check.statement, "Terrain model: ": check.dtm_statement}
     said = "".join(
         f"<blockquote>{whose}{text(each)}</blockquote>" for whose, each in quotes.items() if each
     )
-    return f"""<p>{text(" ".join(words))}</p>
+    return f"""{doubt}<p>{text(" ".join(words))}</p>
 {said}
 <h2>Figures</h2>
 {_figures(rows)}
@@ -176,6 +178,24 @@ def _ranges(limit: float) -> list[str]:
 
 
 def _others(check: Check) -> str:
+    return _unknown(check) + _not_counted(check)
+
+
+def _unknown(check: Check) -> str:
+    if not check.unknown_covers:
+        return ""
+    rows = "".join(
+        f'<tr><td class="text">{text(name)}</td><td>{count:,}</td></tr>'
+        for name, count in check.unknown_covers.items()
+    )
+    return f"""<h2>Land covers that are not known</h2>
+<p>They count as land without vegetation (NVA).</p>
+<table><tr><th class="text">Land cover</th><th>Checkpoints</th></tr>
+{rows}</table>
+"""
+
+
+def _not_counted(check: Check) -> str:
     if not check.not_counted:
         return ""
     rows = "".join(
@@ -204,7 +224,7 @@ def _table(found: Residuals, survey: Survey) -> str:
             found.ground[place], found.errors[place]))]  # fmt: skip
         if has_dtm:
             values += map(_number, (found.dtm[place], found.dtm_errors[place]))
-        words = (points.covers[place], "VVA" if found.vegetated[place] else "NVA")
+        words = (found.written[place], found.kinds[place])
         state = "" if is_counted else REASONS[found.states[place]]
         cells = [f'<td class="text">{text(each)}</td>' for each in (points.names[place], *words)]
         cells += [f"<td>{each}</td>" for each in values] + [f'<td class="text">{state}</td>']

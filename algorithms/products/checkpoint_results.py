@@ -10,6 +10,7 @@ import numpy as np
 from ..survey.checkpoint_files import Checkpoints
 from .accuracy import NEEDED, Figures
 from .hold_out import HoldOut
+from .land_covers import CONTROL, NVA, VVA
 
 COUNTED = "counted"
 # Colours of errors, from low to high. Blue: the data lie below the checkpoint; red: above it. They
@@ -24,6 +25,7 @@ REASONS = {
     "outside": "outside of the survey",
     "void": "where there is no ground near",
     "doubtful": "where the confidence is low",
+    "control": "to which the survey was fitted (control)",
 }
 
 
@@ -36,6 +38,8 @@ class Residuals(NamedTuple):
         The checkpoints in the CRS of the points.
     vegetated : numpy.ndarray of bool, shape (n,)
         Which have a land cover that is vegetated.
+    unknown_covers : dict of str to int
+        Land covers that are not known, and how many checkpoints have them.
     states : tuple of str
         "counted", or a key of `REASONS`.
     ground, dtm : numpy.ndarray of float64, shape (n,)
@@ -43,20 +47,36 @@ class Residuals(NamedTuple):
         where there is none.
     errors, dtm_errors : numpy.ndarray of float64, shape (n,)
         These heights minus those of the checkpoints, in metres.
+    unit : float
+        Metres in a unit of the heights.
     """
 
     checkpoints: Checkpoints
     vegetated: np.ndarray
+    unknown_covers: dict[str, int]
     states: tuple[str, ...]
     ground: np.ndarray
     dtm: np.ndarray
     errors: np.ndarray
     dtm_errors: np.ndarray
+    unit: float
 
     @property
     def counted(self) -> np.ndarray:
         """Which checkpoints are counted; boolean, shape (n,)."""
         return np.array([each == COUNTED for each in self.states], dtype=bool)
+
+    @property
+    def written(self) -> list[str]:
+        """The land cover of each checkpoint, or else its use."""
+        points = self.checkpoints
+        return [cover or use for cover, use in zip(points.covers, points.types or points.covers)]
+
+    @property
+    def kinds(self) -> list[str]:
+        """NVA, VVA or control, for each checkpoint."""
+        kinds = [VVA if each else NVA for each in self.vegetated]
+        return [CONTROL if each == CONTROL else k for each, k in zip(self.states, kinds)]
 
 
 @dataclass(frozen=True)
@@ -73,17 +93,23 @@ class Check:
         The same of the terrain model.
     not_counted : dict of str to list of str
         The names of the other checkpoints, by the reason as in `REASONS`.
+    unknown_covers : dict of str to int
+        Land covers that are not known, and how many checkpoints have them. They are counted as
+        land without vegetation.
+    doubt : str
+        Why no accuracy can be stated, such as another vertical datum; empty if it can be.
     largest : list of dict
         Names and errors of the counted checkpoints with the largest errors of the TIN.
     shift : float or None
         The mean error on land without vegetation, which a shift of the heights by its negative
-        would remove. Nothing is shifted.
+        would remove; None if there is a doubt. Nothing is shifted.
     needed : int
         Fewest checkpoints without vegetation for a test by the standard.
     accuracy_class : float or None
         The class to meet.
     meets_class : bool or None
-        Whether the TIN meets it; None if no class is given or no checkpoint is counted.
+        Whether the TIN meets it; None if no class is given, no checkpoint without vegetation is
+        counted, or there is a doubt.
     scale : float
         Error in metres at which the colours of maps and bars end.
     statement, dtm_statement : str
@@ -99,6 +125,8 @@ class Check:
     dtm_nva: Figures | None = None
     dtm_vva: Figures | None = None
     not_counted: dict[str, list[str]] | None = None
+    unknown_covers: dict[str, int] | None = None
+    doubt: str = ""
     largest: list[dict[str, Any]] | None = None
     shift: float | None = None
     needed: int = NEEDED
@@ -131,7 +159,7 @@ class Check:
 
     def lines(self) -> list[str]:
         """Return the figures as lines of text for a terminal or a log."""
-        rows = []
+        rows = [f"look at this      {self.doubt}"] if self.doubt else []
         if self.checkpoint_count:
             rows.append(
                 f"checkpoints       {self.counted:>6,} of {self.checkpoint_count:,} counted"

@@ -20,13 +20,16 @@ from ..rasters.sampling import FAR_BELOW, HeightRaster, HeightSampler
 from ..survey.checkpoint_files import Checkpoints
 from ..survey.files import Survey
 from ..survey.ground_classes import GroundClasses
-from .accuracy import NEEDED, VEGETATED, Accuracy, Figures, is_vegetated, statement
+from .accuracy import Accuracy, Figures, statement
 from .checkpoint_outputs import CheckOutputs
 from .checkpoint_results import COUNTED, REASONS, Check, Residuals, listed
+from .height_offsets import offset_in_words
 from .hold_out import HoldOut, hold_out
+from .land_covers import CONTROL, VVA, LandCovers, kinds_of
 from .page import round_length
 from .survey_ground import SurveyGround
 
+_NOT_STATED = "No accuracy is stated before the difference in height is settled."
 # How many of the largest errors are named.
 _LARGEST = 5
 
@@ -85,7 +88,8 @@ class CheckRequest:
     confidence : str or None
         A raster of its confidence, 0 to 1.
     vegetated : tuple of str
-        Land covers with a word that begins or ends so are vegetated.
+        Land covers with one of these words are vegetated, and no others. Empty: those with words
+        that are known in several languages.
     outputs : CheckOutputs
         The files to write.
     crs : str or None
@@ -98,7 +102,7 @@ class CheckRequest:
     ground: GroundClasses = field(default_factory=GroundClasses)
     dtm: str | None = None
     confidence: str | None = None
-    vegetated: tuple[str, ...] = VEGETATED
+    vegetated: tuple[str, ...] = ()
     outputs: CheckOutputs = field(default_factory=CheckOutputs)
     crs: str | None = None
 
@@ -162,6 +166,8 @@ def check_files(
         part = progress.part(0.05 if given is None else middle, 0.95)
         held = hold_out(ground, share, request.options.max_edge, part)
     check = _check_of(found, request.accuracy, held)
+    if check.doubt:
+        progress.warning(f"{check.doubt} No accuracy is stated before this is settled.")
     request.outputs.write(check, found, ground.survey, progress)
     return check
 
@@ -172,7 +178,7 @@ def _residuals(
     """Return the errors at checkpoints."""
     survey, reach = ground.survey, request.options.max_edge
     checkpoints = checkpoints.located(ground.place, progress, reach)
-    x, y, z = checkpoints.xyz.T
+    x, y, _ = checkpoints.xyz.T
     across, up = survey.crs.horizontal_unit, survey.crs.vertical_unit
     model, confidence = (_raster(each, ground) for each in (request.dtm, request.confidence))
     dtm, sure = _sampled(model, x, y, up), _sampled(confidence, x, y)
@@ -189,14 +195,41 @@ def _residuals(
         states[~(sure >= request.options.min_confidence)] = "doubtful"
     states[np.isnan(heights)] = "void"
     states[np.isnan(heights) & ~_touches(survey, x, y)] = "outside"
-    vegetated = [is_vegetated(each, request.vegetated) for each in checkpoints.covers]
-    if not any(checkpoints.covers):
-        progress.info("The checkpoints have no land cover: all count as without vegetation.")
+    kinds, unknown = kinds_of(checkpoints, LandCovers(request.vegetated), progress)
+    states[[each == CONTROL for each in kinds]] = CONTROL
     dtm = np.full(len(x), np.nan) if dtm is None else dtm
+    checkpoints = _with_fitting_heights(checkpoints, heights, states == COUNTED, up, progress)
+    z = checkpoints.xyz[:, 2]
     return Residuals(
-        checkpoints, np.array(vegetated, dtype=bool), tuple(states), heights / up, dtm,
-        heights - z * up, (dtm - z) * up,
+        checkpoints, np.array([each == VVA for each in kinds]), unknown, tuple(states),
+        heights / up, dtm, heights - z * up, (dtm - z) * up, up,
     )  # fmt: skip
+
+
+def _with_fitting_heights(
+    checkpoints: Checkpoints,
+    heights: np.ndarray,
+    counted: np.ndarray,
+    up: float,
+    progress: Progress,
+) -> Checkpoints:
+    """Return checkpoints with the heights of another column, if only these can be meant.
+
+    Those of one column are metres off, all alike, and those of the other are not: one of both is in
+    another unit or above the ellipsoid.
+    """
+
+    def offset_of(z: np.ndarray) -> str:
+        return offset_in_words(heights[counted], z[counted] * up)
+
+    doubt = offset_of(checkpoints.xyz[:, 2])
+    if not doubt:
+        return checkpoints
+    for name, z, _ in checkpoints.others:
+        if not offset_of(z):
+            progress.warning(f"{doubt} The heights in {name} fit: these are taken instead.")
+            return checkpoints.with_heights(z)
+    return checkpoints
 
 
 def _raster(source: str | None, ground: SurveyGround) -> HeightRaster | None:
@@ -254,7 +287,7 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, held: HoldOut | None)
         if state != COUNTED:
             others.setdefault(state, []).append(name)
     if not counted.any():
-        why = "; ".join(f"{len(each):,} lie {REASONS[state]}" for state, each in others.items())
+        why = "; ".join(f"{len(each):,} {REASONS[state]}" for state, each in others.items())
         raise BareEarthError(
             f"None of the {len(names):,} checkpoints can be compared: {why}. Check their CRS, and"
             " which classes are ground."
@@ -265,17 +298,34 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, held: HoldOut | None)
         for errors in (found.errors, found.dtm_errors)
         for land in (each & ~np.isnan(errors) for each in lands)
     )
+    doubt, dtm_doubt = (_doubt_of(found, errors) for errors in (found.errors, found.dtm_errors))
     worst = np.argsort(np.where(counted, -np.abs(found.errors), 0.0), kind="stable")[:_LARGEST]
     goal = accuracy.accuracy_class
-    has_dtm = dtm_nva is not None or dtm_vva is not None
+    of_dtm = _NOT_STATED if dtm_doubt else statement(dtm_nva, dtm_vva, goal)
     return Check(
-        len(names), int(np.count_nonzero(counted)), nva, vva, dtm_nva, dtm_vva, others,
-        [
+        checkpoint_count=len(names),
+        counted=int(np.count_nonzero(counted)),
+        nva=nva, vva=vva, dtm_nva=dtm_nva, dtm_vva=dtm_vva,
+        not_counted=others,
+        unknown_covers=found.unknown_covers,
+        doubt=doubt or (f"Terrain model: {dtm_doubt}" if dtm_doubt else ""),
+        largest=[
             {"name": names[each], "error": round(float(found.errors[each]), 6)}
             for each in worst.tolist()
             if counted[each]
         ],
-        None if nva is None else nva.mean, NEEDED, goal,
-        None if goal is None or nva is None else nva.total_rmse <= goal, _scale_of(found),
-        statement(nva, vva, goal), statement(dtm_nva, dtm_vva, goal) if has_dtm else "", held,
+        shift=None if nva is None or doubt else nva.mean,
+        accuracy_class=goal,
+        meets_class=None if goal is None or nva is None or doubt else nva.total_rmse <= goal,
+        scale=_scale_of(found),
+        statement=_NOT_STATED if doubt else statement(nva, vva, goal),
+        dtm_statement=of_dtm if dtm_nva is not None or dtm_vva is not None else "",
+        hold_out=held,
     )  # fmt: skip
+
+
+def _doubt_of(found: Residuals, errors: np.ndarray) -> str:
+    """Return what makes the errors alike at all checkpoints that are counted."""
+    known = found.counted & ~np.isnan(errors)
+    points = found.checkpoints.xyz[known, 2] * found.unit
+    return offset_in_words(points + errors[known], points)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Mapping, Sequence
+from typing import Mapping, Sequence
 
 import numpy as np
 
@@ -12,15 +12,10 @@ from ..core.errors import BareEarthError
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..crs.stated import stated_wkt
-from .point_tables import (
-    SUFFIXES,
-    columns_in,
-    number_of,
-    places_without_names,
-    read_table,
-    recognised,
-)
+from .column_names import FOOT, US_FOOT, columns_in
+from .point_tables import SUFFIXES, places_without_names, read_table
 from .shapes import Geometry, Place, Shapes, located
+from .surveyed_points import OtherHeights, Record, SurveyedPoints
 from .vector_files import read_points
 
 # For the help of options.
@@ -39,11 +34,22 @@ class Checkpoints(Geometry):
     ----------
     places : tuple of numpy.ndarray of float64, shape (1, 3)
         x, y and z of each point, in units of the CRS of the points; before `located`, x and y may
-        be in the CRS that their file states (`Shapes`).
+        be in the CRS that their file states (`Shapes`), and all in `units`.
     names : tuple of str
         Their names.
     covers : tuple of str
         The land cover of each; empty if it is not known.
+    types : tuple of str
+        What each is used for, such as NVA, VVA or Control; empty if it is not known.
+    notes : tuple of str
+        What their reader warns of; `located` passes it on.
+    units : tuple of float or None
+        Metres in a unit of x and y, and of z, if the names of the columns state these.
+    is_ordered : bool
+        Whether it is known which column is x.
+    others : tuple of tuple
+        All heights that the points may have, as in `SurveyedPoints`, in the unit of the points
+        after `located`.
 
     Raises
     ------
@@ -54,6 +60,11 @@ class Checkpoints(Geometry):
     places: Sequence[np.ndarray]
     names: tuple[str, ...]
     covers: tuple[str, ...]
+    types: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    units: tuple[float | None, float | None] = (None, None)
+    is_ordered: bool = True
+    others: tuple[OtherHeights, ...] = ()
 
     def __post_init__(self) -> None:
         if not 0 < len(self.places) <= _MOST:
@@ -67,6 +78,7 @@ class Checkpoints(Geometry):
         places: Sequence[Sequence[float]],
         names: Sequence[str] | None = None,
         covers: Sequence[str] | None = None,
+        types: Sequence[str] | None = None,
     ) -> Checkpoints:
         """Return checkpoints in the CRS of the points.
 
@@ -74,8 +86,8 @@ class Checkpoints(Geometry):
         ----------
         places : array_like of float, shape (n, 3)
             x, y and z of each.
-        names, covers : sequence of str, optional
-            Names, by default numbers from 1 on, and land covers.
+        names, covers, types : sequence of str, optional
+            Names, by default numbers from 1 on, land covers, and uses.
 
         Examples
         --------
@@ -84,7 +96,30 @@ class Checkpoints(Geometry):
         """
         rows = tuple(np.asarray(each, dtype=np.float64).reshape(1, 3) for each in places)
         numbers = (str(each) for each in range(1, len(rows) + 1))
-        return cls(rows, tuple(names or numbers), tuple(covers or [""] * len(rows)))
+        none = [""] * len(rows)
+        return cls(rows, tuple(names or numbers), tuple(covers or none), tuple(types or none))
+
+    @classmethod
+    def of_points(
+        cls, found: SurveyedPoints, crs: str | None = None, source: str = ""
+    ) -> Checkpoints:
+        """Return what was read from a file or a layer.
+
+        Parameters
+        ----------
+        found : SurveyedPoints
+            The points.
+        crs : str, optional
+            The CRS of x and y; None for that of the points.
+        source : str
+            The file, for messages.
+        """
+        places = Shapes([each.reshape(1, 3) for each in found.places], crs, source)
+        return cls(
+            places, found.names, found.covers, found.types, found.notes,
+            (None if crs else found.units[0], found.units[1]), found.is_ordered,
+            found.others,
+        )  # fmt: skip
 
     @property
     def count(self) -> int:
@@ -97,7 +132,7 @@ class Checkpoints(Geometry):
         return np.concatenate(self.places)
 
     def located(self, place: Place, progress: Progress = SILENT, near: float = 0.0) -> Checkpoints:
-        """Return them in the CRS of the points; see `Geometry.located`.
+        """Return them in the CRS and units of the points; see `Geometry.located`.
 
         Parameters
         ----------
@@ -111,13 +146,71 @@ class Checkpoints(Geometry):
         BareEarthError
             As for `Geometry.located`, and if x and y seem to be exchanged.
         """
+        for note in self.notes:
+            progress.warning(note)
+        given = self._in_units(place, progress)
+        if place.box is not None:
+            given = given._in_order(place.box, progress)
+        found = located(given.places, "the checkpoints", place, progress, near)
+        return replace(given, places=found, notes=(), units=(None, None), is_ordered=True)
+
+    def _in_order(self, box: Box, progress: Progress) -> Checkpoints:
+        """Return them with x before y, if this can be seen by where the points lie."""
         x, y, _ = self.xyz.T
-        if place.box is not None and not _inside(x, y, place.box) and _inside(y, x, place.box):
+        if not _inside(y, x, box):
+            return self
+        if _inside(x, y, box):
+            if not self.is_ordered:
+                progress.warning(
+                    "The columns of the checkpoints have no names, and x may come first or second:"
+                    " the first is taken. If it is y, say so, such as x=3,y=2 for the columns."
+                )
+            return self
+        if self.is_ordered:
             raise BareEarthError(
                 "No checkpoint lies in the points, but some would if x and y were exchanged. Say"
                 " which columns they are, such as x=East,y=North or x=3,y=2."
             )
-        return replace(self, places=located(self.places, "the checkpoints", place, progress, near))
+        progress.info("The columns of the checkpoints have no names: north comes before east.")
+        return self._moved(self.xyz[:, [1, 0, 2]])
+
+    def with_heights(self, heights: np.ndarray) -> Checkpoints:
+        """Return them with other heights, shape (n,)."""
+        return self._moved(np.column_stack((self.xyz[:, :2], heights)))
+
+    def _moved(self, rows: np.ndarray) -> Checkpoints:
+        """Return them at other places of the same CRS."""
+        crs, source = (getattr(self.places, each, None) for each in ("crs", "source"))
+        return replace(self, places=Shapes([row.reshape(1, 3) for row in rows], crs, source or ""))
+
+    def _in_units(self, place: Place, progress: Progress) -> Checkpoints:
+        """Return them in the units of the points, where the names of columns state others."""
+        wanted = place.crs.horizontal_unit, place.crs.vertical_unit
+        across, up = map(_factor, self.units, wanted)
+        others = tuple((name, z * _factor(unit, wanted[1]), None) for name, z, unit in self.others)
+        if across == up == 1.0:
+            return replace(self, others=others)
+        what = {"x and y": (across, self.units[0]), "heights": (up, self.units[1])}
+        for name, (factor, unit) in what.items():
+            if factor != 1.0:
+                progress.info(
+                    f"The {name} of the checkpoints are converted: the name of their column states"
+                    f" {_named(unit)}."
+                )
+        return replace(self._moved(self.xyz * (across, across, up)), others=others)
+
+
+def _factor(given: float | None, wanted: float) -> float:
+    """Return units of the points in a unit that the name of a column states."""
+    feet = (FOOT, US_FOOT)
+    # "ft" is said of both feet. The CRS knows which of them.
+    both_feet = given in feet and min(abs(wanted - each) for each in feet) < 1e-9
+    return 1.0 if given is None or both_feet else given / wanted
+
+
+def _named(unit: float | None) -> str:
+    names = {1.0: "metres", FOOT: "feet", US_FOOT: "US survey feet"}
+    return names.get(unit or 1.0, f"units of {unit:g} m")
 
 
 def _inside(x: np.ndarray, y: np.ndarray, box: Box) -> bool:
@@ -138,11 +231,11 @@ def read_checkpoints(
         `read_points`.
     columns : str, optional
         Columns or attributes in place of those that are recognised by their names, such as
-        ``x=E,y=N,z=H,cover=Class,name=ID``. Those of tables can also be numbers from 1 on. A column
-        for z counts before the z of a geometry.
+        ``x=E,y=N,z=H,cover=Class,type=Use,name=ID``. Those of tables can also be numbers from 1 on.
+        A column for z counts before the z of a geometry.
     crs : str, optional
-        The CRS of x and y, as for `stated_wkt`; it replaces what the file states. Without it, a
-        table is in the CRS of the points.
+        The CRS of x and y, as for `stated_wkt`; it replaces what the file states. If none is
+        stated, a table is in the CRS of the points.
 
     Raises
     ------
@@ -153,77 +246,38 @@ def read_checkpoints(
     if Path(path).suffix.lower() == ".wkt":
         raise BareEarthError(f"{path} holds no names and land covers. Give CSV or GeoJSON.")
     is_table = Path(path).suffix.lower() in SUFFIXES
-    rows, stated = _of_table(Path(path), chosen) if is_table else _of_layer(path, chosen)
-    names = [name or str(number) for number, (_, name, _) in enumerate(rows, start=1)]
-    places = Shapes([each[0] for each in rows], stated_wkt(crs) or stated, str(path))
-    return Checkpoints(places, tuple(names), tuple(each[2] for each in rows))
+    found, stated = _of_table(Path(path), chosen) if is_table else _of_layer(path, chosen)
+    return Checkpoints.of_points(found, stated_wkt(crs) or stated, str(path))
 
 
-_Row = tuple[np.ndarray, str, str]
-
-
-def _of_table(path: Path, chosen: Mapping[str, str]) -> tuple[list[_Row], None]:
-    """Return place, name and cover of each row of a table; tables state no CRS."""
+def _of_table(path: Path, chosen: Mapping[str, str]) -> tuple[SurveyedPoints, str | None]:
+    """Return the points of a table, and the CRS that it states."""
     table = read_table(path)
-    if table.names is not None:
-        places = recognised(table.names, chosen, path)
-    else:
+    names, usual = table.names, None
+    if names is None:
         width = max(map(len, table.rows))
-        numbers = [str(each) for each in range(1, width + 1)]
-        places = {**places_without_names(table.rows), **recognised(numbers, chosen, path)}
-    missing = [axis for axis in "xyz" if axis not in places]
-    if missing:
-        raise BareEarthError(
-            f"{path} has no column that is known as {' and '.join(missing)} among"
-            f" {', '.join(table.names or ())}. Say which it is, such as"
-            f" {missing[0]}={(table.names or ('NAME',))[-1]} for the columns."
+        names = tuple(str(each) for each in range(1, width + 1))
+        usual = places_without_names(table.rows)
+    records = [
+        Record(f"Line {number} of {path}", (*row, *[""] * (len(names) - len(row))))
+        for number, row in zip(table.numbers, table.rows)
+    ]
+    found = SurveyedPoints.of(names, records, chosen, path, usual)
+    if table.is_control:
+        note = (
+            f"{path} lists ground control points for images: if the points were fitted to them,"
+            " they do not test these."
         )
-    found: list[_Row] = []
-    for number, row in zip(table.numbers, table.rows):
-        cells = {role: row[each] if each < len(row) else "" for role, each in places.items()}
-        place = [number_of(cells[axis]) for axis in "xyz"]
-        if None in place:
-            axis = "xyz"[place.index(None)]
-            raise BareEarthError(
-                f"Line {number} of {path} has no number for {axis}, but {cells[axis]!r}. Correct"
-                " it, or say which column it is."
-            )
-        name, cover = (_word(cells.get(role)) for role in ("name", "cover"))
-        found.append((np.array([place], dtype=np.float64), name, cover))
-    return found, None
+        found = found._replace(notes=(note, *found.notes))
+    return found, stated_wkt(table.crs)
 
 
-def _of_layer(path: Path | str, chosen: Mapping[str, str]) -> tuple[list[_Row], str | None]:
-    """Return place, name and cover of each point of a vector file, and the CRS that it states."""
+def _of_layer(path: Path | str, chosen: Mapping[str, str]) -> tuple[SurveyedPoints, str | None]:
+    """Return the points of a vector file, and the CRS that it states."""
     points = read_points(Path(path))
     fields = list(dict.fromkeys(field for _, attributes in points for field in attributes))
-    places = recognised(fields, {k: v for k, v in chosen.items() if k not in "xy"}, path)
-    has_z = not any(np.isnan(place[2]) for place, _ in points)
-    if not has_z and "z" not in places:
-        raise BareEarthError(
-            f"The points of {path} have no heights: neither their geometry nor an attribute that is"
-            f" known as z has one ({', '.join(fields) or 'there are none'}). Say which attribute it"
-            " is, such as z=HEIGHT for the columns."
-        )
-    found: list[_Row] = []
-    for number, (place, attributes) in enumerate(points, start=1):
-        cells = {role: attributes.get(fields[each]) for role, each in places.items()}
-        if "z" in chosen or not has_z:
-            height = number_of(cells["z"]) if cells["z"] is not None else None
-            if height is None:
-                raise BareEarthError(
-                    f"Point {number} of {path} has no number for its height, but {cells['z']!r}."
-                    " Correct it, or say which attribute it is."
-                )
-            place = np.array([*place[:2], height])
-        name, cover = (_word(cells.get(role)) for role in ("name", "cover"))
-        found.append((place.reshape(1, 3), name, cover))
-    return found, getattr(points, "crs", None)
-
-
-def _word(value: Any) -> str:
-    """Return a name or a land cover as text."""
-    if value is None or (isinstance(value, float) and np.isnan(value)):
-        return ""
-    is_whole = isinstance(value, float) and value.is_integer()
-    return str(int(value) if is_whole else value).strip()
+    records = [
+        Record(f"Point {number} of {path}", tuple(map(attributes.get, fields)), place)
+        for number, (place, attributes) in enumerate(points, start=1)
+    ]
+    return SurveyedPoints.of(fields, records, chosen, path), getattr(points, "crs", None)

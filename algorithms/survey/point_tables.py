@@ -1,56 +1,33 @@
-"""Tables of points: text files whose delimiter, decimal sign and columns are recognised."""
+"""Tables of points: text files whose delimiter, decimal sign and header are recognised."""
 
 from __future__ import annotations
 
 import csv
 import math
 import re
-import unicodedata
 from pathlib import Path
-from typing import Any, Mapping, NamedTuple, Sequence
+from typing import Any, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
 from ..las.sources import open_source
+from .column_names import ColumnName, columns_of
 
 # Endings of tables; other files are vector files.
 SUFFIXES = (".csv", ".txt", ".tsv", ".tab", ".xyz", ".dat", ".pts")
-# What a column can hold, and the names that it has in tables of several languages, as `_plain`
-# returns them; earlier names count before later ones.
-NAMES = {
-    "x": "x e east easting eastings ost ostwert rechtswert rechts est este leste oost oosting"
-    " xcoord coordx pointx xutm lon long lng longitude longitud longitudine lange laenge"
-    " geolange geolaenge abscisse",
-    "y": "y n north northing northings nord nordwert hochwert hoch norte noord noording ycoord"
-    " coordy pointy yutm lat latitude latitud latitudine breite geobreite ordonnee",
-    "z": "z h height elev elevation ele alt altitude hohe hoehe geohohe geohoehe hauteur altura"
-    " cota elevacion quota altezza hoogte hojde hoyde hojd kote korkeus wysokosc rzedna vyska"
-    " zcoord coordz pointz orthometric orthometricheight orthoheight nhn nn",
-    "cover": "cover landcover landcoverclass landcovertype covertype vegetation landuse"
-    " bodenbedeckung bedeckung landbedeckung nutzung occupation couverture cobertura copertura"
-    " bodembedekking nvavva surface class klasse classe clase type category kategorie desc"
-    " description",
-    "name": "name id pointid pointname ptid point pt pnt nr no num number nummer punkt punktnr"
-    " punktnummer pkt station label nom nombre nome numero naam navn namn gcp checkpoint",
-}
 _DELIMITERS = (";", "\t", "|", ",", " ")
 # Rows that are looked at to find the delimiter.
 _SAMPLE = 50
-_LETTERS = str.maketrans({"ø": "o", "Ø": "O", "ł": "l", "Ł": "L", "ß": "ss"})
-# Units and the like in names of columns, such as "Easting (m)".
-_UNITS = {
-    "m",
-    "ft",
-    "us",
-    "survey",
-    "meter",
-    "metre",
-    "meters",
-    "metres",
-    "feet",
-    "coordinate",
-    "utm",
-}
-_PAIR = re.compile(r"\s*(\w+)\s*=\s*(.+?)\s*$")
+_COMMENTS = ("#", "//", "%", "!")
+# The CRS in a line of its own: at the start for ODM, as a comment for Agisoft.
+_CRS = re.compile(
+    r"(?:[#/%!\s]*(?:coordinate\s?system|crs|srs|projection)\s*[:=]\s*)?"
+    r"(EPSG:\d+|\+proj=.+|(?:PROJ|GEOG|COMPD|PROJCRS|GEOGCRS)[A-Z]*\[.+|WGS ?84 UTM ?\d+ ?[NS])\s*",
+    re.IGNORECASE,
+)
+_UTM = re.compile(r"WGS ?84 UTM ?(\d+) ?([NS])", re.IGNORECASE)
+_IMAGE = re.compile(r".+\.(jpe?g|tiff?|png|dng|raw|arw|cr2|nef)", re.IGNORECASE)
+# How ODM marks points that do not take part in its adjustment.
+_CHECK = "CHK-"
 
 
 class Table(NamedTuple):
@@ -64,70 +41,25 @@ class Table(NamedTuple):
         The cells of each row.
     numbers : list of int
         The number of each row's line in the file, for messages.
+    crs : str or None
+        The CRS that it states.
+    is_control : bool
+        Whether it lists ground control points for images.
     """
 
     names: tuple[str, ...] | None
     rows: list[list[str]]
     numbers: list[int]
+    crs: str | None = None
+    is_control: bool = False
 
 
-def columns_in(text: str | None) -> dict[str, str]:
-    """Return the columns that a user chooses, such as ``x=E,y=N,z=H,cover=Class,name=ID``.
+class _Line(NamedTuple):
+    """A line of a file that is not empty."""
 
-    Raises
-    ------
-    BareEarthError
-        If it is written in another way.
-    """
-    chosen = {}
-    for part in filter(str.strip, (text or "").split(",")):
-        pair = _PAIR.match(part)
-        if pair is None or pair[1].lower() not in NAMES:
-            raise BareEarthError(
-                f"The columns must be written like x=E,y=N,z=H,cover=Class,name=ID, not {part!r}."
-            )
-        chosen[pair[1].lower()] = pair[2]
-    return chosen
-
-
-def recognised(names: Sequence[str], chosen: Mapping[str, str], path: Path | str) -> dict[str, int]:
-    """Return the place of each column by its name: `chosen` ones, and those of usual names.
-
-    Parameters
-    ----------
-    names : sequence of str
-        The names of the columns.
-    chosen : mapping of str to str
-        Names, or numbers from 1 on, that the user gave for x, y, z, cover and name.
-    path : Path or str
-        The file, for messages.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no column that the user chose.
-    """
-    places = {role: _place_of(each, names, path) for role, each in chosen.items()}
-    plain = [_plain(each) for each in names]
-    for role, words in NAMES.items():
-        if role in places:
-            continue
-        free = (word for word in words.split() if word in plain)
-        found = (plain.index(word) for word in free)
-        place = next((each for each in found if each not in places.values()), None)
-        if place is not None:
-            places[role] = place
-    return places
-
-
-def _place_of(wanted: str, names: Sequence[str], path: Path | str) -> int:
-    """Return the place of a column that the user gave by its name or number."""
-    lower = [each.strip().lower() for each in names]
-    if wanted.strip().lower() in lower:
-        return lower.index(wanted.strip().lower())
-    if wanted.isdigit() and 1 <= int(wanted) <= len(names):
-        return int(wanted) - 1
-    raise BareEarthError(f"{path} has no column {wanted}. It has {', '.join(map(str, names))}.")
+    number: int
+    text: str
+    is_comment: bool
 
 
 def read_table(path: Path) -> Table:
@@ -137,30 +69,99 @@ def read_table(path: Path) -> Table:
     ----------
     path : Path
         The file, in UTF-8, UTF-16 or the code page 1252. Cells are separated by semicolons, tabs,
-        bars, commas or spaces. Lines that begin with # are comments, but for the first, which may
-        hold the names of the columns.
+        bars, commas or spaces. Rows without any value and lines that begin with #, //, % or ! are
+        skipped; one of those before the first row may hold the names of the columns, or the CRS.
 
     Raises
     ------
     BareEarthError
         If the file cannot be read, or holds no rows with three numbers.
     """
-    lines = [
-        (number, line)
-        for number, line in enumerate(_text_of(path).splitlines(), start=1)
-        if line.strip() and (number == 1 or not line.lstrip().startswith("#"))
-    ]
-    numbers, texts = [each[0] for each in lines], [each[1].lstrip("# ") for each in lines]
+    lines, crs = _lines_of(path)
+    texts = [each.text for each in lines if not each.is_comment]
     counts = [_count(_cells(texts[:_SAMPLE], each)) for each in _DELIMITERS]
-    if not lines or not max(counts):
+    if not texts or not max(counts):
         raise BareEarthError(
             f"{path} holds no table of points: no row has three numbers. Give a text file with the"
             " columns x, y and z, such as CSV."
         )
-    rows = _cells(texts, _DELIMITERS[counts.index(max(counts))])
-    has_header = _numbers_in(rows[0]) < 3
-    names = tuple(each.strip() for each in rows[0]) if has_header else None
-    return Table(names, rows[has_header:], numbers[has_header:])
+    cells = _cells([each.text for each in lines], _DELIMITERS[counts.index(max(counts))])
+    is_row = [_numbers_in(row) >= 3 and not line.is_comment for row, line in zip(cells, lines)]
+    first = is_row.index(True)
+    names = _header_of(cells[:first], lines[:first])
+    rows, numbers = [], []
+    for row, line in zip(cells[first:], lines[first:]):
+        is_header = names is not None and tuple(each.strip() for each in row) == names
+        if any(map(str.strip, row)) and not line.is_comment and not is_header:
+            rows.append(row)
+            numbers.append(line.number)
+    table = Table(names, rows, numbers, crs)
+    return _control_points(table) if names is None and crs is not None else table
+
+
+def _lines_of(path: Path) -> tuple[list[_Line], str | None]:
+    """Return the lines of a file that are not empty, and the CRS that one of them states."""
+    lines: list[_Line] = []
+    crs, markers = None, 0
+    for number, text in enumerate(_text_of(path).splitlines(), start=1):
+        stated = _CRS.fullmatch(text)
+        if stated is not None:
+            utm = _UTM.fullmatch(stated[1])
+            crs = crs or (f"EPSG:32{'67'[utm[2] in 'sS']}{int(utm[1]):02}" if utm else stated[1])
+        elif text.strip():
+            is_comment = text.lstrip().startswith(_COMMENTS)
+            lines.append(_Line(number, text.lstrip("#/%! ") if is_comment else text, is_comment))
+            if is_comment and lines[-1].text.lower().startswith("markers"):  # cameras come before
+                markers = len(lines)
+    return lines[markers:], crs
+
+
+def _header_of(cells: list[list[str]], lines: list[_Line]) -> tuple[str, ...] | None:
+    """Return the names of the columns from the lines before the first row; None for none."""
+    units: list[str] = []
+    found = None
+    for row, line in zip(reversed(cells), reversed(lines)):
+        if not line.is_comment and not units and found is None and _are_units(row):
+            units = row
+            continue
+        roles = columns_of(row, {}, "") if len(row) >= 3 else {}
+        if roles and roles["x"] and roles["y"]:
+            found = row
+            break
+        if found is None and len(row) >= 3 and not line.is_comment:
+            found = row
+    if found is None:
+        return None
+    units += [""] * (len(found) - len(units))
+    return tuple(f"{name.strip()} {unit.strip()}".strip() for name, unit in zip(found, units))
+
+
+def _are_units(row: list[str]) -> bool:
+    """Return whether a row below the names holds the units of the columns."""
+    given = [each for each in row if each.strip(" -()[]")]
+    parsed = [ColumnName.of(f"x {each}") for each in given]
+    return bool(given) and all(each.words == ("x",) and each.unit for each in parsed)
+
+
+def _control_points(table: Table) -> Table:
+    """Return the points of a list of ground control points of ODM, each once.
+
+    A row holds x, y, z, a place in an image, the image, and the name of the point; the name may be
+    missing.
+    """
+    some = table.rows[0]
+    if len(some) < 6 or _numbers_in(some[:5]) < 5 or not _IMAGE.fullmatch(some[5]):
+        return table
+    points: dict[tuple[str, ...], int] = {}
+    for row, number in zip(table.rows, table.numbers):
+        points.setdefault((*row[:3], row[6] if len(row) > 6 else ""), number)
+    has_checks = any(each[3].upper().startswith(_CHECK) for each in points)
+    rows = [
+        [*each, "check" if each[3].upper().startswith(_CHECK) else "control" * has_checks]
+        for each in points
+    ]
+    names = ("x", "y", "z", "name", "point type")
+    return Table(names, rows, list(points.values()), table.crs, not has_checks)
 
 
 def places_without_names(rows: Sequence[Sequence[str]]) -> dict[str, int]:
@@ -179,8 +180,13 @@ def places_without_names(rows: Sequence[Sequence[str]]) -> dict[str, int]:
     places = dict(zip("xyz", axes))
     if named:
         places["name"] = 0
-    words = [each for each in range(axes[-1] + 1, width) if not is_number[each]]
-    return {**places, "cover": words[0]} if words else places
+    # Codes may be missing in some rows.
+    behind = [row[axes[-1] + 1 :] for row in some]
+    for column in range(max(map(len, behind))):
+        given = [row[column] for row in behind if len(row) > column and row[column].strip()]
+        if given and not all(number_of(each) is not None for each in given):
+            return {**places, "cover": axes[-1] + 1 + column}
+    return places
 
 
 def number_of(value: Any) -> float | None:
@@ -228,12 +234,3 @@ def _count(rows: Sequence[Sequence[str]]) -> int:
 
 def _numbers_in(row: Sequence[str]) -> int:
     return sum(number_of(each) is not None for each in row)
-
-
-def _plain(name: str) -> str:
-    """Return the name of a column in small letters, without accents, signs and units."""
-    text = unicodedata.normalize("NFKD", str(name).translate(_LETTERS)).lower()
-    text = "".join(each for each in text if not unicodedata.combining(each))
-    words = re.findall(r"[a-z0-9]+", text)
-    kept = [each for each in words if each not in _UNITS]
-    return "".join(kept or words)

@@ -36,10 +36,6 @@
         <translation>Ein Gebäude hat eine Ebene von mindestens dieser Fläche. Kleinere Ebenen werden nur bis 5 m neben einer größeren gefunden. Ist dieser Wert halb so groß, werden Wipfel von Nadelbäumen zu Gebäuden.</translation>
     </message>
     <message>
-        <source>A checkpoint has no height. Choose the attribute with the heights.</source>
-        <translation>Ein Kontrollpunkt hat keine Höhe. Wählen Sie das Attribut mit den Höhen.</translation>
-    </message>
-    <message>
         <source>A class of their own</source>
         <translation>Eine eigene Klasse</translation>
     </message>
@@ -50,10 +46,6 @@
     <message>
         <source>A delivery leaves out smaller water. Empty: 8,000 m² for a survey, 1,000 m² for a flood model.</source>
         <translation>Eine Lieferung lässt kleinere Gewässer weg. Leer: 8.000 m² bei einer Vermessung, 1.000 m² bei einem Hochwassermodell.</translation>
-    </message>
-    <message>
-        <source>A land cover is vegetated if a word of its name begins or ends with one of these.</source>
-        <translation>Eine Bodenbedeckung gilt als bewachsen, wenn ein Wort ihres Namens mit einem dieser Wörter beginnt oder endet.</translation>
     </message>
     <message>
         <source>A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a name it is classified.vpc in their folder.</source>
@@ -2090,8 +2082,8 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Das Attribut mit den Höhen, in der Einheit der Höhen der Punktwolke. Leer: z der Punkte, oder ein Attribut mit einem üblichen Namen wie H oder Höhe.</translation>
     </message>
     <message>
-        <source>The attribute with the land cover, such as forest or NVA. Points on vegetated land are reported apart. Empty: an attribute with a usual name, such as class.</source>
-        <translation>Das Attribut mit der Bodenbedeckung, etwa Wald oder NVA. Punkte auf bewachsenem Land werden getrennt ausgewiesen. Leer: ein Attribut mit einem üblichen Namen wie Klasse.</translation>
+        <source>The attribute with the land cover, such as forest or NVA. Points on vegetated land are reported apart, and those of type Control are left out. Empty: an attribute with a usual name, such as class.</source>
+        <translation>Das Attribut mit der Bodenbedeckung, etwa forest oder NVA. Punkte auf bewachsenem Land werden gesondert ausgewiesen, die vom Typ Control bleiben weg. Leer: ein Attribut mit einem üblichen Namen, etwa class.</translation>
     </message>
     <message>
         <source>The attribute with the names. Empty: an attribute with a usual name, such as id, or else numbers from 1 on.</source>
@@ -2198,16 +2190,16 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Der Layer „{}“ enthält keine Linie. Wählen Sie einen, der eine enthält.</translation>
     </message>
     <message>
+        <source>The layer "{}" holds no point. Choose one that does.</source>
+        <translation>Der Layer „{}“ enthält keinen Punkt. Wählen Sie einen, der einen enthält.</translation>
+    </message>
+    <message>
         <source>The layer "{}" holds no polygon. Choose one that does.</source>
         <translation>Der Layer „{}“ enthält kein Polygon. Wählen Sie einen, der eines enthält.</translation>
     </message>
     <message>
         <source>The layer "{}" is being edited. Save or discard the edits first.</source>
         <translation>Der Layer „{}“ wird gerade bearbeitet. Speichern oder verwerfen Sie zuerst die Änderungen.</translation>
-    </message>
-    <message>
-        <source>The layer of the checkpoints has no points.</source>
-        <translation>Der Layer der Kontrollpunkte hat keine Punkte.</translation>
     </message>
     <message>
         <source>The paper's values</source>
@@ -2480,6 +2472,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Without objects</source>
         <translation>Ohne Objekte</translation>
+    </message>
+    <message>
+        <source>Words separated by commas: a land cover with one of them is vegetated, and no other. Empty: words such as forest, crops and brush in several languages.</source>
+        <translation>Durch Kommas getrennte Wörter: Eine Bodenbedeckung mit einem davon ist bewachsen, keine andere. Leer: Wörter wie Wald, Feldfrüchte und Gebüsch in mehreren Sprachen.</translation>
     </message>
     <message>
         <source>Working…</source>

@@ -36,10 +36,6 @@
         <translation>Un bâtiment a un plan d'au moins cette surface. Les plans plus petits ne sont trouvés qu'à moins de 5 m d'un plus grand. Si cette valeur est deux fois plus petite, des cimes de conifères deviennent des bâtiments.</translation>
     </message>
     <message>
-        <source>A checkpoint has no height. Choose the attribute with the heights.</source>
-        <translation>Un point de contrôle n'a pas d'altitude. Choisissez l'attribut qui contient les altitudes.</translation>
-    </message>
-    <message>
         <source>A class of their own</source>
         <translation>Une classe à part</translation>
     </message>
@@ -50,10 +46,6 @@
     <message>
         <source>A delivery leaves out smaller water. Empty: 8,000 m² for a survey, 1,000 m² for a flood model.</source>
         <translation>Une livraison omet les eaux plus petites. Vide : 8 000 m² pour un levé, 1 000 m² pour un modèle d'inondation.</translation>
-    </message>
-    <message>
-        <source>A land cover is vegetated if a word of its name begins or ends with one of these.</source>
-        <translation>Une occupation du sol compte comme végétation si un mot de son nom commence ou finit par l'un de ceux-ci.</translation>
     </message>
     <message>
         <source>A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a name it is classified.vpc in their folder.</source>
@@ -2090,8 +2082,8 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>L'attribut qui contient les altitudes, dans l'unité des altitudes du nuage. Vide : z des points, ou un attribut au nom courant, comme H ou altitude.</translation>
     </message>
     <message>
-        <source>The attribute with the land cover, such as forest or NVA. Points on vegetated land are reported apart. Empty: an attribute with a usual name, such as class.</source>
-        <translation>L'attribut de l'occupation du sol, comme forêt ou NVA. Les points dans la végétation sont indiqués à part. Vide : un attribut au nom courant, comme classe.</translation>
+        <source>The attribute with the land cover, such as forest or NVA. Points on vegetated land are reported apart, and those of type Control are left out. Empty: an attribute with a usual name, such as class.</source>
+        <translation>L'attribut avec l'occupation du sol, par exemple forest ou NVA. Les points sur terrain végétalisé sont présentés à part, ceux de type Control sont écartés. Vide : un attribut au nom usuel, tel que class.</translation>
     </message>
     <message>
         <source>The attribute with the names. Empty: an attribute with a usual name, such as id, or else numbers from 1 on.</source>
@@ -2198,16 +2190,16 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>La couche « {} » ne contient aucune ligne. Choisissez-en une qui en contient.</translation>
     </message>
     <message>
+        <source>The layer "{}" holds no point. Choose one that does.</source>
+        <translation>La couche « {} » ne contient aucun point. Choisissez-en une qui en contient.</translation>
+    </message>
+    <message>
         <source>The layer "{}" holds no polygon. Choose one that does.</source>
         <translation>La couche « {} » ne contient aucun polygone. Choisissez-en une qui en contient.</translation>
     </message>
     <message>
         <source>The layer "{}" is being edited. Save or discard the edits first.</source>
         <translation>La couche « {} » est en cours d'édition. Enregistrez ou annulez d'abord les modifications.</translation>
-    </message>
-    <message>
-        <source>The layer of the checkpoints has no points.</source>
-        <translation>La couche des points de contrôle n'a aucun point.</translation>
     </message>
     <message>
         <source>The paper's values</source>
@@ -2480,6 +2472,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Without objects</source>
         <translation>Sans objets</translation>
+    </message>
+    <message>
+        <source>Words separated by commas: a land cover with one of them is vegetated, and no other. Empty: words such as forest, crops and brush in several languages.</source>
+        <translation>Mots séparés par des virgules : une occupation du sol qui en contient un est végétalisée, aucune autre ne l'est. Vide : des mots tels que forêt, cultures et broussailles, en plusieurs langues.</translation>
     </message>
     <message>
         <source>Working…</source>

@@ -5,8 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from qgis.core import (
     QgsFeature,
+    QgsMultiPoint,
+    QgsPoint,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
@@ -18,9 +21,9 @@ from qgis.core import (
     QgsProcessingParameterVectorDestination,
 )
 
-from ...algorithms.products.accuracy import VEGETATED
 from ...algorithms.survey.checkpoint_files import Checkpoints, read_checkpoints
-from ...algorithms.survey.point_tables import SUFFIXES, number_of, recognised
+from ...algorithms.survey.point_tables import SUFFIXES
+from ...algorithms.survey.surveyed_points import Record, SurveyedPoints
 from .. import compat
 from ..i18n import mark, tr
 from .feedback import FeedbackProgress, Refusal
@@ -40,7 +43,8 @@ _FIELDS = {
         "cover",
         "Land cover of the checkpoints",
         "The attribute with the land cover, such as forest or NVA. Points on vegetated land are"
-        " reported apart. Empty: an attribute with a usual name, such as class.",
+        " reported apart, and those of type Control are left out. Empty: an attribute with a usual"
+        " name, such as class.",
     ),
     "NAME_FIELD": (
         "name",
@@ -67,10 +71,11 @@ def add_checkpoints(algorithm: QgsProcessingAlgorithm, advanced: bool = False) -
 
 def add_judgement(algorithm: QgsProcessingAlgorithm) -> None:
     """Add advanced fields that decide which checkpoints count, and as what."""
-    words = QgsProcessingParameterString(
-        _VEGETATED, "Vegetated land covers", ", ".join(VEGETATED), False, True
+    words = QgsProcessingParameterString(_VEGETATED, "Vegetated land covers", None, False, True)
+    text = (
+        "Words separated by commas: a land cover with one of them is vegetated, and no other."
+        " Empty: words such as forest, crops and brush in several languages."
     )
-    text = "A land cover is vegetated if a word of its name begins or ends with one of these."
     _add(algorithm, words, text)
     sure = QgsProcessingParameterRasterLayer(_CONFIDENCE, "Confidence", None, True)
     text = "Confidence of the terrain model, 0 to 1. Checkpoints where it is low are not counted."
@@ -131,7 +136,7 @@ def judgement_of(
         sure = raster_of(algorithm, parameters, _CONFIDENCE, context, refusal).source()
     words = tuple(word for each in text.split(",") if (word := each.strip()))
     found = {"confidence": sure} if sure else {}
-    return found if words in ((), VEGETATED) else {**found, "vegetated": words}
+    return {**found, "vegetated": words} if words else found
 
 
 def checkpoints_of(
@@ -167,18 +172,16 @@ def checkpoints_of(
     )
     source = algorithm.parameterAsSource(parameters, _LAYER, context)
     names = source.fields().names() if source is not None else []
-    fields = {role: names[each] for role, each in recognised(names, chosen, _LAYER).items()}
-    wanted = [each for role, each in fields.items() if role not in "xy"]
-    rows = [
-        _row(each, fields, chosen)
-        for each in features_of(source, "Checkpoints", crs.value, context, wanted)
-        if each.hasGeometry()
+    features = features_of(source, "Checkpoints", crs.value, context, names)
+    records = [
+        _record(number, feature, names)
+        for number, feature in enumerate(features, start=1)
+        if feature.hasGeometry()
     ]
-    if not rows:
-        raise Refusal(mark("The layer of the checkpoints has no points."))
-    places, names, covers = zip(*rows)
-    numbered = [name or str(number) for number, name in enumerate(names, start=1)]
-    return Checkpoints.of(places, numbered, covers), {}
+    if not records:
+        raise Refusal(mark('The layer "{}" holds no point. Choose one that does.'), "Checkpoints")
+    found = SurveyedPoints.of(names, records, chosen, source.sourceName())
+    return Checkpoints.of_points(found), {}
 
 
 def _table_of(value: Any) -> Path | None:
@@ -187,24 +190,13 @@ def _table_of(value: Any) -> Path | None:
     return path if path and path.suffix.lower() in SUFFIXES and path.is_file() else None
 
 
-def _row(
-    feature: QgsFeature, fields: dict[str, str], chosen: dict[str, str]
-) -> tuple[tuple[float, float, float], str, str]:
-    """Return place, name and cover of a feature."""
+def _record(number: int, feature: QgsFeature, names: list[str]) -> Record:
+    """Return the place and the attributes of a feature."""
     point = feature.geometry().constGet()
-    point = point if hasattr(point, "x") else point.geometryN(0)  # of several points, the first
-    height = point.z() if point.is3D() and "z" not in chosen else None
-    if height is None:
-        given = feature[fields["z"]] if "z" in fields else None
-        height = None if compat.is_null(given) else number_of(given)
-    if height is None:
-        text = mark("A checkpoint has no height. Choose the attribute with the heights.")
-        raise Refusal(text)
-    name, cover = (_word(feature, fields.get(role)) for role in ("name", "cover"))
-    return (point.x(), point.y(), height), name, cover
-
-
-def _word(feature: QgsFeature, field: str | None) -> str:
-    """Return an attribute as text; empty if there is none."""
-    value = feature[field] if field else None
-    return "" if compat.is_null(value) else str(value).strip()
+    if isinstance(point, QgsMultiPoint):  # of several points, the first
+        point = point.geometryN(0)
+    if not isinstance(point, QgsPoint):
+        raise Refusal(mark('The layer "{}" holds no point. Choose one that does.'), "Checkpoints")
+    place = np.array([point.x(), point.y(), point.z() if point.is3D() else np.nan])
+    cells = [None if compat.is_null(feature[name]) else feature[name] for name in names]
+    return Record(f"Point {number}", cells, place)

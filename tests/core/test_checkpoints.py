@@ -14,9 +14,10 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.products import survey_ground
-from bare_earth.algorithms.products.accuracy import Accuracy, Figures, is_vegetated, statement
+from bare_earth.algorithms.products.accuracy import Accuracy, Figures, statement
 from bare_earth.algorithms.products.checkpoint_outputs import CheckOutputs
 from bare_earth.algorithms.products.checkpoints import CheckOptions, CheckRequest, check_files
+from bare_earth.algorithms.products.land_covers import LandCovers
 from bare_earth.algorithms.survey.checkpoint_files import Checkpoints, read_checkpoints
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 
@@ -386,7 +387,7 @@ def test_a_vector_crs_is_transformed(survey, tmp_path):
      ("tall grass", 1), ("grass", 0), ("Metall", 0), ("", 0), ("Forêt", 1)],
 )  # fmt: skip
 def test_which_land_is_vegetated(cover, expected):
-    assert is_vegetated(cover) == bool(expected)
+    assert (LandCovers().kind("", cover) == "VVA") == bool(expected)
 
 
 def test_words_for_vegetated_land_can_be_chosen(survey):

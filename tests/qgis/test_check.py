@@ -4,7 +4,13 @@ import json
 import laspy
 import numpy as np
 import pytest
-from qgis.core import QgsProcessingException, QgsProject, QgsVectorLayer
+from qgis.core import (
+    QgsFeature,
+    QgsGeometry,
+    QgsProcessingException,
+    QgsProject,
+    QgsVectorLayer,
+)
 from support import Log
 
 ALGORITHM = "bareearth:check"
@@ -98,7 +104,7 @@ def test_a_layer_in_another_crs_and_its_style(cloud, rows, tmp_path, has_z):
         "OUTPUT": str(tmp_path / "errors.gpkg"),
     }  # fmt: skip
     if not has_z:
-        with pytest.raises(QgsProcessingException, match="has no height"):
+        with pytest.raises(QgsProcessingException, match="have no heights"):
             processing.run(ALGORITHM, parameters)
         parameters["Z_FIELD"] = "up"
     QgsProject.instance().clear()
@@ -112,6 +118,17 @@ def test_a_layer_in_another_crs_and_its_style(cloud, rows, tmp_path, has_z):
     names = {each["NAME"] for each in layer.getFeatures()}
     assert {"far", rows[0][0]} <= names
     QgsProject.instance().clear()
+
+
+def test_polygons_as_checkpoints_are_refused(cloud):
+    import processing
+
+    areas = QgsVectorLayer("Polygon?crs=EPSG:25832", "areas", "memory")
+    feature = QgsFeature()
+    feature.setGeometry(QgsGeometry.fromWkt("POLYGON((0 0, 1 0, 1 1, 0 0))"))
+    areas.dataProvider().addFeatures([feature])
+    with pytest.raises(QgsProcessingException, match="holds no point"):
+        processing.run(ALGORITHM, {"INPUT": str(cloud), "CHECKPOINTS": areas})
 
 
 def test_held_out_points_need_no_checkpoints(cloud, tmp_path):

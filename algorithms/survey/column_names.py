@@ -1,0 +1,235 @@
+"""What the columns of a table of points hold, by their names in several languages."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from pathlib import Path
+from typing import Mapping, NamedTuple, Sequence
+
+from ..core.errors import BareEarthError
+
+_LETTERS = str.maketrans({"ø": "o", "Ø": "O", "ł": "l", "Ł": "L", "ß": "ss", "æ": "a"})
+_PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
+
+
+def words_of(text: str) -> frozenset[str]:
+    """Return the words of a list."""
+    return frozenset(text.split())
+
+
+def without_accents(text: str) -> str:
+    """Return a text without accents.
+
+    >>> without_accents("Höhe, Straße")
+    'Hohe, Strasse'
+    """
+    text = unicodedata.normalize("NFKD", text.translate(_LETTERS))
+    return "".join(each for each in text if not unicodedata.combining(each))
+
+
+def parts_of(text: str) -> list[str]:
+    """Return the words and numbers in a text, also those that only capitals part.
+
+    >>> parts_of("TallGrass_2")
+    ['Tall', 'Grass', '2']
+    """
+    return _PARTS.findall(without_accents(text))
+
+
+# Names of columns without accents and signs; a name of several words is also recognised if all of
+# its words are in the row. Earlier names count before later ones.
+NAMES = {
+    "x": "x e east easting eastings ost ostwert rechtswert rechts est este leste oost oosting"
+    " xcoord coordx pointx xutm abscisse lon long lng longitude longitud longitudine lange laenge"
+    " geolange geolaenge",
+    "y": "y n north northing northings nord nordwert hochwert hoch norte noord noording ycoord"
+    " coordy pointy yutm ordonnee lat latitude latitud latitudine breite geobreite",
+    "z": "z elevation elev elv ele cota elevacion quota kote rzedna zcoord coordz pointz altitude"
+    " alt altura altezza height hgt ht hohe hoehe geohohe geohoehe hauteur hoogte hojde hoyde hojd"
+    " korkeus wysokosc vyska h",
+    "cover": "cover landcover landcoverclass landcovertype covertype groundcover vegetation"
+    " landuse lulc bodenbedeckung bedeckung landbedeckung nutzung landnutzung oberflache"
+    " untergrund occupation occupationsol couverture typesol sol cobertura coberturasuelo"
+    " usosuelo tiposuelo copertura bodembedekking bodemgebruik landgebruik grondgebruik begroeiing"
+    " surface surfacetype terraintype class klasse classe clase category kategorie categorie"
+    " categoria description desc featurecode codedescription code",
+    "type": "pointtype pttype ptype type gcptype checkpointtype pointclass pointusage usage"
+    " purpose role nvavva typ punktart art typepoint naturepoint tipo tipopunto punttype soort",
+    "name": "name id pointid pointname ptid uniqueidentifier uniqueid point pt pnt nr no num number"
+    " nummer punkt punktnr punktnummer pkt station label nom nombre nome numero naam navn namn"
+    " p marker gcp gcpname checkpoint checkpointid gcpid",
+}
+# Words that say nothing about what a column holds.
+_FILLERS = words_of(
+    "source grid coord coords coordinate coordinates koordinate utm map projected surveyed measured"
+    " known reference field gps gnss the of de du des del della di la le les el d l der die das von"
+    " van het in"
+)
+# Words by which a height is above the geoid, those that may go with them, and words by which it is
+# above the ellipsoid.
+_ORTHOMETRIC = words_of(
+    "nhn nn navd ngvd msl amsl asl nap ngf ign evrf odn aod ahd nzvd cgvd dhhn lhn ln taw egm sea"
+    " level normal"
+)
+_ABOVE = words_of("mean uber ueber u above over sur sobre boven")
+_ELLIPSOIDAL = words_of("hae wgs etrs grs nad hell helli")
+_PREFIX = re.compile(
+    r"(orthom?[a-z]*?|ortom?[a-z]*?|normal|ellip[a-z]*?|elip[a-z]*?|ell)"
+    r"(?:elevation|elev|heights?|hgt|hts?|altitude|alt|hohen?|hoehen?|z|h)?"
+)
+# Metres in a unit that the name of a column states; a foot of unknown kind is the international.
+FOOT, US_FOOT = 0.3048, 1200.0 / 3937.0
+_UNITS = {
+    "m": 1.0, "meter": 1.0, "meters": 1.0, "metre": 1.0, "metres": 1.0, "metros": 1.0,
+    "metri": 1.0, "mtr": 1.0, "cm": 0.01, "mm": 0.001, "ft": FOOT, "feet": FOOT, "foot": FOOT,
+    "ift": FOOT, "pies": FOOT, "pieds": FOOT, "fuss": FOOT, "ftus": US_FOOT, "usft": US_FOOT,
+    "sft": US_FOOT, "usfeet": US_FOOT, "ussft": US_FOOT, "sfeet": US_FOOT,
+}  # fmt: skip
+_OF_FEET = {"us", "survey", "usa", "intl", "international", "int", "s"}
+_ANGLES = {"deg", "degree", "degrees", "dd", "decimal", "grad"}
+_PAIR = re.compile(r"\s*(\w+)\s*=\s*(.+?)\s*$")
+
+
+class ColumnName(NamedTuple):
+    """What the name of a column says.
+
+    Attributes
+    ----------
+    words : tuple of str
+        Its words, without accents, units and numbers, with their capitals.
+    unit : float or None
+        The unit that it states, in metres.
+    """
+
+    words: tuple[str, ...]
+    unit: float | None
+
+    @classmethod
+    def of(cls, name: str) -> ColumnName:
+        """Return the words and the unit of a name.
+
+        >>> ColumnName.of("Elevation_NAVD88 (ft)")
+        ColumnName(words=('Elevation', 'NAVD'), unit=0.3048)
+        """
+        text = without_accents(str(name).replace("U.S.", "US"))
+        words: list[str] = []
+        for chunk in re.findall(r"[A-Za-z0-9]+", text):
+            is_unit = chunk.lower() in _UNITS
+            words += [chunk] if is_unit else _PARTS.findall(chunk)
+        found = [each for each in words if each.lower() in _UNITS]
+        if not found or len(words) == 1:
+            unit = None
+        else:
+            unit = _UNITS[found[0].lower()]
+            feet = {each.lower() for each in words} & _OF_FEET if unit == FOOT else set()
+            unit = US_FOOT if feet & {"us", "survey", "usa", "s"} else unit
+            words = [each for each in words if each not in found and each.lower() not in feet]
+        kept = [each for each in words if not each.isdigit() and each.lower() not in _ANGLES]
+        return cls(tuple(kept or words), unit)
+
+    @property
+    def _lower(self) -> list[str]:
+        return [each.lower() for each in self.words]
+
+    @property
+    def height_kind(self) -> int:
+        """0 for a height above the geoid, 2 for one above the ellipsoid, 1 if it is not known."""
+        words = set(self._lower)
+        prefixes = [match[1] for each in words if (match := _PREFIX.fullmatch(each))]
+        ellipsoidal = any(each.startswith("el") for each in prefixes)
+        if ellipsoidal or any(each.startswith("ellip") for each in words):
+            return 2
+        if prefixes or not words.isdisjoint(_ORTHOMETRIC):
+            return 0
+        return 1 if words.isdisjoint(_ELLIPSOIDAL) else 2
+
+    def rank(self, role: str) -> tuple[int, int] | None:
+        """Return how well it names a role, the smaller the better; None if it does not."""
+        known = NAMES[role].split()
+        words = [each for each in self._lower if each not in _FILLERS] or self._lower
+        if role == "z":
+            return self._rank_of_height(known, words)
+        joined = ["".join(words), "".join(self._lower)]
+        places = [known.index(each) for each in joined if each in known]
+        # "X_est" of Agisoft is estimated, not east in French.
+        if not places and "est" not in words and all(each in known for each in words):
+            places = [known.index(each) for each in words]
+        return (0, min(places)) if places else None
+
+    def _rank_of_height(self, known: list[str], words: list[str]) -> tuple[int, int] | None:
+        if "".join(words) in known:
+            words = ["".join(words)]
+        places = []
+        for word in words:
+            if word in known:
+                # Surveyors write H above the geoid, and h above the ellipsoid.
+                places.append(0 if self.words == ("H",) else known.index(word))
+            elif _PREFIX.fullmatch(word) or word in _ELLIPSOIDAL:
+                places.append(len(known))
+            elif word not in _ORTHOMETRIC | _ABOVE:
+                return None
+        return (self.height_kind, min(places)) if places else self._of_datum(words)
+
+    def _of_datum(self, words: list[str]) -> tuple[int, int] | None:
+        """Return the rank of the name of a datum alone, such as NHN."""
+        return (0, 0) if len(words) == 1 and words[0] in ("nhn", "nn", "nap", "msl") else None
+
+
+def columns_in(text: str | None) -> dict[str, str]:
+    """Return the columns that a user chooses, such as ``x=E,y=N,z=H,cover=Class,name=ID``.
+
+    Raises
+    ------
+    BareEarthError
+        If it is written in another way.
+    """
+    chosen = {}
+    for part in filter(str.strip, (text or "").split(",")):
+        pair = _PAIR.match(part)
+        if pair is None or pair[1].lower() not in NAMES:
+            raise BareEarthError(
+                f"The columns must be written like x=E,y=N,z=H,cover=Class,name=ID, not {part!r}."
+            )
+        chosen[pair[1].lower()] = pair[2]
+    return chosen
+
+
+def columns_of(
+    names: Sequence[str], chosen: Mapping[str, str], path: Path | str
+) -> dict[str, list[int]]:
+    """Return the columns that can hold each role, the best first.
+
+    Parameters
+    ----------
+    names : sequence of str
+        The names of the columns.
+    chosen : mapping of str to str
+        Names, or numbers from 1 on, that the user gave for roles: the only ones for these.
+    path : Path or str
+        The file, for messages.
+
+    Raises
+    ------
+    BareEarthError
+        If there is no column that the user chose.
+    """
+    found = {role: [_place_of(each, names, path)] for role, each in chosen.items()}
+    used = {places[0] for places in found.values()}
+    parsed = [ColumnName.of(each) for each in names]
+    for role in NAMES:
+        ranks = {k: each.rank(role) for k, each in enumerate(parsed) if k not in used}
+        good = {k: rank for k, rank in ranks.items() if rank is not None}
+        found.setdefault(role, sorted(good, key=good.__getitem__))
+    return found
+
+
+def _place_of(wanted: str, names: Sequence[str], path: Path | str) -> int:
+    """Return the place of a column that the user gave by its name or number."""
+    exact, lower = [each.strip() for each in names], [each.strip().lower() for each in names]
+    for known, name in ((exact, wanted.strip()), (lower, wanted.strip().lower())):
+        if name in known:
+            return known.index(name)
+    if wanted.isdigit() and 1 <= int(wanted) <= len(names):
+        return int(wanted) - 1
+    raise BareEarthError(f"{path} has no column {wanted}. It has {', '.join(map(str, names))}.")

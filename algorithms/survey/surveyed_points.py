@@ -1,0 +1,310 @@
+"""Surveyed points from the rows of a table or of a layer: which column holds what."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Mapping, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from .column_names import ColumnName, columns_of
+from .point_tables import number_of
+
+# Heights that stand for none.
+_NODATA = (-9999.0, -999.0, -32768.0, -32767.0)
+_LIMIT = 50_000.0
+# Two columns of heights that differ by less, in metres, hold the same.
+_SAME = 0.002
+
+
+class Record(NamedTuple):
+    """A row of a table, or a point of a layer.
+
+    Attributes
+    ----------
+    where : str
+        The row, for messages.
+    cells : sequence
+        The value of each column.
+    place : numpy.ndarray of float64, shape (3,), or None
+        The geometry; z is NaN if it has none. None for rows of tables.
+    """
+
+    where: str
+    cells: Sequence[Any]
+    place: np.ndarray | None = None
+
+
+# Where heights stand, the heights, and metres in a unit of them if it is known.
+OtherHeights = Tuple[str, np.ndarray, Optional[float]]
+
+
+class SurveyedPoints(NamedTuple):
+    """Points with what their columns say.
+
+    Attributes
+    ----------
+    places : numpy.ndarray of float64, shape (n, 3)
+        x, y and z as they are written.
+    names, covers, types : tuple of str
+        Their names, land covers and uses.
+    units : tuple of float or None
+        Metres in a unit of x and y, and of z, if the names of the columns state these.
+    notes : tuple of str
+        What the user must know about the choice of columns.
+    is_ordered : bool
+        Whether it is known which column is x.
+    others : tuple of tuple
+        Other heights: where they stand, numpy.ndarray of float64, shape (n,), and their unit.
+    """
+
+    places: np.ndarray
+    names: tuple[str, ...]
+    covers: tuple[str, ...]
+    types: tuple[str, ...]
+    units: tuple[float | None, float | None] = (None, None)
+    notes: tuple[str, ...] = ()
+    is_ordered: bool = True
+    others: tuple[OtherHeights, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        names: Sequence[str],
+        records: Sequence[Record],
+        chosen: Mapping[str, str],
+        path: Path | str,
+        usual: Mapping[str, int] | None = None,
+    ) -> SurveyedPoints:
+        """Return the points of rows.
+
+        Parameters
+        ----------
+        names : sequence of str
+            The names of the columns.
+        records : sequence of Record
+            The rows, at least one.
+        chosen : mapping of str to str
+            Names or numbers of columns that the user gave for x, y, z, cover, type and name.
+        path : Path or str
+            The file, for messages.
+        usual : mapping of str to int, optional
+            The columns of a table without names.
+
+        Raises
+        ------
+        BareEarthError
+            If a column is missing, or a coordinate is.
+        """
+        if records[0].place is not None:
+            chosen = {role: name for role, name in chosen.items() if role not in "xy"}
+        given = {role: found for role, found in columns_of(names, chosen, path).items() if found}
+        columns = {**{role: [column] for role, column in (usual or {}).items()}, **given}
+        return _Reader(names, list(records), columns, "z" in chosen, str(path)).points(
+            usual is None or not {"x", "y"}.isdisjoint(chosen)
+        )
+
+
+class _Reader(NamedTuple):
+    """Reads points from rows.
+
+    Attributes
+    ----------
+    names, records, path
+        As for `SurveyedPoints.of`.
+    columns : dict of str to list of int
+        The columns that can hold each role, the best first.
+    has_chosen : bool
+        Whether the user chose the column of z.
+    """
+
+    names: Sequence[str]
+    records: list[Record]
+    columns: dict[str, list[int]]
+    has_chosen: bool
+    path: str
+
+    def points(self, is_ordered: bool) -> SurveyedPoints:
+        """Return the points."""
+        if self.records[0].place is not None:
+            heights, unit, notes = self._heights_of_layer()
+            x, y = np.array([record.place[:2] for record in self.records]).T  # type: ignore[index]
+            across, kept = None, self
+        else:
+            axes = self._axes()
+            kept, notes = self._with_values(axes)
+            x, y, heights = (kept._numbers(axes[axis], axis) for axis in "xyz")
+            across, unit = (ColumnName.of(self.names[axes[axis]]).unit for axis in "xz")
+            notes = (*notes, *kept._other_heights(axes["z"]))
+        texts = (kept._texts(role) for role in ("name", "cover", "type"))
+        names, covers, types = texts
+        numbered = (name or str(number) for number, name in enumerate(names, start=1))
+        return SurveyedPoints(
+            np.column_stack((x, y, heights)), tuple(numbered), covers, types, (across, unit), notes,
+            is_ordered, () if self.has_chosen else kept._candidates(),
+        )  # fmt: skip
+
+    def _axes(self) -> dict[str, int]:
+        """Return the columns of x, y and z of a table."""
+        missing = [axis for axis in "xyz" if axis not in self.columns]
+        if missing:
+            raise BareEarthError(
+                f"{self.path} has no column that is known as {' and '.join(missing)} among"
+                f" {', '.join(self.names)}. Say which it is, such as"
+                f" {missing[0]}={self.names[-1]} for the columns."
+            )
+        return {axis: self._best(axis) for axis in "xyz"}
+
+    def _best(self, role: str) -> int:
+        """Return the first column with a number in each row, or in some, or the first."""
+        counts = [np.isfinite(self._values(each)).sum() for each in self.columns[role]]
+        return self.columns[role][int(np.argmax(counts))]
+
+    def _values(self, column: int) -> np.ndarray:
+        """Return the numbers in a column; NaN where there is none, or one that stands for none."""
+        found = [number_of(record.cells[column]) for record in self.records]
+        values = np.array([np.nan if each is None else each for each in found])
+        return np.where(_is_height(values), values, np.nan) if column in self._of_z else values
+
+    @property
+    def _of_z(self) -> list[int]:
+        return self.columns.get("z", [])
+
+    def _with_values(self, axes: Mapping[str, int]) -> tuple[_Reader, tuple[str, ...]]:
+        """Return the same with the rows that have any coordinate, and a note on the others."""
+        is_empty = [
+            all(_word(record.cells[axes[axis]]) == "" for axis in "xyz") for record in self.records
+        ]
+        kept = [record for record, empty in zip(self.records, is_empty) if not empty]
+        left = [record for record, empty in zip(self.records, is_empty) if empty]
+        if not left:
+            return self, ()
+        if not kept:
+            raise BareEarthError(f"{self.path} holds no coordinates. Give a table of points.")
+        rows = "1 row" if len(left) == 1 else f"{len(left):,} rows"
+        note = f"{self.path} has no coordinates in {rows}, which are left out: {left[0].where}"
+        return self._replace(records=kept), (f"{note}{' and others' if left[1:] else ''}.",)
+
+    def _numbers(self, column: int, axis: str) -> np.ndarray:
+        """Return the numbers in a column; refuse rows without one."""
+        values = self._values(column)
+        if np.isnan(values).any():
+            record = self.records[int(np.argmax(np.isnan(values)))]
+            is_layer = record.place is not None
+            raise BareEarthError(
+                f"{record.where} has no number for {'its height' if is_layer else axis}, but"
+                f" {record.cells[column]!r}. Correct it, or say which"
+                f" {'attribute' if is_layer else 'column'} it is."
+            )
+        return values
+
+    def _other_heights(self, column: int) -> tuple[str, ...]:
+        """Return notes on heights above the ellipsoid, and on other columns of heights."""
+        heights = self._metres(column)
+        others = [
+            self.names[each]
+            for each in self.columns["z"]
+            if each != column and _differ(self._metres(each), heights)
+        ]
+        notes = []
+        if others:
+            notes.append(
+                f"The heights of the checkpoints are those of the column {self.names[column]}, not"
+                f" of {' and '.join(others)}."
+            )
+        if ColumnName.of(self.names[column]).height_kind == 2:
+            notes.append(
+                f"The heights in the column {self.names[column]} are above the ellipsoid, by its"
+                " name. They must be of the vertical datum of the points."
+            )
+        return tuple(notes)
+
+    def _metres(self, column: int) -> np.ndarray:
+        return self._values(column) * (ColumnName.of(self.names[column]).unit or 1.0)
+
+    def _heights_of_layer(self) -> tuple[np.ndarray, float | None, tuple[str, ...]]:
+        """Return the heights of points of a layer, their unit, and notes on their choice."""
+        given = np.array([record.place[2] for record in self.records])  # type: ignore[index]
+        column = self._best("z") if self._of_z else None
+        if column is None:
+            return self._of_geometry(given), None, ()
+        name = self.names[column]
+        if not self.has_chosen and self._geometry_counts(given, column):
+            note = (
+                f"The heights of the checkpoints are z of the points, not the attribute {name}."
+                f" z={name} for the columns takes these."
+            )
+            is_other = _differ(given, self._metres(column)) and _differ(given, self._values(column))
+            return self._of_geometry(given), None, (note,) * is_other
+        notes = self._other_heights(column)
+        if not self.has_chosen and _differ(given, self._metres(column)):
+            note = f"The heights of the checkpoints are the attribute {name}, not z of the points."
+            notes = (*notes, note)
+        return self._numbers(column, "z"), ColumnName.of(name).unit, notes
+
+    def _of_geometry(self, given: np.ndarray) -> np.ndarray:
+        """Return z of the points; refuse what is missing."""
+        if np.isnan(given).any():
+            fields = ", ".join(self.names) or "there are none"
+            raise BareEarthError(
+                f"The points of {self.path} have no heights: neither their geometry nor an"
+                f" attribute that is known as z has one ({fields}). Say which attribute it is, such"
+                " as z=HEIGHT for the columns."
+            )
+        if not _is_height(given).all() or not given.any():
+            wrong = given[np.argmax(~_is_height(given))]
+            raise BareEarthError(
+                f"The points of {self.path} have heights of {wrong:g}, which stand for none. Say"
+                " which attribute has the heights, such as z=HEIGHT for the columns."
+            )
+        return given
+
+    def _candidates(self) -> tuple[OtherHeights, ...]:
+        """Return all complete heights that the points may have."""
+        found: list[OtherHeights] = [
+            (f"the column {self.names[each]}", values, ColumnName.of(self.names[each]).unit)
+            for each in self._of_z
+            if np.isfinite(values := self._values(each)).all()
+        ]
+        places = [record.place for record in self.records]
+        given = np.array([np.nan if each is None else each[2] for each in places])
+        is_usable = _is_height(given).all() and given.any()
+        return (*found, ("z of the points", given, None)) if is_usable else tuple(found)
+
+    def _geometry_counts(self, given: np.ndarray, column: int) -> bool:
+        """Return whether z of the points is taken, not a column with a usual name."""
+        heights = self._metres(column)
+        if not np.isfinite(heights).any():
+            return True
+        is_zero = (given == 0.0) & ~(np.abs(heights) < 1.0)
+        is_one = len(given) > 2 and np.ptp(given) == 0.0 and _differ(given, heights)
+        is_orthometric = ColumnName.of(self.names[column]).height_kind == 0
+        return bool(_is_height(given).all() and not (is_zero.any() or is_one or is_orthometric))
+
+    def _texts(self, role: str) -> tuple[str, ...]:
+        """Return the texts of a role: of the first column that has any."""
+        for column in self.columns.get(role, []):
+            texts = tuple(_word(record.cells[column]) for record in self.records)
+            if any(texts):
+                return texts
+        return ("",) * len(self.records)
+
+
+def _is_height(values: np.ndarray) -> np.ndarray:
+    """Return which numbers can be heights."""
+    return np.isfinite(values) & (np.abs(values) < _LIMIT) & ~np.isin(values, _NODATA)
+
+
+def _differ(some: np.ndarray, others: np.ndarray) -> bool:
+    """Return whether two columns of heights hold different ones."""
+    with np.errstate(invalid="ignore"):
+        return bool((np.abs(some - others) > _SAME).any())
+
+
+def _word(value: Any) -> str:
+    """Return a name or a land cover as text."""
+    if value is None or (isinstance(value, float) and np.isnan(value)):
+        return ""
+    is_whole = isinstance(value, float) and value.is_integer()
+    return str(int(value) if is_whole else value).strip()
