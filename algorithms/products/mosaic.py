@@ -40,7 +40,7 @@ class Mosaic:
         Cells outside have no value.
     water : WaterCells
         Cells that have the level of water: in the terrain all of them, in the surface those without
-        a point.
+        a point. The confidence has no value there.
     """
 
     def __init__(
@@ -90,6 +90,9 @@ class Mosaic:
             self._water.burn(heights, strip)
         elif self._layer == "surface":
             self._water.burn(heights, strip, self._has_top(strip))
+        elif self._layer == "confidence":
+            # It tells what the ground points are worth, and the terrain of these cells has none.
+            heights[self._water.inside(strip)] = np.nan
         if self._outlines:
             outside = ~self._inside(start, end)[::-1]
             if self._gaps is not None:

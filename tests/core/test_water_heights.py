@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
+import rasterio
 from independent_water import compare, corners_in_flat_water, features, share_at_level
+from rasterio.features import geometry_mask
 from test_checkpoints import write
 from test_water import LEVEL, Scene, lake, river, run
 
@@ -59,6 +61,21 @@ def test_each_cell_of_water_has_the_level_of_polygons_and_breaklines(
     assert found.level < 0.01 and found.lines < 0.02, found
     # Nothing was measured in the water: its surface is that of the water, not of trees beside it.
     assert share_at_level(water, dsm) > 0.97
+
+
+def test_the_confidence_of_ground_points_has_no_value_in_water(surveys, tmp_path):
+    source, _ = surveys("lake")
+    water, dtm, sure = (tmp_path / name for name in ("water.gpkg", "dtm.tif", "sure.tif"))
+    run("water", source, water)
+    run("terrain", source, "--dtm", dtm, "--confidence", sure, "--water", "automatic")
+    ((_, rings),) = features(water)
+    polygon = {"type": "Polygon", "coordinates": [ring.tolist() for ring in rings]}
+    with rasterio.open(dtm) as terrain, rasterio.open(sure) as confidence:
+        heights, found = terrain.read(1, masked=True), confidence.read(1, masked=True)
+        cells = [polygon], heights.shape, terrain.transform
+        is_water, is_land = geometry_mask(*cells, invert=True), geometry_mask(*cells, True)
+    assert not heights.mask[is_water].any() and found.mask[is_water].all()
+    assert not found.mask[is_land & ~heights.mask].any()
 
 
 def test_no_contour_line_runs_through_flat_water(surveys, tmp_path):
