@@ -330,6 +330,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
         <translation>Wählen Sie eine Datei: {}.</translation>
     </message>
     <message>
+        <source>Choose a folder</source>
+        <translation>Ordner wählen</translation>
+    </message>
+    <message>
         <source>Choose a folder for the delivery.</source>
         <translation>Wählen Sie einen Ordner für die Lieferung.</translation>
     </message>

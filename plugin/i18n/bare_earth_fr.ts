@@ -330,6 +330,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
         <translation>Choisissez un fichier : {}.</translation>
     </message>
     <message>
+        <source>Choose a folder</source>
+        <translation>Choisir un dossier</translation>
+    </message>
+    <message>
         <source>Choose a folder for the delivery.</source>
         <translation>Choisissez un dossier pour la livraison.</translation>
     </message>

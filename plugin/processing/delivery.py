@@ -36,7 +36,7 @@ from .outputs import given_path, point_cloud_formats
 if TYPE_CHECKING:
     from ...algorithms.delivery.summary import DeliverySummary
 
-FOLDER, PAGE = "DELIVERY_FOLDER", "PAGE"
+DELIVERY, FOLDER, PAGE = "DELIVERY", "DELIVERY_FOLDER", "PAGE"
 # The parameters of deliveries alone.
 SETS = DeliveryOptions, DeliveryWater, Accuracy
 # Cell size of rasters that are not a delivery, in metres.
@@ -90,6 +90,35 @@ def check_folder(
     path = given_path(parameters.get(FOLDER), context)
     if path is not None:
         DeliveryFolder(path).check(algorithm.inputs)
+
+
+def tell_of_ignored(
+    algorithm: BareEarthAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    progress: FeedbackProgress,
+) -> None:
+    """Warn of values that a delivery, or a run without one, does not use."""
+    chosen = algorithm.chosen(parameters, context)
+    if delivery_of(chosen):
+        outputs = (each.name() for each in algorithm.destinationParameterDefinitions())
+        names = [name for name in outputs if name != FOLDER]
+        names = [name for name in names if given_path(parameters.get(name), context) is not None]
+        why = "a delivery names its outputs itself, in its folder"
+    else:
+        names = [
+            each.name.upper()
+            for one in chosen
+            if isinstance(one, SETS)
+            for each in one.declarations()
+            if getattr(one, each.name) != each.default
+        ]
+        names += [
+            name for name in ("CHECKPOINTS", FOLDER) if not compat.is_empty(parameters.get(name))
+        ]
+        why = "only deliveries use them, and none is chosen"
+    if names:
+        progress.warning(f"Not used: {', '.join(names)}; {why}.")
 
 
 def make_delivery(

@@ -62,6 +62,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
 
     def compute(self, parameters, context, progress):
         """Make a delivery, or the wanted outputs."""
+        delivery.tell_of_ignored(self, parameters, context, progress)
         limits = limits_of(self, parameters, context, self.crs_of(*self.inputs), progress)
         is_delivery = delivery.delivery_of(self.chosen(parameters, context))
         make = delivery.make_delivery if is_delivery else make_own

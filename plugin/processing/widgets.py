@@ -28,11 +28,14 @@ from qgis.gui import (
 )
 from qgis.PyQt import sip
 from qgis.PyQt.QtCore import Qt
-from qgis.PyQt.QtWidgets import QCheckBox, QComboBox, QLabel, QWidget
+from qgis.PyQt.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QWidget
 
+from ...algorithms.delivery.request import NO_DELIVERY
 from .. import compat
+from ..i18n import tr
 from ..styles.loaded import file_of
 from .choices import LABELS, ChoiceParameter, value_of, values_of
+from .delivery import DELIVERY, FOLDER
 
 _STATE = Qt.ItemDataRole.CheckStateRole
 # A box with choices is at least so many letters wide.
@@ -49,6 +52,8 @@ class ChoiceWidget:
         if _is_designer(dialog):
             return _designer_widget(parameter, dialog)
         box = _ChoicesBox if parameter.allowMultiple() else _ChoiceBox
+        if parameter.name() == DELIVERY and _kind(dialog) == QgsProcessingGui.WidgetType.Standard:
+            box = _DeliveryBox
         return box(parameter, _kind(dialog), dialog)
 
 
@@ -173,6 +178,42 @@ class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
     def widgetValue(self) -> Any:
         """Return the chosen value."""
         return self.wrappedWidget().currentData()
+
+
+class _DeliveryBox(_ChoiceBox):
+    """The box for a delivery. With one, the dialog shows its folder, and no single outputs.
+
+    QGIS puts the folder among the outputs, which are at the end of a long dialog.
+    """
+
+    def postInitialize(self, wrappers: list[QgsAbstractProcessingParameterWidgetWrapper]) -> None:
+        """Move the folder below the box."""
+        super().postInitialize(wrappers)
+        outputs = {
+            each.parameterDefinition().name(): each
+            for each in wrappers
+            if each.parameterDefinition().isDestination()
+        }
+        self._folder, self._outputs = outputs.pop(FOLDER), outputs
+        label, widget = self._folder.wrappedLabel(), self._folder.wrappedWidget()
+        label.setText(self._folder.parameterDefinition().description())  # not "[optional]"
+        layout = self.wrappedWidget().parentWidget().layout()
+        for each in (widget, label):
+            layout.insertWidget(layout.indexOf(self.wrappedWidget()) + 1, each)
+        self.widgetValueHasChanged.connect(self._show_fields)
+        self._show_fields()
+
+    def _show_fields(self, *_: Any) -> None:
+        is_delivery = self.widgetValue() != NO_DELIVERY
+        shown = {
+            self._folder: is_delivery,
+            **dict.fromkeys(self._outputs.values(), not is_delivery),
+        }
+        for each, is_shown in shown.items():
+            each.wrappedLabel().setVisible(is_shown)
+            each.wrappedWidget().setVisible(is_shown)
+        for line in self._folder.wrappedWidget().findChildren(QLineEdit):
+            line.setPlaceholderText(tr("Choose a folder"))  # not "[Skip output]"
 
 
 class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):

@@ -17,7 +17,8 @@ from qgis.core import (
     QgsRasterLayer,
     QgsVectorLayer,
 )
-from support import Log
+from qgis.PyQt.QtWidgets import QLineEdit
+from support import Log, remove
 
 from bare_earth.algorithms.delivery.deliveries import DELIVERIES
 
@@ -49,6 +50,39 @@ def test_the_dialog_offers_all_deliveries(registry):
     algorithm = registry.createAlgorithmById(ALL_IN_ONE)
     field = algorithm.parameterDefinition("DELIVERY")
     assert field.options() == ["own", *DELIVERIES] and field.defaultValue() == "own"
+
+
+def test_the_folder_of_a_delivery_is_below_it_and_single_outputs_are_hidden(registry):
+    from processing.gui.AlgorithmDialog import AlgorithmDialog
+
+    dialog = AlgorithmDialog(registry.createAlgorithmById(ALL_IN_ONE))
+    dialog.show()
+    fields = dialog.mainWidget().wrappers
+    box, folder = (fields[name].wrappedWidget() for name in ("DELIVERY", "DELIVERY_FOLDER"))
+    for name in ("own", "flood", "own"):
+        box.setCurrentIndex(box.findData(name))
+        assert folder.isVisible() == (name != "own")
+        assert fields["DTM"].wrappedWidget().isVisible() == (name == "own")
+        assert fields["CONTOURS"].wrappedLabel().isVisible() == (name == "own")
+    layout = box.parentWidget().layout()
+    assert layout.indexOf(folder) == layout.indexOf(box) + 2  # with its label between
+    assert fields["DELIVERY_FOLDER"].wrappedLabel().text() == "Folder of the delivery"
+    assert folder.findChild(QLineEdit).placeholderText() == "Choose a folder"
+    remove(dialog)
+
+
+def test_what_a_delivery_ignores_is_told(deliver, scene, tmp_path, registry, context):
+    given = {"DTM": str(tmp_path / "my.tif"), "CONTOURS": str(tmp_path / "my.gpkg")}
+    _, _, log = deliver("survey", DTM_CELL_SIZE=1, HILLSHADE="TEMPORARY_OUTPUT", **given)
+    text = "Not used: DTM, CONTOURS; a delivery names its outputs itself, in its folder."
+    assert text in log.said and not (tmp_path / "my.tif").exists()
+    values = {"INPUT": str(scene.path), "DELIVERY_FOLDER": str(tmp_path / "f"), "KEY_POINTS": True}
+    log = Log()
+    assert registry.createAlgorithmById(ALL_IN_ONE).run({**values, **given}, context, log)[1]
+    assert (
+        "Not used: KEY_POINTS, DELIVERY_FOLDER; only deliveries use them, and none is" in log.text
+    )
+    assert (tmp_path / "my.tif").exists()
 
 
 def test_only_a_delivery_has_a_page_named_after_the_input(registry, scene, tmp_path, context):
