@@ -201,7 +201,7 @@ def classes_above_ground(
         left &= ~high
     progress(0.45)
     if parameters.mark_bridges:
-        decks = bridge_decks(points, ground) & left
+        decks = bridge_decks(points, ground, is_cleared=True) & left
         classes[decks] = BRIDGE_DECK
         left &= ~decks
     progress(0.6)

@@ -75,6 +75,22 @@ def test_a_deck_is_found_whatever_of_it_a_filter_took_for_ground(name, kept):
     assert np.count_nonzero(found & ~deck) < 0.006 * points.count
 
 
+@pytest.mark.parametrize("density", [0.6, 3.0, 12.0])
+def test_a_deck_is_found_again_after_a_classification_took_it_out_of_the_ground(density):
+    points, deck = over_a_river(density=density)
+    # Some pulses meet the railings, and some the water right below them.
+    random = np.random.default_rng(5)
+    x, y, across, _ = turned(20.0, density)
+    side = deck & (np.abs(np.abs(across) - 3.5) < 0.5)
+    rail, low = (side & (random.random(len(deck)) < share) for share in (0.3, 0.15))
+    points.z[rail], points.z[low] = 101.2, 94.0
+    first = bridge_decks(points, ~(rail | low))
+    assert first[deck & ~side].mean() > 0.8
+    left = ~(first | rail | low)
+    again = bridge_decks(points, left, is_cleared=True)
+    assert again[first].mean() > 0.9 and np.count_nonzero(again & ~deck) < 0.006 * points.count
+
+
 def test_neither_the_order_of_the_points_nor_where_they_lie_matters():
     points, deck = over_a_river()
     ground = np.ones(points.count, bool)

@@ -44,7 +44,7 @@ _GROUND, _END, _CARRIED = 4.0, 12.0, 0.5
 _NEAR = 0.5
 
 
-def bridge_decks(points: Points, ground: np.ndarray) -> np.ndarray:
+def bridge_decks(points: Points, ground: np.ndarray, is_cleared: bool = False) -> np.ndarray:
     """Return which points lie on decks of bridges.
 
     A deck is level along short cross-sections. At both ends of these the land drops to ground of
@@ -58,6 +58,9 @@ def bridge_decks(points: Points, ground: np.ndarray) -> np.ndarray:
         All points.
     ground : numpy.ndarray of bool, shape (n,)
         Which points a filter takes for ground: all of a deck, some of it or nothing.
+    is_cleared : bool
+        Whether the ground is that of a classification, which may have taken decks out of it, with
+        their ends.
 
     Returns
     -------
@@ -67,7 +70,7 @@ def bridge_decks(points: Points, ground: np.ndarray) -> np.ndarray:
     none = np.zeros(points.count, dtype=bool)
     if not ground.any():
         return none
-    relief, cells = Relief.over(points, ground)
+    relief, cells = Relief.over(points, ground, is_cleared)
     decks, crossed = _decks(relief)
     if not decks.any():
         return none
@@ -163,7 +166,8 @@ def _comes_to_ground(
     """Return from which cells a line in a direction meets enough level ground without a step."""
     start = last = relief.heights[row, column]
     on, ground = np.ones(len(row), dtype=bool), np.zeros(len(row), dtype=np.intp)
-    for step in range(1, int(_END / relief.cell) + 1):
+    farthest = _END + (_growth(relief) if relief.is_cleared else 0.0)
+    for step in range(1, int(farthest / relief.cell) + 1):
         if not on.any():
             break
         there_row, there_column = row + round(step * up), column + round(step * right)
@@ -187,11 +191,16 @@ def _surface(relief: Relief, known: np.ndarray) -> np.ndarray:
     return relief.heights[tuple(nearest)]
 
 
+def _growth(relief: Relief) -> float:
+    """Return by how many metres a deck that was found is extended at most."""
+    return max(_GROWTH, _GROWTH_SPACINGS * relief.spacing)
+
+
 def _grown(relief: Relief, decks: np.ndarray, crossed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the grids of `_decks`, extended by raised cells up to a few metres beside decks."""
     from scipy import ndimage
 
-    reach = round(max(_GROWTH, _GROWTH_SPACINGS * relief.spacing) / relief.cell)
+    reach = round(_growth(relief) / relief.cell)
     near = within_square(np.maximum, decks, reach)
     weak = raised_sections(relief, lambda _: near, _WEAK_RULE).cells_of(relief) & near
     label, _ = ndimage.label(weak | decks, np.ones((3, 3)))

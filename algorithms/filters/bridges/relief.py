@@ -44,6 +44,9 @@ class Relief(NamedTuple):
         Height of the lowest ground point, else of the lowest point; NaN where none is near.
     is_ground : numpy.ndarray of bool, shape (rows, columns)
         Whether this is the height of ground.
+    is_cleared : bool
+        Whether decks may have been taken out of the ground before. Then other points have their
+        median height: the lowest ones at the sides of a deck lie below it.
     """
 
     cell: float
@@ -53,9 +56,12 @@ class Relief(NamedTuple):
     level: float
     heights: np.ndarray
     is_ground: np.ndarray
+    is_cleared: bool = False
 
     @classmethod
-    def over(cls, points: Points, ground: np.ndarray) -> tuple[Relief, Cells]:
+    def over(
+        cls, points: Points, ground: np.ndarray, is_cleared: bool = False
+    ) -> tuple[Relief, Cells]:
         """Return the relief of points, some of which are ground, and their cells."""
         apart = spacing(points, step=_SPACING_STEP)
         cells = Cells.over(points, max(_CELL, _CELL_STEP * round(apart / 2.0 / _CELL_STEP)))
@@ -64,7 +70,8 @@ class Relief(NamedTuple):
         # Other points count only where there is no ground.
         others = np.flatnonzero(~ground)
         others = others[~is_ground.ravel()[cells.index[others]]]
-        lowest = np.fmin(lowest, cells.minimum(points.z, others))
+        height_of = _medians if is_cleared else Cells.minimum
+        lowest = np.fmin(lowest, height_of(cells, points.z, others))
         level = float(np.floor(np.nanmin(lowest)))
         heights = (lowest - level).astype(np.float32)
         apart = max(apart, cells.size)
@@ -72,7 +79,7 @@ class Relief(NamedTuple):
         heights = np.pad(heights, border, constant_values=np.nan)
         parity = (cells.first_row + cells.first_column) % 2
         is_ground = np.pad(is_ground, border)
-        relief = cls(cells.size, apart, border, parity, level, heights, is_ground)
+        relief = cls(cells.size, apart, border, parity, level, heights, is_ground, is_cleared)
         return _filled(relief, _FILLED * apart / cells.size), cells
 
     @property
@@ -94,6 +101,16 @@ class Relief(NamedTuple):
         rows, columns = (side - self.border for side in self.heights.shape)
         outside = (row < self.border) | (row >= rows)
         return outside | (column < self.border) | (column >= columns)
+
+
+def _medians(cells: Cells, z: np.ndarray, which: np.ndarray) -> np.ndarray:
+    """Return the median of some points in each cell, the lower one of two; NaN without any."""
+    heights = np.full(cells.rows * cells.columns, np.nan)
+    index = cells.index[which]
+    order = np.lexsort((z[which], index))
+    codes, starts, counts = np.unique(index[order], return_index=True, return_counts=True)
+    heights[codes] = z[which[order[starts + (counts - 1) // 2]]]
+    return heights.reshape(cells.shape)
 
 
 def _filled(relief: Relief, farthest: float) -> Relief:
