@@ -69,14 +69,15 @@ def deliver(
     paths, place = [Path(each) for each in given], DeliveryFolder(Path(folder))
     place.check(paths)
     is_one = is_one_file(paths)
-    survey = _opened(paths, request, progress)
+    heard = Heard(progress)
+    survey = _opened(paths, request, heard)
     if not is_one:
         place.begin(request.delivery)
     # On the disk of the folder, so that outputs can be moved there.
     beside = place.path.parent if is_one else place.path
     with _left_in_order(place, is_one), temporary_folder(beside) as working:
         changed = {place.waiting / name: place.points for name in CHANGES}
-        heard = Heard(progress, {working: place.path, **changed})
+        heard.folders.update({working: place.path, **changed})
         work = DeliveryFolder(working)
         steps = DeliverySteps(request, survey, paths, is_one, work, place, workers)
         try:

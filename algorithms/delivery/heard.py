@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Mapping
 
 from ..core.progress import PassingOn, Progress
 
@@ -15,15 +14,18 @@ class Heard(PassingOn):
     ----------
     whole : Progress
         Receives them.
-    folders : mapping of Path to Path
+
+    Attributes
+    ----------
+    folders : dict of Path to Path
         Messages name these folders in place of those that are temporary.
     """
 
-    def __init__(self, whole: Progress, folders: Mapping[Path, Path]) -> None:
+    def __init__(self, whole: Progress) -> None:
         super().__init__(whole)
+        self.folders: dict[Path, Path] = {}
         self.warnings: list[str] = []
         self._said: set[str] = set()
-        self._folders = folders
 
     def info(self, text: str) -> None:
         """Pass on a message."""
@@ -43,7 +45,7 @@ class Heard(PassingOn):
 
     def _new(self, text: str) -> list[str]:
         """Return a message as it is to be read, or nothing if it was passed on before."""
-        for temporary, folder in self._folders.items():
+        for temporary, folder in self.folders.items():
             text = text.replace(str(temporary), str(folder))
         is_new = text not in self._said
         self._said.add(text)

@@ -156,7 +156,7 @@ def _measured(survey: Survey, request: QualityRequest, work: Path, progress: Pro
             cells.make_planes(progress.part(0.4, 0.45))
         weights = progress.part(*share).shares(*(max(each.count, 1) for each in survey.tiles))
         for tile, part in zip(survey.tiles, weights):
-            for points in read_parts(tile, part, strips=True, times=repeated.has_times):
+            for points in read_parts(tile, part.quiet(), strips=True, times=repeated.has_times):
                 points.require_projected()
                 add(points, frame)
     extent, void = Extent.of(cells), options.void_distance

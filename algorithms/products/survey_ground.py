@@ -129,7 +129,7 @@ class SurveyGround:
         if near is not None and len(tiles) > 1:
             tiles = [each for each in tiles if self._is_near(each, near, reach)]
         for tile, part in zip(tiles, progress.shares(*[max(each.count, 1) for each in tiles])):
-            for cloud in read_parts(tile, part):
+            for cloud in read_parts(tile, part.quiet()):
                 yield cloud, self.ground.of(cloud, self.counts)
 
     def check(self) -> None:

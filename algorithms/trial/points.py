@@ -178,7 +178,7 @@ def read_trial_points(
     Cancelled
         If the user asked to stop.
     """
-    area = None if box is None else Area(tuple(map(float, box)))
+    area, reading = None if box is None else Area(tuple(map(float, box))), progress
     if is_one_file(paths):
         las = open_las(paths[0], stated)
         files, crs = [las], read_crs(las)
@@ -186,18 +186,18 @@ def read_trial_points(
     else:
         survey = open_survey(paths, progress=progress.part(0.0, 0.1), stated=stated)
         crs, extent = survey.crs, survey.box
-        files = survey.tiles
+        files, reading = survey.tiles, progress.quiet()  # the messages were given
     require_measurable("The survey", crs, extent)
     wanted, unit = area, crs.horizontal_unit
     area = area or Area(middle_window(files, unit))
     _check_width(area, crs)
-    clouds = _read(files, area, context / unit, progress.part(0.1, 1.0 if wanted else 0.8))
+    clouds = _read(files, area, context / unit, reading.part(0.1, 1.0 if wanted else 0.8))
     is_empty = not any(area.of(cloud).any() for cloud in clouds)
     where = "in the middle of the points"
     if is_empty and wanted is None:
         where = "round the point that is nearest to the middle"
         area = Area(nearest_window(files, unit, progress.part(0.8, 0.9)))
-        clouds = _read(files, area, context / unit, progress.part(0.9, 1.0))
+        clouds = _read(files, area, context / unit, progress.quiet().part(0.9, 1.0))
         is_empty = not any(area.of(cloud).any() for cloud in clouds)
     if wanted is None:
         progress.choice(f"window {where}, {box_in_words(area.box)}")

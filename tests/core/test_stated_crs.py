@@ -119,6 +119,28 @@ def test_every_command_that_reads_points_takes_a_crs(feet, tmp_path):
     assert 10.0 < above.max() < 100.0
 
 
+def test_a_missing_crs_is_told_once(feet, tmp_path):
+    las = laspy.read(feet)
+    las.points = las.points[np.arange(0, len(las), 8)]
+    box = [*las.header.mins[:2], *(las.header.mins[:2] + 200.0)]
+    for name, shift in (("a", 0.0), ("b", 1000.0)):
+        las.x = las.x + shift
+        las.write(str(tmp_path / f"{name}.laz"))
+    one, both = (tmp_path / "a.laz",), (tmp_path / "a.laz", tmp_path / "b.laz")
+    page, settings = tmp_path / "page.html", ("--settings", "slope:town", "slope:automatic")
+    for words in (
+        ("quality", *one),
+        ("quality", *both),
+        ("check", *one, "--hold-out", 0.02),
+        ("compare-settings", *one, page, *settings, "--extent", *box),
+        ("compare-settings", *both, page, *settings, "--extent", *box),
+        ("deliver", "survey", *one, tmp_path / "out"),
+    ):
+        code, _, errors = said(*words)
+        assert code == 0, errors
+        assert errors.count("say its CRS") + errors.count("say their CRS") == 1, (words, errors)
+
+
 def test_written_clouds_keep_their_records(feet, tmp_path):
     assert said("classify", feet, tmp_path / "out.laz", "--crs", "EPSG:2230")[0] == 0
     assert read_crs(open_las(tmp_path / "out.laz")) == Crs()
