@@ -18,6 +18,7 @@ from ..survey.area import Area, Polygon
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import IGNORED_GROUND
 from .constraints import NEAR, STATION, Constraints
+from .given_heights import without_wrong_heights
 from .level_water import LevelWater
 
 # This share of the ground along the border of water is below its level: banks are higher.
@@ -130,10 +131,10 @@ def fixed_terrain(
     if not constraints.any:
         return None
     step = cell / PER_CELL
-    given = GivenTerrain.of(constraints, clouds, frame, ground, step)
+    given = GivenTerrain.of(constraints, clouds, frame, ground, step, progress)
     waters = tuple(each for each in given.waters if each.is_known)
     _tell_of_dry(len(given.waters) - len(waters), progress)
-    lines, none = _along_breaklines(given.lines, given.ground, progress), np.zeros((0, 3))
+    lines, none = _along_breaklines(given, step, progress), np.zeros((0, 3))
     borders = (along(ring, step) for each in waters for ring in each.rings)
     edges = np.concatenate([none, *lines, *borders])
     return FixedTerrain(edges, np.concatenate([none, *map(_inside, waters)]), cell, waters)
@@ -145,7 +146,7 @@ class GivenTerrain(NamedTuple):
     Attributes
     ----------
     lines : list of numpy.ndarray of float64, shape (n, 3)
-        Places along each breakline.
+        The corners of each breakline; z is NaN where there is none, or one that cannot be.
     waters : list of LevelWater
         The water; its level is not known if no ground is near it.
     ground : NearestHeights
@@ -164,16 +165,18 @@ class GivenTerrain(NamedTuple):
         frame: Frame,
         ground: GroundClasses,
         step: float,
+        progress: Progress = SILENT,
     ) -> GivenTerrain:
-        """Return constraints with the ground near them; places are at most a step apart."""
+        """Return constraints with the ground near them, searched at places a step apart."""
         metres = partial(_in_metres, frame)
-        lines = [along(metres(line), step) for line in constraints.breaklines]
+        lines = [metres(line) for line in constraints.breaklines]
         polygons = [tuple(map(metres, polygon)) for polygon in constraints.water]
         borders = [
             np.concatenate([along(ring, step, is_closed=True) for ring in polygon])
             for polygon in polygons
         ]
-        near, is_ground = _ground_near([*lines, *borders], clouds, ground, frame)
+        places = [along(line, step) for line in lines]
+        near, is_ground = _ground_near([*places, *borders], clouds, ground, frame)
         if polygons:
             # Points in the water are not on its banks.
             dry = ~Area(None, tuple(map(_outline_of, polygons))).contains(*near[:, :2].T)
@@ -186,14 +189,16 @@ class GivenTerrain(NamedTuple):
             _with_level(polygon, border, rivers, shore)
             for polygon, border in zip(polygons, borders)
         ]
+        lines, wrong = without_wrong_heights(lines, heights, frame.vertical_unit)
+        wrong.tell(progress)
         return cls(lines, waters, heights)
 
 
 def _in_metres(frame: Frame, line: np.ndarray) -> np.ndarray:
     """Return the corners of a line or ring in metres, shape (n, 3); NaN for z without any."""
     x, y = ((line[:, :2] - frame.origin) * frame.horizontal_unit).T
-    has_z = line.shape[1] > 2
-    return np.column_stack((x, y, line[:, 2] * frame.vertical_unit if has_z else np.nan * x))
+    z = line[:, 2] * frame.vertical_unit if line.shape[1] > 2 else np.full(len(line), np.nan)
+    return np.column_stack((x, y, np.where(np.isfinite(z), z, np.nan)))
 
 
 def _outline_of(polygon: Polygon) -> Polygon:
@@ -233,14 +238,12 @@ def parts_of(files: Sequence[LasFile], progress: Progress = SILENT) -> Iterator[
         yield from read_parts(las, part.quiet())
 
 
-def _along_breaklines(
-    lines: Sequence[np.ndarray], ground: NearestHeights, progress: Progress
-) -> Iterator[np.ndarray]:
+def _along_breaklines(given: GivenTerrain, step: float, progress: Progress) -> Iterator[np.ndarray]:
     """Yield the vertices of each breakline."""
     lost = 0
-    for line in lines:
+    for line in (along(corners, step) for corners in given.lines):
         unknown = np.isnan(line[:, 2])
-        sides = ground.beside(line)[np.tile(unknown, 2)]
+        sides = given.ground.beside(line)[np.tile(unknown, 2)]
         sides = sides[~np.isnan(sides[:, 2])]
         lost += bool(unknown.all()) and not len(sides)
         yield np.concatenate((line[~unknown], sides))

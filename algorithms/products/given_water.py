@@ -69,11 +69,10 @@ class GivenWater(NamedTuple):
             If the user asked to stop.
         """
         given = GivenTerrain.of(constraints, clouds, survey_frame(crs), ground, cell / PER_CELL)
-        units = crs.horizontal_unit, crs.horizontal_unit, crs.vertical_unit
         lines = (
             (number, each)
-            for number, line in enumerate(constraints.breaklines, start=1)
-            for each in _with_heights(line * units, given)
+            for number, line in enumerate(given.lines, start=1)
+            for each in _with_heights(line, given)
         )
         return cls(constraints.water_outlines, tuple(given.waters), tuple(lines), crs)
 

@@ -1,15 +1,18 @@
 """Terrain models that respect breaklines, water and places without ground; the truth is known."""
 
 import json
+import re
 from dataclasses import replace
 
 import laspy
 import numpy as np
 import pytest
+from conftest import Heard
 from surveys import cut
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.lines import NearPlaces, along, inside_grid
@@ -17,7 +20,7 @@ from bare_earth.algorithms.products.constraints import Constraints
 from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.steps.rasters import RasterFiles
-from bare_earth.algorithms.survey.vector_files import read_lines
+from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from benchmarks.scenes.simple import scatter
 
 rasterio = pytest.importorskip("rasterio")
@@ -35,11 +38,11 @@ def _write(path, x, y, z):
     return path
 
 
-def _raster(source, target, **constraints):
+def _raster(source, target, progress=SILENT, **constraints):
     request = TerrainRequest(
         rasters=RasterFiles(dtm=target), constraints=Constraints(**constraints)
     )
-    terrain(source, request)
+    terrain(source, request, progress)
     with rasterio.open(target) as raster:
         rows, columns = np.mgrid[: raster.height, : raster.width]
         x, y = (np.reshape(each, rows.shape) for each in raster.xy(rows.ravel(), columns.ravel()))
@@ -86,6 +89,54 @@ def test_a_breakline_without_heights_lies_on_the_ground_beside_it(wall, tmp_path
     truth = np.where(x + 0.2 * y < 70.0, 10.0, 15.0)
     away = np.abs(x + 0.2 * y - 70.0) > 0.8
     assert np.nanmean(np.abs(found - truth)[away] > 0.05) < 0.001
+
+
+@pytest.mark.parametrize(
+    ("heights", "told"),
+    [((0.0, 0.0), "2 of 2 corners.*2 are 0, up to 10.0 m away"),
+     ((-9999.0, 10.0), "1 stand for no"),
+     ((10.0, -32768.0), "1 stand for no height"), ((10.0, 800.0), "1 lie more than 10 m from it"),
+     ((32.8, 32.8), "2 lie more than 10 m from it, up to 22.8 m"),
+     ((1e38, np.inf), "1 of 1 corners")],
+)  # fmt: skip
+def test_heights_of_a_breakline_that_cannot_be_are_taken_from_the_ground(tmp_path, heights, told):
+    x, y = scatter(SIZE, 1.0, seed=2)
+    source = _write(tmp_path / "flat.laz", x, y, np.full(len(x), 10.01))
+    heard = Heard()
+    line = _line((20.0, 30.0, heights[0]), (100.0, 90.0, heights[1]))
+    found, *_ = _raster(source, tmp_path / "dtm.tif", heard, breaklines=(line,))
+    assert np.nanmax(np.abs(found - 10.01)) < 0.02
+    assert re.search(told, heard.warnings[-1])
+
+
+def test_a_breakline_of_zeros_has_no_heights_on_low_land_either(tmp_path):
+    x, y = scatter(SIZE, 1.0, seed=2)
+    source = _write(tmp_path / "low.laz", x, y, np.full(len(x), 3.0))
+    lines = [_line((20.0, 30.0, 0.0), (100.0, north, z)) for north, z in ((90.0, 0.0), (5.0, 0.3))]
+    found, *_ = _raster(source, tmp_path / "dtm.tif", breaklines=lines[:1])
+    assert np.nanmin(found) > 2.99
+    found, *_ = _raster(source, tmp_path / "dtm.tif", breaklines=lines[1:])  # a ditch
+    assert np.nanmin(found) < 0.5
+
+
+def test_a_high_wall_and_a_breakline_far_from_the_ground_keep_their_heights(wall, tmp_path):
+    source, lines = wall
+    heard = Heard()
+    top = lines[1] + (0.0, 0.0, 9.0)
+    away = _line((SIZE + 15.0, 0.0, 0.0), (SIZE + 15.0, SIZE, 0.0))
+    found, *_ = _raster(source, tmp_path / "dtm.tif", heard, breaklines=(top, away))
+    assert not any("cannot be" in each for each in heard.warnings) and np.nanmax(found) > 20.0
+
+
+def test_polygons_of_water_with_heights_of_0_have_the_level_of_their_banks(lake, tmp_path):
+    (corners,) = _square(30.0, 30.0, 90.0, 90.0)
+    rings = [[[*corner, 0.0] for corner in [*corners.tolist(), corners[0].tolist()]]]
+    shape = {"type": "Polygon", "coordinates": rings}
+    (tmp_path / "water.geojson").write_text(json.dumps(shape))
+    water = tuple(read_boundary(tmp_path / "water.geojson"))
+    found, x, y = _raster(lake, tmp_path / "dtm.tif", water=water)
+    inside = np.maximum(np.abs(x - 60.0), np.abs(y - 60.0)) < 29.0
+    assert np.ptp(found[inside]) < 0.001 and abs(found[inside][0] - 20.0) < 0.1
 
 
 @pytest.fixture

@@ -1,0 +1,112 @@
+"""Heights of given lines that cannot be: they are taken from the ground instead."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Sequence
+
+import numpy as np
+
+from ..core.progress import Progress
+from ..grids.lines import NearestHeights
+
+# Heights that stand for none, in any unit; and the largest that can be, in metres.
+_NODATA = (-9999.0, -99999.0, -999999.0, -999.0, -32768.0, -32767.0)
+_LARGEST = 50_000.0
+# A corner of a line is wrong if it is so far above or below all ground near it, in metres, or so
+# far from that of the other corners where no ground is near.
+_FAR = 10.0
+_FAR_FROM_OTHERS = 100.0
+# A line whose heights are all 0 has none, unless the ground is as near to 0, in metres.
+_NOT_ZERO = 0.5
+
+
+class WrongHeights(NamedTuple):
+    """Numbers of corners of lines.
+
+    Attributes
+    ----------
+    corners : int
+        Those with a height.
+    none : int
+        Those whose height stands for none, such as -9999.
+    zero, far : int
+        Those whose height is 0, or another one, far from the ground.
+    farthest : float
+        How far from the ground, in metres.
+    """
+
+    corners: int = 0
+    none: int = 0
+    zero: int = 0
+    far: int = 0
+    farthest: float = 0.0
+
+    def tell(self, progress: Progress) -> None:
+        """Warn of them."""
+        count = self.none + self.zero + self.far
+        if not count:
+            return
+        what = {
+            f"{self.none:,} stand for no height": self.none,
+            f"{self.zero:,} are 0": self.zero,
+            f"{self.far:,} lie more than {_FAR:g} m from it": self.far,
+        }
+        reasons = ", ".join(reason for reason, number in what.items() if number)
+        most = f", up to {self.farthest:,.1f} m away" if self.farthest else ""
+        progress.warning(
+            f"Heights of breaklines that cannot be: {count:,} of {self.corners:,} corners. The"
+            f" ground near them counts instead ({reasons}{most})."
+        )
+
+
+def without_wrong_heights(
+    lines: Sequence[np.ndarray], ground: NearestHeights, unit: float
+) -> tuple[list[np.ndarray], WrongHeights]:
+    """Return lines with NaN in place of heights that cannot be.
+
+    Parameters
+    ----------
+    lines : sequence of numpy.ndarray of float64, shape (n, 3)
+        Corners in metres.
+    ground : NearestHeights
+        The ground near them.
+    unit : float
+        Metres in the unit in which their heights are written.
+
+    Returns
+    -------
+    lines : list of numpy.ndarray of float64, shape (n, 3)
+    wrong : WrongHeights
+    """
+    if not lines:
+        return [], WrongHeights()
+    corners = np.concatenate(lines)
+    z = corners[:, 2]
+    sides = np.concatenate([_beside(ground, line) for line in lines], axis=1)
+    low, high = np.fmin(*sides), np.fmax(*sides)
+    usual = float(np.nanmedian(sides)) if np.isfinite(sides).any() else np.nan
+    is_far = _away(z, low, high) > _FAR
+    alone = np.isnan(low)
+    is_far |= alone & (_away(z, usual, usual) > _FAR_FROM_OTHERS)
+    is_none = np.isin(np.round(z / unit, 6), _NODATA) | (np.abs(z) > _LARGEST)
+    all_zero = np.concatenate([np.full(len(line), not line[:, 2].any()) for line in lines])
+    is_zero = (z == 0.0) & ~is_none & (is_far | (all_zero & (_away(z, low, high) > _NOT_ZERO)))
+    is_far &= ~is_none & ~is_zero
+    wrong = is_none | is_zero | is_far
+    away = np.where(alone, np.nan, _away(z, low, high))[is_zero | is_far]
+    known, none, zero, far = (int(each.sum()) for each in (~np.isnan(z), is_none, is_zero, is_far))
+    farthest = float(np.nanmax(away)) if np.isfinite(away).any() else 0.0
+    mended = np.column_stack((corners[:, :2], np.where(wrong, np.nan, z)))
+    ends = np.cumsum([len(line) for line in lines])[:-1]
+    return np.split(mended, ends), WrongHeights(known, none, zero, far, farthest)
+
+
+def _beside(ground: NearestHeights, line: np.ndarray) -> np.ndarray:
+    """Return the heights of the ground on both sides of the corners of a line, shape (2, n)."""
+    return ground.beside(line)[:, 2].reshape(2, -1)
+
+
+def _away(z: np.ndarray, low: np.ndarray | float, high: np.ndarray | float) -> np.ndarray:
+    """Return how far heights lie above or below others; 0 where either is not known."""
+    with np.errstate(invalid="ignore"):
+        return np.nan_to_num(np.maximum(np.maximum(low - z, z - high), 0.0), nan=0.0)
