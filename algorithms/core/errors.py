@@ -13,6 +13,10 @@ class BareEarthError(Exception):
         super().__init__(printable(str(text)))
 
 
+class OutputInUse(BareEarthError):
+    """An old output cannot be replaced, since another program has it open or it is read-only."""
+
+
 class Cancelled(Exception):
     """The user asked to stop. Code that catches it must remove incomplete files."""
 

@@ -6,18 +6,24 @@ import contextlib
 import errno
 import itertools
 import os
-import sys
-import tempfile
+import stat
 from pathlib import Path
-from typing import BinaryIO, Iterable, Iterator
+from typing import Any, Iterable, Iterator
 
-from .errors import BareEarthError
-from .temporary import make_temporary, new_marks, remove_leftovers, remove_temporary, shown
+from .errors import BareEarthError, OutputInUse
+from .temporary import (
+    IN_USE,
+    MARKS_LENGTH,
+    is_temporary,
+    make_temporary,
+    make_temporary_folder,
+    patiently,
+    remove,
+    remove_leftovers,
+    remove_temporary,
+    shown,
+)
 
-# Errors of the system for a file that another process has locked.
-_LOCKED = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
-# Errors of Windows if a file that a program has open is to be replaced: access denied, in use.
-_IN_USE = (5, 32)
 _REASONS = {
     errno.ENOSPC: "the disk is full. Free some space or choose another folder",
     errno.EDQUOT: "your disk quota is used up. Free some space or choose another folder",
@@ -30,6 +36,12 @@ _REASONS = {
     " another name",
     errno.EXDEV: "the folder spans two disks. Choose another folder",
 }
+
+
+# As long as the marks of a temporary folder, and the files that runs make in one.
+MARKS, _MADE_BESIDE = "x" * MARKS_LENGTH, f"{'x' * MARKS_LENGTH}/{'x' * 16}"
+# No file system that is met allows names of more than 255 characters.
+_LONGEST_ENDING = 240
 
 
 # Endings of files; ".copc.laz" must come before ".laz".
@@ -83,9 +95,58 @@ def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
                     f"Input and output are the same file, {source}. Choose another output."
                 )
         remove_leftovers(target.parent)
+        _mode_of(target)  # fails if the name is too long
+        check_lengths(target.parent, [_MADE_BESIDE, f"{MARKS}/{target.name}"])
         remove_temporary(make_temporary(target))
+        check_free(target)
     except (OSError, ValueError) as error:  # a name with a null character is a ValueError
         raise describe_write_error(target, error) from error
+
+
+def make_work_folder(path: Path) -> None:
+    """Make a hidden folder in a folder of outputs, where a run may remove what it likes.
+
+    Raises
+    ------
+    BareEarthError
+        If it is a link: somebody who writes into a shared folder could lead a run elsewhere by it.
+    OSError
+        If the operating system refuses to make it.
+    """
+    path.mkdir(exist_ok=True)
+    # Windows has more than one kind of links.
+    if path.resolve() != path.parent.resolve() / path.name:
+        raise BareEarthError(f"{path} is a link to another folder. Remove it, and run it again.")
+
+
+def check_lengths(folder: Path, names: Iterable[str]) -> None:
+    """Refuse a folder, which need not exist yet, in which the paths of files would be too long.
+
+    Windows allows most programs, QGIS among them, 259 characters.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder.
+    names : iterable of str
+        Names of files that a run makes in it, with their folders.
+
+    Raises
+    ------
+    BareEarthError
+        If the operating system refuses to make a file whose path is as long.
+    """
+    there = next((each for each in (folder, *folder.parents) if each.is_dir()), folder)
+    longest = max(len(os.path.abspath(folder / each)) for each in names)
+    left = longest - len(os.path.abspath(there)) - MARKS_LENGTH - 2
+    ending = "x" * min(max(left, 1), _LONGEST_ENDING)
+    try:
+        remove_temporary(make_temporary(there / f"x.{ending}"))
+    except FileNotFoundError as error:
+        raise BareEarthError(
+            f"Cannot write into {folder}: its path is too long. With the names of files it would"
+            f" have {longest} characters. Choose a folder with a shorter path."
+        ) from error
 
 
 def check_distinct(outputs: Iterable[Path | None]) -> None:
@@ -114,33 +175,118 @@ def is_same_file(one: Path, other: Path) -> bool:
     return os.path.normcase(one.resolve()) == os.path.normcase(other.resolve())
 
 
-@contextlib.contextmanager
-def replacing(target: Path) -> Iterator[Path]:
-    """Yield a temporary file beside `target`; rename it to `target` when the block ends.
+class Outputs(contextlib.ExitStack):
+    """The output files of a run, which get their names together when the block ends, or none.
 
-    After an exception (including a cancel), the temporary file is removed and an old target stays
-    unchanged. The temporary name keeps the suffixes of the target, since libraries choose the
-    format by them. The permissions of an old target are kept.
+    After an exception (including a cancel), the temporary files are removed and old files stay
+    unchanged. If another program has an old file open at the end, all new ones stay beside the old
+    ones under other names, which the error gives.
 
     Raises
     ------
     BareEarthError
         If the operating system refuses to write; the text says what to do.
     """
-    temporary = None
-    try:
-        mode = _mode_of(target)
-        temporary = make_temporary(target, mode)
-        yield temporary
-        if mode is not None:
-            with contextlib.suppress(OSError):  # not every file system has permissions
-                os.chmod(temporary, mode)
-        _rename(temporary, target)
-    except OSError as error:
-        raise describe_write_error(target, error) from error
-    finally:
-        if temporary is not None:
-            remove_temporary(temporary)
+
+    def __init__(self) -> None:
+        super().__init__()
+        # Where the output is made, a file or a folder; its name; names of files that it outdates.
+        self._made: list[tuple[Path, Path, tuple[str, ...]]] = []
+
+    def file(self, target: Path, outdated: Iterable[str] = ()) -> Path:
+        """Return a temporary file beside the target.
+
+        Its name has the ending of the target, since libraries choose the format by it. The
+        permissions of an old target are kept.
+
+        Parameters
+        ----------
+        target : Path
+            The file to make.
+        outdated : iterable of str
+            Names of files beside an old target that are removed, since they describe it.
+        """
+        with write_errors_told(target):
+            temporary = make_temporary(target, _mode_of(target))
+        return self._add(temporary, target, outdated)
+
+    def files(self, target: Path, outdated: Iterable[str] = ()) -> Path:
+        """Return the target in a temporary folder, for formats with several files."""
+        with write_errors_told(target):
+            folder = make_temporary_folder(target.parent)
+        return self._add(folder, target, outdated) / target.name
+
+    def _add(self, temporary: Path, target: Path, outdated: Iterable[str]) -> Path:
+        self.callback(remove_temporary, temporary)
+        self._made.append((temporary, target, tuple(outdated)))
+        return temporary
+
+    def __exit__(self, kind: Any, error: Any, traceback: Any) -> bool | None:
+        if error is None:
+            try:
+                self._finish()
+            except BaseException as raised:
+                super().__exit__(type(raised), raised, raised.__traceback__)
+                raise
+        elif isinstance(error, OSError) and self._made:
+            _, target, _ = next(
+                (each for each in self._made if str(each[0]) in str(error.filename)),
+                self._made[-1],
+            )
+            super().__exit__(kind, error, traceback)
+            raise describe_write_error(target, error) from error
+        return super().__exit__(kind, error, traceback)
+
+    def _finish(self) -> None:
+        """Give all files their names. First see whether all of these are free."""
+        moves = []
+        for temporary, target, _ in self._made:
+            names = sorted(os.listdir(temporary)) if temporary.is_dir() else None
+            new = [target] if names is None else [target.with_name(each) for each in names]
+            moves += [(temporary / each.name if names else temporary, each) for each in new]
+        outdated = {target.with_name(each) for _, target, names in self._made for each in names}
+        outdated -= {target for _, target in moves}
+        try:
+            for each in (*(target for _, target in moves), *outdated):
+                check_free(each)
+            for source, target in moves:
+                with write_errors_told(target):
+                    mode = _mode_of(target)
+                    if mode is not None:
+                        with contextlib.suppress(OSError):  # not every file system has permissions
+                            os.chmod(source, mode)
+                    rename(source, target)
+        except OutputInUse as error:
+            raise OutputInUse(f"{error} {_kept(moves)}") from error
+        for each in outdated:
+            remove(each)
+
+
+def _kept(moves: Iterable[tuple[Path, Path]]) -> str:
+    """Give new files names that are free, and say which."""
+    names = []
+    for source, target in moves:
+        if source.exists() and not is_temporary(target):
+            name = free_path(target)
+            patiently(os.rename, source, name)
+            names.append(str(name))
+    return f"What was made is kept as {' and '.join(names)}." if names else ""
+
+
+def free_path(path: Path) -> Path:
+    """Return a path beside another one, with a similar name, where nothing is."""
+    ending = split_name(path)[1] or path.suffix
+    stem = path.name[: -len(ending) or None]
+    numbers = itertools.chain([""], itertools.count(2))
+    names = (path.with_name(f"{stem}-new{number}{ending}") for number in numbers)
+    return next(each for each in names if not os.path.lexists(each))
+
+
+@contextlib.contextmanager
+def replacing(target: Path) -> Iterator[Path]:
+    """Yield a temporary file; rename it to `target` when the block ends. See `Outputs`."""
+    with Outputs() as outputs:
+        yield outputs.file(target)
 
 
 @contextlib.contextmanager
@@ -174,95 +320,59 @@ def temporary_folder(beside: Path) -> Iterator[Path]:
     BareEarthError
         If the operating system refuses to make it.
     """
-    folder = beside / f"{new_marks()}work"
+    with write_errors_told(beside):
+        folder = make_temporary_folder(beside)
     try:
-        try:
-            folder.mkdir(mode=0o700)
-        except OSError as error:
-            raise describe_write_error(beside, error) from error
         yield folder
     finally:
         remove_temporary(folder)
 
 
-@contextlib.contextmanager
-def unnamed_file(folder: Path) -> Iterator[BinaryIO]:
-    """Yield a temporary file without a name. It disappears when the block or the process ends.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder on whose disk the data are stored.
-    """
-    with contextlib.ExitStack() as opened:
-        file = opened.enter_context(tempfile.TemporaryFile(dir=folder))
-        opened.callback(_close, file)
-        yield file
-
-
-def _close(file: BinaryIO) -> None:
-    """Close a file that is no longer needed; ignore errors, such as those of a full disk."""
-    with contextlib.suppress(OSError):
-        file.close()
-
-
-def reach_disk(file: BinaryIO) -> None:
-    """Hand what was written to the disk, before it is read again.
-
-    A full network disk may report an error only when a file is closed. Until then, reading the
-    file can return wrong data. A local disk reports the error at once, so this costs nothing there.
+def check_free(target: Path) -> None:
+    """Refuse a file that could not be replaced.
 
     Raises
     ------
-    OSError
-        If the disk does not accept the data.
-    """
-    file.flush()
-    os.close(os.dup(file.fileno()))
-
-
-def replace_with_files_of(folder: Path, target: Path, beside: Iterable[str]) -> None:
-    """Move the files of a temporary folder beside `target`, for formats with several files.
-
-    Parameters
-    ----------
-    folder : Path
-        A folder of `temporary_folder`, with `target.name` and the files that belong to it.
-    target : Path
-        The file to be made.
-    beside : iterable of str
-        Names of files that may belong to an old target. Those that are not replaced are removed.
-
-    Raises
-    ------
-    BareEarthError
-        If the operating system refuses to write.
+    OutputInUse
+        If it is read-only, or if another program has it open. In both cases only Windows refuses.
     """
     try:
-        new = sorted(each.name for each in folder.iterdir())
-        for name in new:
-            _rename(folder / name, target.with_name(name))
-        for name in set(beside) - set(new):
-            target.with_name(name).unlink(missing_ok=True)
+        if target.is_file():
+            if os.name == "nt" and not os.stat(target).st_mode & stat.S_IWRITE:
+                raise _in_use(target)
+            patiently(os.replace, target, target)  # Windows refuses it as it will at the end
     except OSError as error:
-        raise describe_write_error(target, error) from error
+        if getattr(error, "winerror", None) in IN_USE:
+            raise _in_use(target) from error
 
 
-def _rename(temporary: Path, target: Path) -> None:
-    """Rename a temporary file to its target.
+def _in_use(target: Path) -> OutputInUse:
+    """Return what is said of a file that cannot be replaced."""
+    writable = os.stat(target).st_mode & stat.S_IWRITE
+    reason = (
+        _REASONS[errno.EBUSY]
+        if writable
+        else "it is read-only. Allow changes of it, or choose another name"
+    )
+    return OutputInUse(f"Cannot write {shown(target)}: {reason}.")
+
+
+def rename(temporary: Path, target: Path) -> None:
+    """Rename a file on the same disk; an old target is replaced.
 
     A network disk may report an error although it has renamed the file: if its first answer was
     lost, it answers the repeated request that the temporary file does not exist.
     """
     written = os.stat(temporary)
     try:
-        os.replace(temporary, target)
+        patiently(os.replace, temporary, target)
     except OSError as error:
         with contextlib.suppress(OSError):
-            if os.path.samestat(written, os.stat(target)):
+            # Some network disks of Windows number no files.
+            if written.st_ino and os.path.samestat(written, os.stat(target)):
                 return
-        if getattr(error, "winerror", None) in _IN_USE and os.path.exists(target):
-            raise OSError(errno.EBUSY, os.strerror(errno.EBUSY)) from error
+        if getattr(error, "winerror", None) in IN_USE and os.path.exists(target):
+            raise _in_use(target) from error
         raise
 
 
@@ -272,69 +382,6 @@ def _mode_of(target: Path) -> int | None:
         return os.stat(target).st_mode & 0o777
     except FileNotFoundError:
         return None
-
-
-@contextlib.contextmanager
-def alone_in(folder: Path) -> Iterator[None]:
-    """Lock a folder against other runs until the block ends.
-
-    The operating system removes the lock when the process ends, even if it is killed. If the file
-    system has no locks, other runs are not refused.
-
-    Parameters
-    ----------
-    folder : Path
-        An existing folder that only such runs write into. The file `lock` in it is locked.
-
-    Raises
-    ------
-    BareEarthError
-        If another run works in the folder, or nothing can be written there.
-    """
-    path = folder / "lock"
-    with contextlib.ExitStack() as opened:
-        try:
-            file = opened.enter_context(open(path, "ab"))
-        except OSError as error:
-            raise describe_write_error(path, error) from error
-        try:
-            _lock(file.fileno())
-        except OSError as error:
-            if error.errno in _LOCKED:
-                raise BareEarthError(
-                    f"Another run writes into {folder.parent}. Wait until it ends, or choose"
-                    " another folder."
-                ) from error
-        yield
-
-
-@contextlib.contextmanager
-def one_at_a_time(path: Path) -> Iterator[None]:
-    """Wait until no other thread or process is in such a block for the same path.
-
-    If the file system has no locks, nobody waits.
-
-    Parameters
-    ----------
-    path : Path
-        A file that is made and locked; it stays.
-    """
-    with contextlib.ExitStack() as opened:
-        with contextlib.suppress(OSError):
-            _lock(opened.enter_context(open(path, "ab")).fileno(), waits=True)
-        yield
-
-
-def _lock(number: int, waits: bool = False) -> None:
-    """Lock an open file; if it is locked, wait or fail at once."""
-    if sys.platform == "win32":
-        import msvcrt
-
-        msvcrt.locking(number, msvcrt.LK_LOCK if waits else msvcrt.LK_NBLCK, 1)
-    else:
-        import fcntl
-
-        fcntl.flock(number, fcntl.LOCK_EX | (0 if waits else fcntl.LOCK_NB))
 
 
 @contextlib.contextmanager

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import hashlib
 import os
 import re
 import secrets
@@ -12,76 +13,137 @@ import socket
 import sys
 import time
 from pathlib import Path
-from typing import Container
+from typing import Any, Callable, Container
 
-# Computer, process, and random characters.
-_TEMPORARY = re.compile(r"\.(\w+)-(\d+)-(\w+)\.part\.")
-_LONGEST_NAME = 255
+# Marks: computer, random characters, and process. An ending follows in the names of files. They are
+# short, since Windows allows most programs 259 characters for a whole path.
+_MARKS = r"\.~([0-9a-z]{4})[0-9a-z]{3}([0-9a-z]{1,7})"
+_TEMPORARY = re.compile(rf"({_MARKS})((?:\.[\w-]+)*)")
+_IN_A_PATH = re.compile(rf"({_MARKS})(?:\.[\w-]*\w)*([/\\]?)")
+_ENDING = re.compile(r"(?:\.copc)?\.\w+$", re.IGNORECASE)
+_DIGITS = "0123456789abcdefghijklmnopqrstuvwxyz"
+# Characters of marks.
+MARKS_LENGTH = 13
 # It cannot be seen whether a process of another computer still runs, only when it last wrote.
 _FORGOTTEN_SECONDS = 86_400.0
-# The marks of the files that this process writes now.
-_held: set[str] = set()
+# The marks of the files that this process writes now, and the name that users know instead; it is
+# empty for folders.
+_held: dict[str, list[str]] = {}
+# Errors of Windows for a file that a program has open: access denied, in use.
+IN_USE = (5, 32)
+# Seconds for which a virus scanner or a copying service may have a file open.
+_PATIENCE, _PAUSE = 5.0, 0.05
+
+
+def patiently(action: Callable[..., Any], *arguments: Any) -> Any:
+    """Call a function of the file system; on Windows, wait some seconds for files that are in use.
+
+    Virus scanners, indexers and copying services open each new file for a moment.
+
+    Raises
+    ------
+    OSError
+        As the function.
+    """
+    end = time.monotonic() + _PATIENCE
+    while True:
+        try:
+            return action(*arguments)
+        except OSError as error:
+            if getattr(error, "winerror", None) not in IN_USE or time.monotonic() > end:
+                raise
+        time.sleep(_PAUSE)
+
+
+def remove(path: str | Path) -> None:
+    """Remove a file, or a folder with its contents, if possible; do not follow links."""
+    with contextlib.suppress(OSError):
+        if not os.path.isdir(path) or os.path.islink(path):
+            patiently(os.unlink, path)
+            return
+        try:
+            patiently(shutil.rmtree, path)
+        except OSError:
+            shutil.rmtree(path, ignore_errors=True)
 
 
 def make_temporary(target: Path, mode: int | None = None) -> Path:
     """Make an empty file beside the target; its name says which process writes it.
 
-    An existing file is never used: somebody who knew the name could have put a link there.
+    It has the ending of the target, since libraries choose the format by it. An existing file is
+    never used: somebody who knew the name could have put a link there.
     """
+    found = _ENDING.search(target.name)
+    ending = found[0] if found else ""
+    flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
+    permissions = 0o666 if mode is None else mode | 0o600
+
+    def make(path: Path) -> None:
+        os.close(os.open(path, flags, permissions))
+
+    return _made(target.parent, ending, shown(target.name), make)
+
+
+def make_temporary_folder(beside: Path) -> Path:
+    """Make a folder in `beside`, or beside the temporary folder that this is in.
+
+    So there are none in each other, whose paths would become too long.
+    """
+    for each in reversed((beside, *beside.parents)):
+        if _TEMPORARY.fullmatch(each.name):
+            beside = each.parent
+            break
+    return _made(beside, "", "", lambda path: path.mkdir(mode=0o700))
+
+
+def _made(folder: Path, ending: str, name: str, make: Callable[[Path], Any]) -> Path:
+    """Make something under a new temporary name; `name` is what users know instead.
+
+    The marks must be registered before it exists, so that no other thread removes it.
+    """
+    known = [name]
     while True:
-        marks = new_marks()
-        temporary = target.with_name(marks + _cut(target.name, len(marks)))
-        try:
-            flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
-            os.close(os.open(temporary, flags, 0o666 if mode is None else mode | 0o600))
-        except FileExistsError:
-            _held.discard(marks)
+        random = _short(secrets.randbelow(36**3), 3)
+        marks = f".~{_computer()}{random}{_short(os.getpid())}"
+        if _held.setdefault(marks, known) is not known:
             continue
-        except OSError:
-            _held.discard(marks)
+        try:
+            make(folder / f"{marks}{ending}")
+        except FileExistsError:
+            del _held[marks]
+            continue
+        except BaseException:
+            del _held[marks]
             raise
-        return temporary
+        return folder / f"{marks}{ending}"
 
 
-def new_marks() -> str:
-    """Return the start of the name of a new temporary file, and register it.
-
-    It must be registered before the file exists, so that no other thread removes the file.
-    """
-    marks = f".{_computer()}-{os.getpid()}-{secrets.token_hex(8)}.part."
-    _held.add(marks)
-    return marks
-
-
-def _cut(name: str, taken: int) -> str:
-    """Return the end of a file name that fits behind `taken` other bytes."""
-    if len(os.fsencode(name)) > _LONGEST_NAME:
-        return name  # too long in any case: the operating system gives the error
-    while len(os.fsencode(name)) + taken > _LONGEST_NAME:
-        name = name[1:]
-    return name
+def _short(number: int, length: int = 1) -> str:
+    """Return a number with the digits 0 to z."""
+    digits = ""
+    while number or len(digits) < length:
+        number, last = divmod(number, 36)
+        digits = _DIGITS[last] + digits
+    return digits
 
 
 @functools.cache
 def _computer() -> str:
-    """Return the name of this computer for the names of temporary files."""
-    return re.sub(r"\W", "_", socket.gethostname(), flags=re.ASCII)[:32] or "_"
+    """Return what names this computer in the names of temporary files."""
+    digest = hashlib.sha256(os.fsencode(socket.gethostname())).digest()
+    return _short(int.from_bytes(digest, "big") % 36**4, 4)
 
 
 def remove_temporary(temporary: Path) -> None:
     """Remove a temporary file or folder, if it still exists, and its registration."""
-    _delete(temporary)
+    remove(temporary)
     if marks := _TEMPORARY.match(temporary.name):
-        _held.discard(marks[0])
+        _held.pop(marks[1], None)
 
 
-def _delete(path: str | Path) -> None:
-    """Remove a file, or a folder with its contents, if possible; do not follow links."""
-    with contextlib.suppress(OSError):
-        if os.path.isdir(path) and not os.path.islink(path):
-            shutil.rmtree(path)
-        else:
-            os.unlink(path)
+def is_temporary(path: Path) -> bool:
+    """Return whether a path has the name of a temporary file or folder."""
+    return _TEMPORARY.fullmatch(path.name) is not None
 
 
 def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> None:
@@ -100,22 +162,22 @@ def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> N
     if not folder.is_dir():
         return
     with os.scandir(folder) as entries:
-        found = [(each, _TEMPORARY.match(each.name)) for each in entries]
+        found = [(each, _TEMPORARY.fullmatch(each.name)) for each in entries]
     for entry, marks in found:
-        if marks and (processes is None or int(marks[2]) in processes):
+        if marks and (processes is None or int(marks[3], 36) in processes):
             with contextlib.suppress(OSError):
                 if _is_left(entry, marks):
-                    _delete(entry.path)
+                    remove(entry.path)
 
 
 def _is_left(entry: os.DirEntry[str], marks: re.Match[str]) -> bool:
     """Return whether a temporary file is no longer written."""
-    computer, process = marks[1], int(marks[2])
-    if computer != _computer():
+    process = int(marks[3], 36)
+    if marks[2] != _computer():
         age = time.time() - entry.stat(follow_symlinks=False).st_mtime
         return age > _FORGOTTEN_SECONDS
     if process == os.getpid():
-        return marks[0] not in _held
+        return marks[1] not in _held
     return not _is_running(process)
 
 
@@ -146,5 +208,13 @@ def _is_running(process: int) -> bool:
 
 
 def shown(path: object) -> str:
-    """Return a path, or a text with a path, without the marks of temporary files."""
-    return _TEMPORARY.sub("", str(path))
+    """Return a path, or a text with paths, with the names that users know of temporary files."""
+    return _IN_A_PATH.sub(_known, str(path))
+
+
+def _known(found: re.Match[str]) -> str:
+    (name,), separator = _held.get(found[1], [""]), found[4]
+    if name:
+        return name + separator
+    # The folder of another process is not known here, nor is it of interest.
+    return "" if separator else found[0]

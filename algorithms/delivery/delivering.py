@@ -89,8 +89,7 @@ def deliver(
         (working / PAGE).write_text(page, encoding="utf-8")
         summary = _summary(request, made, survey, working, place.path)
         heard(1.0)  # the last moment to cancel
-        place.settle(made.waiting)
-        place.take(working, _record(request, made, place.path))
+        place.take(working, made.waiting, _record(request, made, place.path))
     return summary
 
 

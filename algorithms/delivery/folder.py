@@ -5,12 +5,23 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import shutil
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Iterator, Sequence
 
-from ..core.errors import BareEarthError
-from ..core.files import check_output, replacing, write_errors_told
+from ..core.errors import BareEarthError, OutputInUse
+from ..core.exchange import exchange
+from ..core.files import (
+    MARKS,
+    check_free,
+    check_lengths,
+    check_output,
+    free_path,
+    new_folder,
+    replacing,
+    temporary_folder,
+    write_errors_told,
+)
+from ..core.temporary import patiently, remove
 from ..engine.manifest import folders_of
 from ..survey.files import is_cloud
 
@@ -19,7 +30,7 @@ PAGE, RECORD = "index.html", "delivery.json"
 # Folder of files that further steps will read.
 _WAITING = ".waiting"
 # Folders in it, of classified files that a step changed.
-CHANGES = WATER, KEY_POINTS = "water", "key-points"
+CHANGES = WATER, KEY_POINTS = "water", "keys"
 # The lock in the folder of records, see `alone_in`.
 _LOCK = "lock"
 
@@ -72,6 +83,7 @@ class DeliveryFolder:
         BareEarthError
             If it cannot be made, holds files of the user, or holds an input.
         """
+        check_lengths(self.path, [f"{MARKS}/{QUALITY}/strip_differences.tif"])
         if not self.path.exists():
             check_output(self.path)
             return
@@ -91,6 +103,8 @@ class DeliveryFolder:
                 " folder, a new one, or that of an earlier delivery, which is replaced."
             )
         check_output(self.path / RECORD)
+        for each in self._files:
+            check_free(self.path / each)
 
     def begin(self, delivery: str) -> None:
         """Make the folder for files that are finished one by one, and say that more will follow."""
@@ -98,33 +112,13 @@ class DeliveryFolder:
         during, after = self._places_of_records
         with write_errors_told(self.path):
             self.path.mkdir(exist_ok=True)
-            (self.path / PAGE).unlink(missing_ok=True)
+            remove(self.path / PAGE)
             if after.is_dir() and not during.exists():
                 self.points.mkdir(exist_ok=True)
-                os.replace(after, during)
-        self._write({"delivery": delivery, "is_finished": False, "files": files})
-
-    def settle(self, made: Sequence[Path]) -> None:
-        """Move files that wait to the classified files, and remove what else waits.
-
-        Parameters
-        ----------
-        made : sequence of Path
-            Files in a folder of `CHANGES`, which replace those of the same names in `points`.
-
-        Raises
-        ------
-        BareEarthError
-            If the operating system refuses to write.
-        """
-        with write_errors_told(self.points):
-            # The records first: after a crash, no changed file has the record of an unchanged one.
-            for each in sorted(made, key=lambda path: len(path.parts), reverse=True):
-                _, *parts = each.relative_to(self.waiting).parts
-                target = self.points.joinpath(*parts)
-                target.parent.mkdir(parents=True, exist_ok=True)
-                os.replace(each, target)
-        shutil.rmtree(self.waiting, ignore_errors=True)
+                patiently(os.replace, after, during)
+        _write_record(
+            self.path / RECORD, {"delivery": delivery, "is_finished": False, "files": files}
+        )
 
     def leave(self) -> bool:
         """Remove what is not finished; return whether finished files stay."""
@@ -132,54 +126,68 @@ class DeliveryFolder:
         if any(is_cloud(each) for folder in folders for each in folder.rglob("*")):
             return True
         for each in folders:
-            shutil.rmtree(each, ignore_errors=True)
+            remove(each)
         with contextlib.suppress(OSError):  # it may hold files of the user
             if not self._files:
                 (self.path / RECORD).unlink(missing_ok=True)
             self.path.rmdir()
         return False
 
-    def take(self, made: Path, record: dict[str, Any]) -> None:
-        """Move a finished delivery here, and remove what is left of an earlier one.
+    def take(self, made: Path, changed: Sequence[Path], record: dict[str, Any]) -> None:
+        """Put a finished delivery here in place of an earlier one: all of it, or nothing.
 
         Parameters
         ----------
         made : Path
-            A folder on the same disk, with the files and folders of the delivery.
+            A temporary folder on the same disk, with the files and folders of the delivery.
+        changed : sequence of Path
+            Files in a folder of `CHANGES`, which replace those of the same names in `points`.
         record : dict
             What is said of it; the names of the files are added.
 
         Raises
         ------
+        OutputInUse
+            If another program has an old file open; the text says where the new delivery is.
         BareEarthError
             If the operating system refuses to write.
         """
-        old = self._files
-        new = [each for each in sorted(made.rglob("*")) if each.is_file()]
-        names = [each.relative_to(made).as_posix() for each in new]
+        old, names = self._files, sorted(_files_in(made))
+        kept = {*names, *record.get("files", ())}
+        _write_record(made / RECORD, {**record, "is_finished": True, "files": sorted(kept)})
+        # The records of many files first, which tell whether a file was changed; the page last.
+        moves = [(each, self._place_of(each)) for each in changed]
+        moves.sort(key=lambda move: -len(move[1].parts))
+        names.sort(key=lambda each: each == PAGE)
+        moves += [(made / each, self.path / each) for each in (*names, RECORD)]
+        outdated = [self.path / each for each in set(old) - kept]
+        is_one = (made / POINTS).is_dir()
+        try:
+            with new_folder(self.path), temporary_folder(self.path) as aside:
+                exchange(moves, outdated, aside)
+        except OutputInUse as error:
+            what = "delivery" if is_one else "delivery, all but its points,"
+            kept_in = free_path(self.path)
+            patiently(os.rename, made, kept_in)
+            raise OutputInUse(f"{error} The new {what} is kept in {kept_in}.") from error
+        remove(self.waiting)
         with write_errors_told(self.path):
-            self.path.mkdir(exist_ok=True)
-            # The page last, since it says that the others are there.
-            for name in sorted(names, key=lambda each: each == PAGE):
-                target = self.path / name
-                target.parent.mkdir(parents=True, exist_ok=True)
-                os.replace(made / name, target)
-            kept = {*names, *record.get("files", ())}
-            for name in set(old) - kept:
-                (self.path / name).unlink(missing_ok=True)
-            self._put_records_away(is_one=(made / POINTS).is_dir())
+            self._put_records_away(is_one)
             self._remove_empty({Path(name).parent for name in old})
-        self._write({**record, "is_finished": True, "files": sorted(kept)})
+
+    def _place_of(self, changed: Path) -> Path:
+        """Return where a file of a folder of `CHANGES` goes."""
+        return self.points.joinpath(*changed.relative_to(self.waiting).parts[1:])
 
     def _put_records_away(self, is_one: bool) -> None:
         """Move the records of many files out of the points, and remove those of other files."""
         during, after = self._places_of_records
-        shutil.rmtree(after, ignore_errors=True)
+        remove(after)
         if is_one:
-            shutil.rmtree(during, ignore_errors=True)
+            remove(during)
         elif during.is_dir():
-            (during / _LOCK).unlink(missing_ok=True)
-            os.replace(during, after)
+            remove(during / _LOCK)
+            patiently(os.replace, during, after)
 
     @property
     def _files(self) -> list[str]:
@@ -194,6 +202,14 @@ class DeliveryFolder:
             if folder.is_dir() and not any(folder.iterdir()):
                 folder.rmdir()
 
-    def _write(self, record: dict[str, Any]) -> None:
-        with replacing(self.path / RECORD) as temporary:
-            temporary.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+
+def _files_in(folder: Path) -> Iterator[str]:
+    """Yield the names of files of a folder and of those in it."""
+    for each in folder.rglob("*"):
+        if each.is_file():
+            yield each.relative_to(folder).as_posix()
+
+
+def _write_record(path: Path, record: dict[str, Any]) -> None:
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")

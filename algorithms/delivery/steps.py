@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import os
-import shutil
 import time
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Callable
 
 from ..core.errors import BareEarthError
-from ..core.files import split_name
+from ..core.files import make_work_folder, split_name
 from ..core.progress import Progress
+from ..core.temporary import patiently, remove
 from ..engine.manifest import folders_of
 from ..engine.workers import Workers
 from ..products.checkpoint_outputs import CheckOutputs
@@ -120,7 +120,7 @@ class DeliverySteps:
                 begun = time.perf_counter()
                 step(part)
                 self.made.seconds[name] = time.perf_counter() - begun
-        shutil.rmtree(self.work.waiting, ignore_errors=True)
+        remove(self.work.waiting)
         return self.made
 
     @property
@@ -184,7 +184,7 @@ class DeliverySteps:
         )
         for each in folder.glob("*.tif"):
             if each.stem not in kept:
-                each.unlink()
+                remove(each)
         made.cell_size = request.content.cell_size(
             made.quality.ground_density, request.specification
         )
@@ -222,12 +222,12 @@ class DeliverySteps:
             target = self.work.waiting / source.name
             target.parent.mkdir(exist_ok=True)
             done = write([source], target, how, progress)
-            os.replace(target, source)
+            patiently(os.replace, target, source)
             return done
         target = self.folder.waiting / name
         if not how.tiles.resume:
-            shutil.rmtree(target, ignore_errors=True)
-        target.parent.mkdir(exist_ok=True)
+            remove(target)
+        make_work_folder(target.parent)
         vpc = target / source.name
         done = write([source], target, how, progress, self.workers, True, vpc)
         for path, why in done.failures.items():

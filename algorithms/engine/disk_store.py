@@ -13,10 +13,11 @@ from typing import Any, BinaryIO, Callable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.files import reach_disk, unnamed_file, write_errors_told
+from ..core.files import write_errors_told
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
+from ..core.unnamed import reach_disk, unnamed_file
 from ..las.cloud import PointCloud
 from .blocks import Blocks
 from .store import (

@@ -8,8 +8,9 @@ from typing import Any, Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ..core.files import unnamed_file, write_errors_told
+from ..core.files import write_errors_told
 from ..core.progress import SILENT, Progress
+from ..core.unnamed import unnamed_file
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile

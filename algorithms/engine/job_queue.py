@@ -11,6 +11,7 @@ from typing import Any, Collection, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
+from ..core.temporary import remove
 from .jobs import BlockJob, JobResult, Taken, TileJob
 from .memory import GIGABYTE
 from .polling import ended
@@ -235,7 +236,7 @@ class JobQueue:
         for file in job.needs:
             self._uses[file] -= 1
             if not self._uses[file] and file not in self._missing:
-                file.unlink(missing_ok=True)
+                remove(file)
 
     def _hear(self, job: Job, outcome: JobResult) -> None:
         """Collect the messages of a job; without those that only give counts of a tile."""

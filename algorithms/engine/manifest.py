@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import contextlib
 import hashlib
 import json
 import os
@@ -10,10 +12,11 @@ from typing import Any, Dict, Iterable, List, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import replacing
+from ..core.temporary import patiently
 from .block_grid import BlockGrid, BlockIndex
 from .step import Step
 
-_FOLDER, _LABELS = ".bare-earth", "labels"
+_FOLDER, _WORK = ".bare-earth", "work"
 _LONGEST_NAME = 250
 
 # The result of `fingerprint_of`; two outputs are equal if theirs are.
@@ -22,7 +25,12 @@ Fingerprint = Dict[str, Any]
 
 def folders_of(folder: Path) -> tuple[Path, Path, Path]:
     """Return the folders of the outputs, of the records, and of the results of blocks."""
-    return folder, folder / _FOLDER, folder / _FOLDER / _LABELS
+    return folder, folder / _FOLDER, folder / _FOLDER / _WORK
+
+
+def names_beside(target: str) -> list[str]:
+    """Return the longest names that a run makes in the folder of an output with this name."""
+    return [target, f"{_FOLDER}/{target}.json", f"{_FOLDER}/{_WORK}/{'x' * 17}"]
 
 
 # Path, size and time of a file, which show whether it has changed.
@@ -90,8 +98,16 @@ def block_file(
         "place": list(place),
         "files": list(sources),
     }
-    digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
-    return folder / f"{place.column}_{place.row}_{digest[:20]}.npz"
+    return folder / f"{short_name(json.dumps(content, sort_keys=True).encode())}.npz"
+
+
+def short_name(content: bytes) -> str:
+    """Return 12 characters for the name of a file in a work folder that depends on its content.
+
+    They are few, since Windows allows most programs 259 characters for a whole path, and hold 60
+    bits: two of a million files have the same name once in two million runs.
+    """
+    return base64.b32encode(hashlib.sha256(content).digest())[:12].decode().lower()
 
 
 def _settings(grids: Sequence[BlockGrid], steps: Sequence[Step]) -> list[dict[str, Any]]:
@@ -140,7 +156,8 @@ def read_record(target: Path) -> tuple[Fingerprint, dict[str, Any]] | None:
 
 def remove_record(target: Path) -> None:
     """Remove the record of an output, which is then no longer finished."""
-    _place(target).unlink(missing_ok=True)
+    with contextlib.suppress(FileNotFoundError):
+        patiently(os.unlink, _place(target))
 
 
 def _place(target: Path) -> Path:

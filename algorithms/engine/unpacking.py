@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
-import hashlib
 import os
 from pathlib import Path
 from typing import NamedTuple
 
 from ..core.errors import BareEarthError
-from ..core.files import one_at_a_time, replacing
+from ..core.files import replacing
+from ..core.locks import one_at_a_time
 from ..core.progress import Progress
 from ..las.lasfile import LasFile, Unpacked
 from ..las.records import needed
 from ..las.unpacked import has_room, unpack
+from .manifest import short_name
 
 
 class Unpacking(NamedTuple):
@@ -45,7 +46,7 @@ class Unpacking(NamedTuple):
             return las
         columns = None if self.is_whole else needed(las)
         key = os.fsencode(las.path.resolve()) + repr(las.state).encode()
-        path = self.folder / f"{hashlib.sha256(key).hexdigest()[:32]}.records"
+        path = self.folder / f"{short_name(key)}.rec"
         with one_at_a_time(path.with_suffix(".lock")):
             if not path.exists():
                 if las.path in self.once or not has_room(self.folder, las.count):

@@ -14,8 +14,8 @@ from typing import BinaryIO, Iterable, Iterator
 
 import numpy as np
 
-from ..core.files import reach_disk, unnamed_file
 from ..core.progress import Progress
+from ..core.unnamed import reach_disk, unnamed_file
 from .copc_octree import Branch, Cube, SortedPoints, Taken, runs
 from .records import column
 

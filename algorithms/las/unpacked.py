@@ -7,8 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import BinaryIO, Sequence
 
-from ..core.files import reach_disk
 from ..core.progress import SILENT, Progress
+from ..core.unnamed import reach_disk
 from .lasfile import LasFile, Unpacked
 from .records import read_records
 

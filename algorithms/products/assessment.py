@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import replacing
+from ..core.files import Outputs
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..rasters.geotiff import NODATA, RasterGrid
@@ -77,10 +76,8 @@ def assess_files(
         progress(0.71)
         comparison = Comparison.of(ground, classes, options)
         progress(0.75)
-        with contextlib.ExitStack() as outputs:  # both or none
-            report, error_map = (
-                path and outputs.enter_context(replacing(path)) for path in (report, error_map)
-            )
+        with Outputs() as outputs:
+            report, error_map = (path and outputs.file(path) for path in (report, error_map))
             if error_map is not None:
                 part = progress.part(0.75, 0.85)
                 _write_error_map(error_map, points, comparison, result.frame, options, part)

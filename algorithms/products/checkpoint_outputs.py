@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import csv
 import io
 from pathlib import Path
@@ -11,13 +10,7 @@ from typing import Any, Iterator, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError, printable
-from ..core.files import (
-    check_distinct,
-    check_output,
-    replace_with_files_of,
-    replacing,
-    temporary_folder,
-)
+from ..core.files import Outputs, check_distinct, check_output
 from ..core.progress import SILENT, Progress
 from ..survey.checkpoint_files import Checkpoints
 from ..survey.files import Survey
@@ -94,22 +87,19 @@ class CheckOutputs(NamedTuple):
         BareEarthError
             If a file cannot be written.
         """
-        with contextlib.ExitStack() as opened:
-            folder = None
+        with Outputs() as outputs:
             if self.residuals and found is not None:
-                folder = opened.enter_context(temporary_folder(self.residuals.parent))
-                _write_layer(folder / self.residuals.name, found, survey, progress)
+                layer = outputs.files(self.residuals, files_beside(self.residuals))
+                _write_layer(layer, found, survey, progress)
             if self.table and found is not None:
-                table = opened.enter_context(replacing(self.table))
+                table = outputs.file(self.table)
                 # Excel knows by the byte order mark that it is UTF-8.
                 with open(table, "w", encoding="utf-8-sig", newline="") as file:
                     file.write(_table_of(found))
             if self.report:
-                page = opened.enter_context(replacing(self.report))
+                page = outputs.file(self.report)
                 page.write_text(checkpoint_html(check, found, survey), encoding="utf-8")
             progress(1.0)  # the last moment to cancel
-            if folder is not None and self.residuals:
-                replace_with_files_of(folder, self.residuals, files_beside(self.residuals))
 
 
 def _rows_of(found: Residuals) -> Iterator[tuple[Any, ...]]:

@@ -10,7 +10,7 @@ from typing import Iterator, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import replace_with_files_of, temporary_folder
+from ..core.files import Outputs
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isoline, Isolines
@@ -173,17 +173,17 @@ def write_contours(
             f"An interval of {interval.text()} would give more than {_MOST_LEVELS:,} heights of"
             " contour lines. Choose a larger one."
         )
-    with temporary_folder(target.parent) as folder:
+    with Outputs() as outputs:
         lines = _lines_of(raster, contours, height, progress.part(0.2, 1.0))
         layer = Layer("contours", "LineString", _FIELDS, raster.frame.wkt, raster.epsg)
         features = (
             Feature((number, each.height, int(each.is_index)), each.corners)
             for number, each in enumerate(lines)
         )
-        count = write(folder / target.name, features, layer, progress)
+        file = outputs.files(target, files_beside(target))
+        count = write(file, features, layer, progress)
         progress.info(f"{count:,} contour lines, one every {interval.text()}")
         progress(1.0)
-        replace_with_files_of(folder, target, files_beside(target))
     return interval
 
 

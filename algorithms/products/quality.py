@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Iterable
 
 from ..core.errors import BareEarthError
-from ..core.files import new_folder, replacing
+from ..core.files import Outputs, new_folder
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..las.cloud import survey_frame
@@ -165,13 +165,13 @@ def _measured(survey: Survey, request: QualityRequest, work: Path, progress: Pro
         specification=options.specification, files=_files(survey),
     )  # fmt: skip
     found = replace(found, lines=lines_of(found, survey, asked))
-    with contextlib.ExitStack() as outputs:
+    with Outputs() as outputs:
         if request.folder:
             drawn, part = (cells, extent.inside, void, frame), progress.part(0.8, 0.98)
             write_rasters(request.folder, *drawn, outputs, part)
         if request.page:
             html = quality_html(found, cells, extent, asked, void, survey)
-            page = outputs.enter_context(replacing(request.page))
+            page = outputs.file(request.page)
             page.write_text(html, encoding="utf-8")
         progress(1.0)  # the last moment to cancel
     return found

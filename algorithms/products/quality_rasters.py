@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 from pathlib import Path
 from typing import Callable, Iterator, NamedTuple
 
 import numpy as np
 
+from ..core.files import Outputs
 from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
 from ..rasters.geotiff import NODATA, RasterGrid
-from ..rasters.writing import Rows, check_raster_output, replacing_raster, write_geotiff
+from ..rasters.writing import Rows, check_raster_output, raster_file, write_geotiff
 from .quality_cells import STRIPS, QualityCells, twice
 from .quality_planes import plane_of
 
@@ -196,7 +196,7 @@ def write_rasters(
     inside: np.ndarray,
     void: float,
     frame: Frame,
-    outputs: contextlib.ExitStack,
+    outputs: Outputs,
     progress: Progress = SILENT,
 ) -> None:
     """Write all rasters; they get their names when `outputs` is closed.
@@ -213,7 +213,7 @@ def write_rasters(
         Distance in metres from which on ground is missing.
     frame : Frame
         The frame of the survey.
-    outputs : contextlib.ExitStack
+    outputs : Outputs
         Receives the files.
     progress : Progress
         Receives progress and messages.
@@ -233,7 +233,7 @@ def write_rasters(
         nodata = NO_BYTE if raster.kind == "uint8" else NODATA
         strips = _strips(raster, window, cells, inside, void, frame, nodata)
         rows = Rows(window.shape, raster.kind, strips)
-        waiting = outputs.enter_context(replacing_raster(path))
+        waiting = raster_file(outputs, path)
         write_geotiff(waiting, rows, grid, nodata, progress, raster.shows)
         progress(number / len(paths))
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Iterable, Iterator
@@ -10,12 +9,12 @@ from typing import Iterable, Iterator
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import new_folder
+from ..core.files import Outputs, new_folder
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.progress import SILENT, Progress
 from ..core.threads import available_cpus, may_use
 from ..rasters.geotiff import NO_CELLS, NODATA, Raster, read_raster
-from ..rasters.writing import Rows, check_raster_output, replacing_raster, write_geotiff
+from ..rasters.writing import Rows, check_raster_output, raster_file, write_geotiff
 from .relief_rasters import RELIEF, ReliefRaster
 from .terrain_model import MapTerrain, TerrainModel
 
@@ -133,12 +132,12 @@ def write_reliefs(
     """
     targets = {kind: Path(folder) / f"{kind}.tif" for kind in kinds}
     shares = progress.shares(*[1.0] * len(targets))
-    with contextlib.ExitStack() as outputs:
+    with Outputs() as outputs:
         outputs.enter_context(new_folder(Path(folder)))
         for target in targets.values():
             check_raster_output(target, (Path(source),))
         for (kind, target), part in zip(targets.items(), shares):
-            temporary = outputs.enter_context(replacing_raster(target))
+            temporary = raster_file(outputs, target)
             write_relief(source, temporary, kind, parameters, part)
     return targets
 

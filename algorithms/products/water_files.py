@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ..core.files import check_distinct, replace_with_files_of, temporary_folder
+from ..core.files import Outputs, check_distinct
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..crs.system import Crs
@@ -244,15 +243,11 @@ def write_features(
     if lines is not None:
         layer = Layer("breaklines", "LineString Z", LINE_FIELDS, crs.wkt, crs.epsg)
         layers.append((*lines, layer))
-    with contextlib.ExitStack() as opened:
-        folders = []
+    with Outputs() as outputs:
         for output, features, layer in layers:
-            folders.append(opened.enter_context(temporary_folder(output.parent)))
             write = feature_writer(output)
-            write(folders[-1] / output.name, features, layer, progress)
+            write(outputs.files(output, files_beside(output)), features, layer, progress)
         progress(1.0)  # the last moment to cancel
-        for (output, _, _), folder in zip(layers, folders):
-            replace_with_files_of(folder, output, files_beside(output))
 
 
 def _add(

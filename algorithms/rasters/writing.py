@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import math
 import os
 import shutil
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator, NamedTuple
+from typing import Any, Callable, Iterable, NamedTuple
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, replacing
+from ..core.files import Outputs, check_output
 from ..core.progress import Progress
-from ..core.temporary import shown
+from ..core.temporary import remove, shown
 from ..core.version import __version__
 from ..crs.system import unit_symbol
 from .geotiff import Raster, RasterGrid
@@ -34,15 +33,12 @@ _TILE, _BYTES_ABOUT_A_TILE = 256, 512
 _WAITING = {"TILED": "YES", "BIGTIFF": "IF_SAFER", "SPARSE_OK": "TRUE"}
 
 
-@contextlib.contextmanager
-def replacing_raster(path: Path) -> Iterator[Path]:
-    """Yield a temporary name, as `replacing`; also remove the .aux.xml file of an old raster."""
-    with replacing(path) as temporary:
-        yield temporary
-    # It has statistics of the old cells, by which QGIS would stretch its colours.
-    beside = path.with_name(f"{path.name}.aux.xml")
-    if os.path.lexists(beside):  # False if this name would be too long
-        beside.unlink()
+def raster_file(outputs: Outputs, path: Path) -> Path:
+    """Return a temporary file for a raster; the .aux.xml file of an old one will be removed.
+
+    It has statistics of the old cells, by which QGIS would stretch its colours.
+    """
+    return outputs.file(path, [f"{path.name}.aux.xml"])
 
 
 class Rows(NamedTuple):
@@ -119,8 +115,8 @@ def write_geotiff(
     if isinstance(values, np.ndarray):
         values = Rows(values.shape, values.dtype.name, [values])
     band = Band.of(grid, nodata, shows, values.bands)
-    with replacing_raster(target) as temporary:
-        _writer()(temporary, values, grid, band, progress)
+    with Outputs() as outputs:
+        _writer()(raster_file(outputs, target), values, grid, band, progress)
 
 
 def check_raster_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
@@ -197,11 +193,13 @@ def _write_with_gdal(
             copy = gdal.GetDriverByName("COG").CreateCopy(str(path), dataset, 0, _words(_OPTIONS))
             errors.check(path)
             copy.FlushCache()
-            del copy, band, dataset
+            copy = band = dataset = None
             errors.check(path)
     finally:
+        # Windows removes no file that is open.
+        copy = band = dataset = None
         if waiting:
-            waiting.unlink(missing_ok=True)
+            remove(waiting)
 
 
 def _tags(about: Band) -> dict[str, str]:
@@ -259,7 +257,7 @@ def _write_with_rasterio(
         raise BareEarthError(f"Cannot write {shown(path)}: {shown(error)}.") from error
     finally:
         if waiting:
-            waiting.unlink(missing_ok=True)
+            remove(waiting)
 
 
 def _crs_of(grid: RasterGrid | Raster, progress: Progress) -> Any:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import shutil
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -11,13 +10,14 @@ from typing import Any, Iterable, Iterator, Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..core.files import (
-    alone_in,
     is_same_file,
+    make_work_folder,
     temporary_folder,
     write_errors_told,
 )
+from ..core.locks import alone_in
 from ..core.progress import SILENT, Progress
-from ..core.temporary import remove_leftovers
+from ..core.temporary import remove, remove_leftovers
 from ..crs.measurable import require_measurable
 from ..engine.blocks import Blocks
 from ..engine.job_queue import JobQueue
@@ -247,12 +247,12 @@ class _SurveyRun:
         resume, (_, records, waiting) = self._request.tiles.resume, folders_of(self._folder)
         plan = Plan(self._survey, self._targets, self._steps, waiting, progress.part(0.0, 0.02))
         with write_errors_told(self._folder):
-            for folder in (self._folder, records):
-                folder.mkdir(parents=True, exist_ok=True)
+            self._folder.mkdir(parents=True, exist_ok=True)
+            make_work_folder(records)
         with alone_in(records):
             self._clear(results=not resume)
             with write_errors_told(self._folder):
-                waiting.mkdir(exist_ok=True)
+                make_work_folder(waiting)
             plan.keep_finished(resume, progress)
             self._run(plan, waiting, workers, progress.part(0.02, 1.0))
             self._clear(results=True)
@@ -284,7 +284,7 @@ class _SurveyRun:
         """Remove what killed runs left, and the results of blocks if `results`."""
         folders = folders_of(self._folder)
         if results:
-            shutil.rmtree(folders[2], ignore_errors=True)
+            remove(folders[2])
         for each in folders:
             remove_leftovers(each)
 

@@ -12,7 +12,7 @@ from typing import Any, Iterator, Sequence
 
 import numpy as np
 
-from ..core.files import check_distinct
+from ..core.files import Outputs, check_distinct
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import import_early, may_use
@@ -28,7 +28,7 @@ from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.writing import check_cloud
-from ..rasters.writing import check_raster_output, replacing_raster
+from ..rasters.writing import check_raster_output, raster_file
 from ..steps.labelling import LabelGround
 from ..steps.raster_output import RasterSize, write_rasters
 from ..steps.rasters import MakeRasters
@@ -131,15 +131,15 @@ class _FileRun:
         The steps.
     progress : Progress
         Receives messages.
-    outputs : contextlib.ExitStack, optional
+    outputs : Outputs, optional
         Receives the rasters, which get their names when it is closed.
 
     Attributes
     ----------
     points : FilePoints
         The points.
-    outputs : contextlib.ExitStack
-        The rasters.
+    outputs : Outputs
+        The points and the rasters.
     steps : list of Step
         The steps, in the CRS of the points.
     counts : list of object
@@ -153,11 +153,11 @@ class _FileRun:
         points: FilePoints,
         steps: Sequence[Step],
         progress: Progress,
-        outputs: contextlib.ExitStack | None = None,
+        outputs: Outputs | None = None,
     ) -> None:
         self.steps: list[Any] = located(steps, points.place, progress)
         self.counts = [step.counts() for step in self.steps]
-        self.points, self.outputs = points, outputs or contextlib.ExitStack()
+        self.points, self.outputs = points, outputs or Outputs()
         self.size: RasterSize | None = None
         self._values: list[PointValues] = []
 
@@ -220,7 +220,7 @@ class _FileRun:
     def written(self, target: Path, progress: Progress) -> TileResult:
         """Write the points with what the steps found; return that."""
         result = self.found(progress.part(0.0, 0.2))
-        result.write(target, progress.part(0.2, 1.0))
+        result.write(self.outputs.file(target), progress.part(0.2, 1.0))
         return result
 
 
@@ -237,11 +237,11 @@ def _weights(steps: Sequence[Step]) -> list[float]:
 def _worked(
     las: LasFile, target: Path, steps: Sequence[Step], resources: Resources, progress: Progress
 ) -> Iterator[_FileRun]:
-    """Yield a run whose steps have worked on a file; rasters get their names at the end."""
+    """Yield a run whose steps have worked on a file; its outputs get their names at the end."""
     for_points = [step for step in steps if isinstance(step, PointStep)]
     needs_records = bool(for_points) and not copies_all_else(las, target, for_points)
     reading, working = progress.shares(_READING, sum(_weights(steps)))
-    with contextlib.ExitStack() as outputs:
+    with Outputs() as outputs:
         outputs.enter_context(may_use(resources.thread_count))
         points = FilePoints.opened(las, target, resources, needs_records, reading)
         run = _FileRun(outputs.enter_context(points), steps, progress, outputs)
@@ -287,7 +287,7 @@ def classify_file(
     import_early("scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph")
     with _worked(las, target, steps, request.resources.now(), progress.part(0.0, 0.92)) as run:
         if request.explain is not None:
-            explained = run.outputs.enter_context(replacing_raster(request.explain))
+            explained = raster_file(run.outputs, request.explain)
             frame = survey_frame(run.points.cloud.crs)
             run.steps[0].explanation.write(explained, frame, progress)
         result = run.written(target, progress.part(0.92, 1.0))

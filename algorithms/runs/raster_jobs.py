@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import itertools
 from collections import Counter
 from dataclasses import dataclass
@@ -12,8 +11,9 @@ from typing import Any, Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError, Cancelled
-from ..core.files import replacing, split_name
+from ..core.files import Outputs, replacing, split_name
 from ..core.progress import SILENT, Progress
+from ..core.temporary import remove
 from ..engine.block_grid import (
     BlockGrid,
     BlockIndex,
@@ -266,11 +266,11 @@ def _written(
     per_file = None
     if step.per_file:
         per_file = {split_name(each.path)[0]: each.box for each in survey.tiles}
-    with contextlib.ExitStack() as outputs:
+    with Outputs() as outputs:
         return write_rasters(made, grid.frame, step, outputs, progress, per_file)
 
 
 def _remove(files: Iterable[Path]) -> None:
     """Remove the rasters of blocks."""
     for file in files:
-        file.unlink(missing_ok=True)
+        remove(file)

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Sequence
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, split_name
+from ..core.files import check_free, check_lengths, check_output, split_name
 from ..crs.measurable import require_measurable
+from ..engine.manifest import names_beside
 from ..las.writing import check_writable
 from ..products.raster_files import RasterFiles
 from ..steps.rasters import MakeRasters
@@ -36,6 +37,7 @@ def check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Pat
                 " all its subfolders. Choose another output."
             )
     check_vpc(vpc)
+    check_free(vpc)
     if vpc.parent.resolve() != here:
         check_output(vpc)
 
@@ -82,6 +84,9 @@ def targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path,
             )
         targets[path] = folder / name
         check_writable(targets[path])
+        check_free(targets[path])
+    longest = max((each.name for each in targets.values()), key=len, default="")
+    check_lengths(folder, names_beside(longest))
     return targets
 
 

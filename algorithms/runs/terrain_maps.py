@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import contextlib
 import tempfile
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
-from ..core.files import replacing, temporary_folder
+from ..core.files import Outputs, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..las.writing import check_cloud
 from ..products.contours import Contours, Interval, write_contours
-from ..products.line_files import check_features
+from ..products.line_files import check_features, files_beside
 from ..products.raster_files import RasterFiles
 from ..products.terrain_model import MapTerrain
-from ..rasters.writing import replacing_raster
+from ..rasters.writing import raster_file
 from ..steps.output import Output
 from ..survey.files import is_one_file
 from .entry import classify
@@ -119,22 +118,23 @@ def make_maps(
     beside = next((each for each in folders if each.is_dir()), Path(tempfile.gettempdir()))
     is_one = is_one_file(sources)
     # All or none: the outputs get their names when all of them are finished.
-    with temporary_folder(beside) as waiting, contextlib.ExitStack() as outputs:
+    with temporary_folder(beside) as waiting, Outputs() as outputs:
         cloud = files.cloud or waiting / "cloud.las"
         files.rasters.check((*sources, cloud))
         if files.contours:
             check_features(files.contours, tuple(sources))
         if files.cloud and is_one:
             check_cloud(sources[0], cloud)
-            cloud = outputs.enter_context(replacing(cloud))
+            cloud = outputs.file(cloud)
         rasters = files.rasters.wanted
-        maps = {name: outputs.enter_context(replacing_raster(rasters[name])) for name in rasters}
+        maps = {name: raster_file(outputs, rasters[name]) for name in rasters}
         if files.contours:
             maps.setdefault("dtm", waiting / "dtm.tif")
         part, tracing = progress.shares(5.0 + 4.4 * bool(maps), 0.3 * bool(files.contours))
         summary = _classified(sources, cloud, request.classify(RasterFiles(**maps)), part, is_one)
         if files.contours:
-            interval = write_contours(maps["dtm"], files.contours, request.contours, tracing)
+            lines = outputs.files(files.contours, files_beside(files.contours))
+            interval = write_contours(maps["dtm"], lines, request.contours, tracing)
             summary = summary._replace(contour_interval=interval)
     return summary._replace(cloud=files.cloud) if files.cloud and is_one else summary
 

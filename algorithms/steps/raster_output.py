@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Mapping, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import new_folder, replacing
+from ..core.files import Outputs, new_folder
 from ..core.points import Box, Frame, box_in_words
 from ..core.progress import SILENT, Progress
 from ..grids.cell_window import CellWindow
@@ -28,7 +27,7 @@ from ..products.raster_grid import (
 )
 from ..rasters.geotiff import RasterGrid
 from ..rasters.virtual import write_virtual
-from ..rasters.writing import Band, Rows, replacing_raster, write_geotiff
+from ..rasters.writing import Band, Rows, raster_file, write_geotiff
 from ..survey.area import Area
 from .rasters import MakeRasters
 
@@ -62,7 +61,7 @@ def write_rasters(
     made: Sequence[BlockRasters],
     frame: Frame,
     step: MakeRasters,
-    outputs: contextlib.ExitStack,
+    outputs: Outputs,
     progress: Progress = SILENT,
     files: Mapping[str, Box] | None = None,
 ) -> RasterSize:
@@ -76,7 +75,7 @@ def write_rasters(
         Frame of the survey, with the origin of the step.
     step : MakeRasters
         Which rasters, and where they go.
-    outputs : contextlib.ExitStack
+    outputs : Outputs
         Receives the files.
     progress : Progress
         Receives progress and messages.
@@ -114,7 +113,7 @@ def write_rasters(
             names = [folder / f"{each}.tif" for each in windows]
             grids = dict(zip(names, map(write, names, windows.values(), shares)))
             virtual, grid = virtual_of(path), _grid_of(window, step, frame)
-            temporary = outputs.enter_context(replacing(virtual))
+            temporary = outputs.file(virtual)
             band = Band.of(grid, raster.empty(step.model), raster.shows, raster.bands)
             write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
     counts = np.sum([each.counts for each in made], axis=0)
@@ -126,7 +125,7 @@ def _write(
     layers: Sequence[Mosaic],
     frame: Frame,
     step: MakeRasters,
-    outputs: contextlib.ExitStack,
+    outputs: Outputs,
     path: Path,
     window: CellWindow,
     progress: Progress,
@@ -137,7 +136,7 @@ def _write(
     if raster.is_canopy:
         make = partial(make, pit_free=step.surface.pit_free)
     strips = gathered_strips(layers, window, make, raster.margin(grid, step.model), progress)
-    temporary = outputs.enter_context(replacing_raster(path))
+    temporary = raster_file(outputs, path)
     rows = Rows(window.shape, raster.kind, strips, raster.bands)
     write_geotiff(temporary, rows, grid, raster.empty(step.model), progress, raster.shows)
     return grid

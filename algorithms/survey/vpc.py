@@ -24,6 +24,7 @@ import numpy as np
 from ..core.errors import BareEarthError, printable
 from ..core.files import check_output, replacing
 from ..core.progress import SILENT, Progress
+from ..core.temporary import remove
 from ..crs.provider import to_wgs84
 from ..crs.system import compound_wkt
 from ..las.crs_records import read_crs
@@ -183,7 +184,7 @@ def write_vpc(
     with replacing(path) as temporary:
         temporary.write_text(text + "\n", encoding="utf-8")
     if made is None and overview_of(path) not in files:
-        overview_of(path).unlink(missing_ok=True)
+        remove(overview_of(path))
 
 
 def _overview(path: Path, layouts: list[LasFile], progress: Progress) -> Path | None:

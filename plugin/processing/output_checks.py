@@ -12,6 +12,7 @@ from qgis.core import (
     QgsProcessingParameterFolderDestination,
 )
 
+from ...algorithms.core.errors import OutputInUse
 from ...algorithms.core.files import check_output
 from ...algorithms.las.writing import check_cloud
 from ...algorithms.products.line_files import FORMATS as LINE_FORMATS
@@ -20,6 +21,7 @@ from ...algorithms.products.page import check_page
 from ...algorithms.rasters.writing import check_raster_output
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.vpc import SUFFIX, check_vpc
+from ..styles import loaded
 from .outputs import given_path
 
 Check = Callable[[Path, "tuple[Path, ...]"], None]
@@ -51,8 +53,15 @@ def check_outputs(
     """
     for output in algorithm.destinationParameterDefinitions():
         path = given_path(parameters.get(output.name()), context)
-        if path is not None:
+        if path is None:
+            continue
+        try:
             _check_of(output)(path, tuple(sources))
+        except OutputInUse:
+            # Layers let go of their files before the run, which asks again.
+            is_main = loaded.in_main_thread()
+            if not is_main or not loaded.sources_of(context.project(), [path]):
+                raise
 
 
 def _check_of(output: QgsProcessingParameterDefinition) -> Check:

@@ -1,5 +1,6 @@
 """Point cloud files of every version and format, made byte by byte: no library has a say."""
 
+import errno
 import gc
 import os
 import struct
@@ -10,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bare_earth.algorithms.core import temporary as temporary_module
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import workers
 from bare_earth.algorithms.las.laszip import with_chunk_size
@@ -237,3 +239,37 @@ def las(tmp_path):
     folder = tmp_path / "clouds"
     folder.mkdir()
     return LasKit(folder)
+
+
+class Windows:
+    """Lets files be in use as on Windows, for some tries or for good."""
+
+    def __init__(self, monkeypatch):
+        self.in_use, self.patch, self.tries = {}, monkeypatch, 0
+        for name in ("replace", "rename", "unlink"):
+            monkeypatch.setattr(os, name, self.refusing(getattr(os, name)))
+        monkeypatch.setattr(temporary_module, "_PAUSE", 0.0)
+
+    def hold(self, path, number=32, tries=10**9):
+        self.in_use[str(path)] = number, tries
+        if tries == 10**9:
+            self.patch.setattr(temporary_module, "_PATIENCE", 0.0)
+
+    def refusing(self, action):
+        def act(*paths, **named):
+            for path in map(str, paths):
+                number, tries = self.in_use.get(path, (0, 0))
+                if tries > 0:
+                    self.tries += 1
+                    self.in_use[path] = number, tries - 1
+                    error = PermissionError(errno.EACCES, "Access is denied", path)
+                    error.winerror = number
+                    raise error
+            return action(*paths, **named)
+
+        return act
+
+
+@pytest.fixture
+def windows(monkeypatch):
+    return Windows(monkeypatch)

@@ -12,6 +12,7 @@ import bare_earth.algorithms as package
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.progress import SILENT, Progress
+from bare_earth.algorithms.core.temporary import is_temporary
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_store import MemoryStore
 from bare_earth.algorithms.engine.store import Marks
@@ -45,6 +46,11 @@ class CancelAt(Progress):
         self.last = max(self.last, fraction)
         if fraction >= self.fraction:
             raise Cancelled
+
+
+def temporary_in(folder):
+    """Return the temporary files and folders that are left in a folder."""
+    return [path for path in Path(folder).rglob("*") if is_temporary(path)]
 
 
 def said(*words):

@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
-from runs import classify_tiles
+from runs import classify_tiles, temporary_in
 from surveys import bytes_of, cut, finished, strip
 
 from bare_earth.algorithms.cli import main
@@ -213,7 +213,7 @@ def test_a_worker_that_is_killed_loses_nothing(dask, survey, tmp_path):
     assert worker.wait() == -signal.SIGKILL and killer.done >= 14
     assert not summary.failures and summary.done_count == 16
     assert bytes_of(out) == expected
-    assert not [path for path in out.rglob("*") if ".part" in path.name]
+    assert not temporary_in(out)
 
 
 def test_a_scheduler_that_ends_is_told_and_the_run_goes_on_without_it(clusters, survey, tmp_path):
@@ -235,7 +235,7 @@ def test_a_scheduler_that_ends_is_told_and_the_run_goes_on_without_it(clusters, 
 def test_jobs_of_a_run_that_was_cancelled_write_nothing_more(tmp_path):
     # Else they would write over what the next run makes, with other parameters maybe.
     cut(tmp_path / "in", strip(800_000, 400.0, 200.0), 2)
-    labels = tmp_path / "out" / ".bare-earth" / "labels"
+    labels = tmp_path / "out" / ".bare-earth" / "work"
 
     class Impatient(Progress):
         def report(self, fraction):
@@ -274,7 +274,7 @@ def test_a_cluster_whose_workers_are_all_gone_is_told(survey, tmp_path):
         assert time.monotonic() - begun < 30.0
     summary = classify_tiles([folder], out, FAST, output=TileOutput(resume=True))
     assert summary.done_count == 16 and bytes_of(out) == expected
-    assert not [path for path in out.rglob("*") if ".part" in path.name]
+    assert not temporary_in(out)
 
 
 @pytest.fixture(scope="module")
@@ -358,5 +358,5 @@ def test_kills_at_moments_by_chance_lose_nothing(victim, survey, tmp_path):
         assert all(expected[name] == content for name, content in names.items())
         summary = classify_tiles([folder], out, FAST, output=TileOutput(resume=True))
         assert summary.done_count == 16 and bytes_of(out) == expected
-        assert not [path for path in out.rglob("*") if ".part" in path.name]
+        assert not temporary_in(out)
     print(victim, {each: ends.count(each) for each in ends})

@@ -36,7 +36,7 @@ from bare_earth.algorithms import (
     terrain,
 )
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import FinishedFilesStay
+from bare_earth.algorithms.core.errors import FinishedFilesStay, OutputInUse
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.delivery.deliveries import DELIVERIES
 from bare_earth.algorithms.grids.lines import along
@@ -215,7 +215,7 @@ def test_a_delivery_of_one_file_has_all_its_files(made, scene, name):
     # Nothing is left of the folder in which it was made, and no page names it.
     assert not [each for each in os.listdir(folder.parent) if each.startswith(".")]
     pages = [each.read_text(encoding="utf-8") for each in folder.glob("*.html")]
-    assert not any(".part." in each or str(folder.parent) in each for each in pages)
+    assert not any(".~" in each or str(folder.parent) in each for each in pages)
 
 
 @pytest.mark.parametrize(
@@ -570,6 +570,44 @@ def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
     assert all(np.array_equal(each, expected[name]) for name, each in classes_of(target).items())
 
 
+@pytest.mark.parametrize("is_one", [True, False])
+def test_a_delivery_is_kept_beside_an_old_one_that_a_program_has_open(
+    scene, tmp_path, windows, is_one
+):
+    target, source = tmp_path / "out", scene[1] if is_one else scene[2]
+    small = DeliveryOptions(hold_out_share=None)
+    how = DeliveryRequest(delivery="drone-site", options=small)
+
+    class Opens(Progress):
+        def report(self, fraction):
+            if fraction > 0.9 and not windows.in_use:
+                windows.hold(target / "dtm.tif", 5)
+
+    def content():
+        return {each: (target / each).read_bytes() for each in files_of(target)}
+
+    deliver(source, target, how)
+    before = content()
+    windows.hold(target / "dtm.tif")
+    with pytest.raises(OutputInUse, match=r"dtm\.tif: another program uses it"):
+        deliver(source, target, how)  # before any work
+    assert content() == before and os.listdir(tmp_path) == ["out"]
+    windows.in_use.clear()
+    with pytest.raises(OutputInUse, match=r"dtm\.tif: another.* is kept in .*out-new\."):
+        deliver(source, target, how, Opens())
+    # Nothing is half new. Of many files, the points are there, so the page is not.
+    said = {"delivery.json", "index.html"}
+    assert {key: each for key, each in content().items() if key not in said or is_one} == {
+        key: each for key, each in before.items() if key not in said or is_one
+    }
+    kept = tmp_path / "out-new"
+    assert files_of(kept) == before.keys() and (kept / "points").exists() == is_one
+    assert json.loads((kept / "delivery.json").read_text())["is_finished"]
+    windows.in_use.clear()
+    deliver(source, target, replace(how, tiles=TileOutput(resume=True)))
+    assert content().keys() == before.keys() and sorted(os.listdir(tmp_path)) == ["out", "out-new"]
+
+
 def test_a_cancel_before_any_file_is_done_leaves_nothing_of_many(scene, tmp_path):
     with pytest.raises(Cancelled) as stopped:
         deliver(scene[2], tmp_path / "out", DeliveryRequest(), Stops(0.02))
@@ -594,7 +632,7 @@ def test_an_error_names_the_folder_of_the_user(scene, tmp_path):
     las.write(str(tmp_path / "water.laz"))
     with pytest.raises(BareEarthError) as error:
         deliver(tmp_path / "water.laz", tmp_path / "out")
-    assert ".part." not in str(error.value) and os.listdir(tmp_path) == ["water.laz"]
+    assert ".~" not in str(error.value) and os.listdir(tmp_path) == ["water.laz"]
 
 
 def test_a_delivery_replaces_an_earlier_one_and_nothing_else(scene, tmp_path):

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from runs import command, environment
+from runs import command, environment, temporary_in
 from surveys import cut, strip, write
 
 from bare_earth.algorithms.cli import main
@@ -97,7 +97,7 @@ def _old_outputs(name, inputs, out):
 
 def _hidden(out):
     """Return what runs must not leave; the record of a survey is one of its outputs."""
-    return [path for path in out.rglob("*") if ".part." in path.name or path.name.endswith(".tmp")]
+    return [*temporary_in(out), *out.rglob("*.tmp")]
 
 
 def _shown(out):
@@ -170,7 +170,7 @@ def _look_at(name, done, out, old, enough):
 # The folder on the small disk: that of all outputs; of a survey also that of what it keeps of its
 # blocks, that of its labels alone, and that of its files, without the rasters and the list.
 DISKS = [(name, ".") for name in COMMANDS]
-DISKS += [("survey", "out"), ("survey", "out/.bare-earth"), ("survey", "out/.bare-earth/labels")]
+DISKS += [("survey", "out"), ("survey", "out/.bare-earth"), ("survey", "out/.bare-earth/work")]
 
 
 @pytest.mark.long

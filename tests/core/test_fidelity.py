@@ -14,7 +14,7 @@ import pytest
 from conftest import evlr, las_bytes, make_records, vlr
 from copcs import many_nodes
 from independent import CLASS, KEY_POINT, copc_nodes, in_any_order, meaning, without
-from runs import said
+from runs import said, temporary_in
 
 from bare_earth.algorithms.las.writing import write_classified
 from benchmarks.data import FOLDER
@@ -322,7 +322,7 @@ def test_files_of_other_projects_keep_what_they_say_or_are_refused_in_a_sentence
         before = {path: path.stat() for path in tmp_path.rglob("*")}
         code, _, errors = said(*words)
         assert source.read_bytes() == data
-        assert not list(tmp_path.rglob("*.part.*"))
+        assert not temporary_in(tmp_path)
         if code == 0:
             done += 1
         else:

@@ -6,16 +6,23 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core import exchange as exchange_module
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled, OutputInUse
+from bare_earth.algorithms.core.exchange import exchange
 from bare_earth.algorithms.core.files import (
+    Outputs,
     check_distinct,
+    check_lengths,
     check_output,
+    make_work_folder,
     replacing,
     temporary_folder,
 )
-from bare_earth.algorithms.core.temporary import remove_leftovers
+from bare_earth.algorithms.core.temporary import remove, remove_leftovers, shown
+from bare_earth.algorithms.engine.manifest import names_beside
 
 
 def test_the_target_appears_only_at_the_end(tmp_path):
@@ -66,11 +73,11 @@ def test_a_missing_folder_a_folder_and_the_input_itself_are_refused(tmp_path):
 def left_by(tmp_path):
     """Return the name of what a process that was killed leaves beside a target."""
     with replacing(tmp_path / "a.las") as temporary:
-        computer, _, rest = temporary.name.rpartition(f"-{os.getpid()}-")
+        start, computer, rest = temporary.name[:2], temporary.name[2:6], temporary.name[6:9]
     (tmp_path / "a.las").unlink()
 
     def name(process, computer=computer):
-        return f"{computer}-{process}-{rest}"
+        return f"{start}{computer}{rest}{np.base_repr(process, 36).lower()}.las"
 
     return name
 
@@ -108,7 +115,7 @@ def test_what_another_run_writes_right_now_is_left_alone(tmp_path, left_by):
     code = "import sys; print(flush=True); sys.stdin.read()"
     with subprocess.Popen([sys.executable, "-c", code], stdin=-1, stdout=-1) as other:
         other.stdout.readline()
-        theirs, far = left_by(other.pid), left_by(1, ".elsewhere")
+        theirs, far = left_by(other.pid), left_by(1, "else")
         for each in (theirs, far):
             (tmp_path / each).write_text("half")
         with replacing(tmp_path / "mine.las") as mine:
@@ -130,17 +137,16 @@ def test_no_name_of_a_temporary_file_tells_the_next(tmp_path):
     secret = []
     for _ in range(100):
         with replacing(tmp_path / "a.las") as temporary:
-            rest = temporary.name.rpartition(f"-{os.getpid()}-")[2]
-            secret.append(rest.removesuffix(".part.a.las"))
-    # Sixteen digits, in each of whose places many different ones stand.
-    assert all(len(set(place)) > 8 for place in zip(*secret)) and len(secret[0]) == 16
+            secret.append(temporary.name[6:9])
+    # In each of the three places many different characters stand.
+    assert all(len(set(place)) > 8 for place in zip(*secret))
 
 
 def test_a_link_at_the_temporary_name_is_not_followed(tmp_path, monkeypatch):
     precious = tmp_path / "precious"
     precious.write_text("data")
-    tokens = iter(["known", "known", "known", "another"])
-    monkeypatch.setattr(secrets, "token_hex", lambda count: next(tokens))
+    tokens = iter([1, 1, 1, 2])
+    monkeypatch.setattr(secrets, "randbelow", lambda count: next(tokens))
     with replacing(tmp_path / "a.las") as temporary:
         foreseen = temporary
     foreseen.symlink_to(precious)
@@ -269,20 +275,155 @@ def test_messages_are_one_line_without_what_steers_a_terminal():
     assert str(pickle.loads(pickle.dumps(error))) == str(error)
 
 
-@pytest.mark.parametrize(("number", "exists"), [(5, True), (32, True), (5, False)])
-def test_windows_says_that_a_layer_has_the_file_open(number, exists, tmp_path, monkeypatch):
+@pytest.mark.parametrize("number", [5, 32])
+def test_an_output_that_a_program_has_open_is_refused_before_any_work(number, windows, tmp_path):
     target = tmp_path / "dtm.tif"
-    if exists:
-        target.write_text("old")
+    target.write_text("old")
+    windows.hold(target, number)
+    with pytest.raises(OutputInUse, match=r"dtm\.tif: another program uses it, or QGIS shows it"):
+        check_output(target)
+    target.chmod(0o444)
+    with pytest.raises(OutputInUse, match=r"dtm\.tif: it is read-only\."):
+        check_output(target)
+    assert os.listdir(tmp_path) == ["dtm.tif"]
 
-    def denied(*_):
-        error = PermissionError(errno.EACCES, "Access is denied")
-        error.winerror = number
-        raise error
 
-    monkeypatch.setattr(os, "replace", denied)
-    with pytest.raises(BareEarthError) as told, replacing(target) as temporary:
+def test_what_was_made_is_kept_where_a_program_has_an_old_output_open_at_the_end(windows, tmp_path):
+    names = ["dtm.tif", "dsm.tif", "lines.shp", "lines.dbf", "lines.shx", "dtm.tif.aux.xml"]
+    for each in [*names, "dsm-new.tif"]:
+        (tmp_path / each).write_text("old")
+    windows.hold(tmp_path / "lines.dbf")
+    with pytest.raises(OutputInUse) as told, Outputs() as outputs:
+        outputs.file(tmp_path / "dtm.tif", ["dtm.tif.aux.xml"]).write_text("new")
+        outputs.file(tmp_path / "dsm.tif").write_text("new")
+        lines = outputs.files(tmp_path / "lines.shp", ["lines.dbf", "lines.shx"])
+        for ending in (".shp", ".dbf"):
+            lines.with_suffix(ending).write_text("new")
+    # Nothing is half new.
+    assert all((tmp_path / each).read_text() == "old" for each in names)
+    kept = ["dtm-new.tif", "dsm-new2.tif", "lines-new.dbf", "lines-new.shp"]
+    assert all((tmp_path / each).read_text() == "new" for each in kept)
+    assert "Cannot write" in str(told.value) and "lines.dbf: another program uses" in str(
+        told.value
+    )
+    assert all(str(tmp_path / each) in str(told.value) for each in kept)
+    assert len(os.listdir(tmp_path)) == len([*names, *kept, "dsm-new.tif"])
+
+
+def test_outputs_get_their_names_together_and_what_they_outdate_goes(tmp_path):
+    for each in ("dtm.tif", "dtm.tif.aux.xml", "lines.shp", "lines.qix"):
+        (tmp_path / each).write_text("old")
+    with Outputs() as outputs:
+        outputs.file(tmp_path / "dtm.tif", ["dtm.tif.aux.xml"]).write_text("new")
+        lines = outputs.files(tmp_path / "lines.shp", ["lines.dbf", "lines.qix"])
+        for ending in (".shp", ".dbf"):
+            lines.with_suffix(ending).write_text("new")
+        assert (tmp_path / "dtm.tif").read_text() == "old"
+    assert sorted(os.listdir(tmp_path)) == ["dtm.tif", "lines.dbf", "lines.shp"]
+    assert all(each.read_text() == "new" for each in tmp_path.iterdir())
+
+
+def test_a_virus_scanner_that_has_files_open_for_a_moment_is_waited_for(windows, tmp_path):
+    target = tmp_path / "dtm.tif"
+    target.write_text("old")
+    windows.hold(target, 5, tries=3)
+    with replacing(target) as temporary:
         temporary.write_text("new")
-    assert ("QGIS shows it as a layer" in str(told.value)) == exists
-    assert ("no permission" in str(told.value)) != exists
-    assert [each.read_text() for each in tmp_path.iterdir()] == ["old"] * exists
+        windows.hold(temporary, 32, tries=3)
+    assert target.read_text() == "new" and windows.tries == 6
+    (tmp_path / "folder" / "within").mkdir(parents=True)
+    (tmp_path / "folder" / "within" / "a.las").write_text("points")
+    windows.hold(target, 32, tries=3)
+    remove(target)
+    remove(tmp_path / "folder")
+    assert not os.listdir(tmp_path) and windows.tries == 9
+
+
+def test_a_rename_that_failed_does_not_count_where_a_disk_numbers_no_files(tmp_path, monkeypatch):
+    target, stat = tmp_path / "a.las", os.stat
+    target.write_text("old")
+
+    def unnumbered(path, **named):
+        values = list(stat(path, **named))
+        values[1] = 0
+        return os.stat_result(values)
+
+    def refuse(*_):
+        raise OSError(errno.EIO, os.strerror(errno.EIO))
+
+    monkeypatch.setattr(os, "stat", unnumbered)
+    monkeypatch.setattr(os, "replace", refuse)
+    with pytest.raises(BareEarthError, match="Cannot write"), replacing(target) as temporary:
+        temporary.write_text("new")
+    assert target.read_text() == "old"
+
+
+def test_names_of_temporary_files_are_short_and_none_is_within_another(tmp_path):
+    target = tmp_path / f"{'long' * 20}.copc.laz"
+    with temporary_folder(tmp_path) as work, temporary_folder(work / "below") as other:
+        assert other.parent == work.parent == tmp_path
+        with replacing(work / target.name) as temporary, replacing(temporary) as again:
+            assert temporary.parent == again.parent == work
+            lengths = [len(path.name) for path in (work, other, temporary, again)]
+            assert max(lengths) <= 14 + len(".copc.laz") and again.name.endswith(".copc.laz")
+            # Users read the names that they know.
+            text = f"Cannot write {again}: it is full."
+            assert shown(text) == f"Cannot write {tmp_path / target.name}: it is full."
+
+
+def test_a_path_that_becomes_too_long_is_refused_before_any_work(tmp_path, monkeypatch):
+    make = os.open
+
+    def of_windows(path, *arguments, **named):
+        if len(os.path.abspath(path)) > 259:
+            raise FileNotFoundError(errno.ENOENT, "The system cannot find the path", str(path))
+        return make(path, *arguments, **named)
+
+    monkeypatch.setattr(os, "open", of_windows)
+    folder = tmp_path / ("f" * (224 - len(str(tmp_path))))
+    folder.mkdir()
+    check_output(folder / "a.las")
+    check_lengths(folder, names_beside("a.las"))
+    with pytest.raises(BareEarthError, match="its path is too long"):
+        check_output(folder / f"{'a' * 20}.las")
+    with pytest.raises(BareEarthError, match="its path is too long"):
+        check_lengths(folder / "new", names_beside("a.las"))
+    assert not os.listdir(folder)
+
+
+def test_work_folders_are_no_links(tmp_path):
+    (tmp_path / "precious").mkdir()
+    (tmp_path / ".bare-earth").symlink_to(tmp_path / "precious", target_is_directory=True)
+    with pytest.raises(BareEarthError, match=r"\.bare-earth is a link to another folder"):
+        make_work_folder(tmp_path / ".bare-earth")
+    make_work_folder(tmp_path / "new")
+    make_work_folder(tmp_path / "new")
+    assert (tmp_path / "new").is_dir()
+
+
+@pytest.mark.parametrize("number", [5, 32])
+def test_folders_are_exchanged_as_a_whole_or_not_at_all(number, windows, tmp_path, monkeypatch):
+    new, old, aside = (tmp_path / name for name in ("new", "old", "aside"))
+    for folder in (new, old, aside):
+        folder.mkdir()
+    for folder, names in ((new, "abc"), (old, "bcd")):
+        for name in names:
+            (folder / name).write_text(folder.name)
+    moves, outdated = [(new / name, old / name) for name in "abc"], [old / "d"]
+    windows.hold(old / "c", number)
+    with pytest.raises(OutputInUse):
+        exchange(moves, outdated, aside)
+    windows.in_use.clear()
+    # Seen only in the middle.
+    windows.hold(old / "d", number)
+    with monkeypatch.context() as patch:
+        patch.setattr(exchange_module, "check_free", lambda path: None)
+        with pytest.raises(BareEarthError):
+            exchange(moves, outdated, aside)
+    assert {each.name: each.read_text() for each in old.iterdir()} == dict.fromkeys("bcd", "old")
+    assert {each.name: each.read_text() for each in new.iterdir()} == dict.fromkeys("abc", "new")
+    windows.in_use.clear()
+    for each in aside.iterdir():
+        each.unlink()
+    exchange(moves, outdated, aside)
+    assert {each.name: each.read_text() for each in old.iterdir()} == dict.fromkeys("abc", "new")

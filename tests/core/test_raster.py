@@ -1,14 +1,17 @@
+import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.points import Frame, Points
 from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.rasters import writing
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
 from bare_earth.algorithms.rasters.writing import Rows, write_geotiff
 
@@ -154,6 +157,30 @@ def test_cells_that_find_no_room_to_wait_on_disk_are_told_before_any_is_made(tmp
         write_geotiff(target, rows, grid, 255, SILENT, "classes")
     assert asked == [tmp_path] and target.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [target]
+
+
+def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_path, monkeypatch):
+    remove, removed = os.unlink, []
+
+    def unlink(path, **named):
+        # Windows removes no file that is open.
+        files = Path("/proc/self/fd").iterdir() if Path("/proc/self/fd").exists() else ()
+        assert str(path) not in [os.path.realpath(each) for each in files]
+        removed.append(Path(path).name)
+        remove(path, **named)
+
+    def strips():
+        yield np.zeros((4, 9), np.uint8)
+        raise Cancelled
+
+    monkeypatch.setattr(writing, "_MOST_IN_MEMORY", 10)
+    monkeypatch.setattr(os, "unlink", unlink)
+    grid = RasterGrid(0.0, 9.0, 1.0, 9, 9, Frame())
+    with pytest.raises(Cancelled):
+        write_geotiff(
+            tmp_path / "a.tif", Rows((9, 9), "uint8", strips()), grid, 255, SILENT, "classes"
+        )
+    assert [each for each in removed if each.endswith(".cells.tif")] and not os.listdir(tmp_path)
 
 
 def test_a_crs_that_geotiff_cannot_hold_is_left_out_with_a_warning_and_no_side_car(tmp_path):

@@ -1,6 +1,5 @@
 """The rasters of a survey are those of one triangulation, however it is cut into blocks."""
 
-import contextlib
 import dataclasses
 import json
 import os
@@ -13,6 +12,7 @@ from surveys import cloud_of, cut, strip, write
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.core.files import Outputs
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.memory import Resources
@@ -52,7 +52,7 @@ def _made(cloud, folder, max_edge=None, files=("dtm",), cell=2.5, shown=True):
     files_of = [(cloud, every, every, every)]
     store = memory_store(files_of, survey_frame(cloud.crs), step.blocks)
     made = step.work(store, Resources(), SILENT)
-    with contextlib.ExitStack() as outputs:
+    with Outputs() as outputs:
         write_rasters(made, survey_frame(cloud.crs), step, outputs)
     with rasterio.open(next(iter(files.wanted.values()))) as raster:
         values = raster.read(1, masked=True).filled(np.nan)

@@ -108,7 +108,9 @@ def test_a_helping_thread_ends_where_another_computation_needs_its_place():
     other = threading.Thread(target=compute)
     with shared.used():
         in_threads(work, range(100))
-        assert len(set(helped)) == 2 and set(since) == {threading.get_ident()}
+        # It may have begun one more.
+        others = [each for each in since if each != threading.get_ident()]
+        assert len(set(helped)) == 2 and len(others) <= 1 < len(since)
         ended.set()
         other.join()
     assert shared.free == 2

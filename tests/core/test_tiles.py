@@ -12,7 +12,7 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
-from runs import classify_file, classify_tiles, environment, memory_store
+from runs import classify_file, classify_tiles, environment, memory_store, temporary_in
 from surveys import (
     CountingJob,
     DeadlyJob,
@@ -422,12 +422,12 @@ def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
     assert 1 <= len(done) < 16
     if number == signal.SIGTERM:
         assert run.returncode == 1 and "Continue with --resume" in said
-        assert not [path for path in out.rglob("*") if ".part." in path.name]
+        assert not temporary_in(out)
     for path in finished(out):
         laspy.read(path)
     summary = classify_tiles([folder], out, FAST, output=RESUME)
     assert summary.done_count == 16
-    assert not [path for path in out.rglob("*") if ".part." in path.name]
+    assert not temporary_in(out)
     kept = [name for name in done if changed_times(out)[name] == done[name]]
     # At most the last ones were there without their record.
     assert len(kept) == summary.kept_count >= len(done) - 2
@@ -516,7 +516,7 @@ def test_a_process_that_dies_loses_nothing(threads, many, out):
     summary = classify_tiles([folder], out, FAST, progress=Killer(), workers=workers)
     assert killed and not summary.failures and summary.done_count == 16
     assert bytes_of(out) == expected
-    assert not [path for path in out.rglob("*") if ".part." in path.name]
+    assert not temporary_in(out)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
@@ -599,14 +599,14 @@ def test_a_cancel_is_heard_and_finished_tiles_stay(kind, many, out):
         classify_tiles([folder], out, FAST, progress=progress, workers=kind(Resources(threads=2)))
     done = bytes_of(out)
     assert 1 <= len(done) < 16
-    assert not [path for path in out.rglob("*") if ".part." in path.name]
+    assert not temporary_in(out)
     summary = classify_tiles([folder], out, FAST, output=RESUME)
     assert summary.done_count == 16 and summary.kept_count >= 1
     assert bytes_of(out) == expected
 
 
 def test_blocks_labelled_before_a_cancel_are_not_labelled_again(many, out):
-    labels, run = out / ".bare-earth" / "labels", dict(blocks=Blocks(50.0, 10.0), output=RESUME)
+    labels, run = out / ".bare-earth" / "work", dict(blocks=Blocks(50.0, 10.0), output=RESUME)
     one = Threads(Resources(threads=1))
 
     class Watcher(Progress):

@@ -105,7 +105,7 @@ def test_a_cancel_leaves_old_files_and_nothing_else(name, registry, inputs, tmp_
         return algorithm.run(given, context, log)[0], old
 
     whole, begun = Log(), time.monotonic()
-    assert run(whole)[0] and ".part." not in whole.text
+    assert run(whole)[0] and ".~" not in whole.text
     duration = time.monotonic() - begun
     moments = sorted({each for each in whole.moments if each < 100})
     cancelled = 0
@@ -127,7 +127,7 @@ def test_a_cancel_leaves_old_files_and_nothing_else(name, registry, inputs, tmp_
         now = {path: Path(path).read_bytes() for path in old}
         if results:  # the end came first
             assert all(each != b"old" for each in now.values())
-            assert ".part." not in log.text
+            assert ".~" not in log.text
             continue
         cancelled += 1
         assert "Cancelled" in log.text

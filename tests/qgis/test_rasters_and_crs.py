@@ -1,5 +1,9 @@
 """Fields for the CRS of the points, and for the grid and the extent of rasters."""
 
+import os
+from pathlib import Path
+
+import numpy as np
 import pytest
 from qgis.core import (
     QgsCoordinateReferenceSystem,
@@ -13,6 +17,12 @@ from qgis.core import (
 from support import ALGORITHM, write_scene
 
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import Cancelled
+from bare_earth.algorithms.core.points import Frame
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.rasters import writing
+from bare_earth.algorithms.rasters.geotiff import RasterGrid
+from bare_earth.algorithms.rasters.writing import Rows
 
 UTM = QgsCoordinateReferenceSystem("EPSG:25832")
 FEET = "EPSG:2230"
@@ -183,3 +193,24 @@ def test_layers_get_the_crs_that_is_chosen(feet, tmp_path, context):
     layers = list(project.mapLayers().values())
     assert len(layers) == 2
     assert {layer.crs().authid() for layer in layers} == {FEET}
+
+
+def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_path, monkeypatch):
+    remove, removed = os.unlink, []
+
+    def unlink(path, **named):
+        # Windows removes no file that is open.
+        assert str(path) not in [os.path.realpath(each) for each in Path("/proc/self/fd").iterdir()]
+        removed.append(Path(path).name)
+        remove(path, **named)
+
+    def strips():
+        yield np.zeros((4, 9), np.uint8)
+        raise Cancelled
+
+    monkeypatch.setattr(writing, "_MOST_IN_MEMORY", 10)
+    monkeypatch.setattr(os, "unlink", unlink)
+    grid, rows = RasterGrid(0.0, 9.0, 1.0, 9, 9, Frame()), Rows((9, 9), "uint8", strips())
+    with pytest.raises(Cancelled):
+        writing.write_geotiff(tmp_path / "a.tif", rows, grid, 255, SILENT, "classes")
+    assert [each for each in removed if each.endswith(".cells.tif")] and not os.listdir(tmp_path)

@@ -1,0 +1,45 @@
+"""Temporary files without a name, for data that wait on disk."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+from pathlib import Path
+from typing import BinaryIO, Iterator
+
+
+@contextlib.contextmanager
+def unnamed_file(folder: Path) -> Iterator[BinaryIO]:
+    """Yield a temporary file without a name. It disappears when the block or the process ends.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder on whose disk the data are stored.
+    """
+    with contextlib.ExitStack() as opened:
+        file = opened.enter_context(tempfile.TemporaryFile(dir=folder))
+        opened.callback(_close, file)
+        yield file
+
+
+def _close(file: BinaryIO) -> None:
+    """Close a file that is no longer needed; ignore errors, such as those of a full disk."""
+    with contextlib.suppress(OSError):
+        file.close()
+
+
+def reach_disk(file: BinaryIO) -> None:
+    """Hand what was written to the disk, before it is read again.
+
+    A full network disk may report an error only when a file is closed. Until then, reading the
+    file can return wrong data. A local disk reports the error at once, so this costs nothing there.
+
+    Raises
+    ------
+    OSError
+        If the disk does not accept the data.
+    """
+    file.flush()
+    os.close(os.dup(file.fileno()))
