@@ -7,6 +7,7 @@ import shutil
 import sys
 from pathlib import Path
 
+from ...algorithms.core.temporary import patiently, remove
 from .build import Build
 
 # Only in the zip (see tools/package.py), not in a clone of the repository.
@@ -25,14 +26,15 @@ def profile_folder(profile: Path) -> Path:
 def add_to_path(folder: Path) -> None:
     """Let Python find the packages of a folder, after the packages of QGIS."""
     if (folder / _REMOVED).exists():
-        shutil.rmtree(folder, ignore_errors=True)
+        remove(folder)
     elif folder.is_dir() and str(folder) not in sys.path:
         sys.path.append(str(folder))
     importlib.invalidate_caches()
 
 
-def take_from_path(folder: Path) -> None:
-    """Let Python forget the packages of a folder, including imported ones."""
+def take_from_path(folder: Path) -> bool:
+    """Let Python forget the packages of a folder; return whether any was imported."""
+    count = len(sys.modules)
     sys.path[:] = [each for each in sys.path if each != str(folder)]
     inside = f"{folder}/".replace("\\", "/")
     for name, module in list(sys.modules.items()):
@@ -40,6 +42,7 @@ def take_from_path(folder: Path) -> None:
         if file.replace("\\", "/").startswith(inside):
             del sys.modules[name]
     importlib.invalidate_caches()
+    return len(sys.modules) < count
 
 
 def replace(folder: Path, new: Path) -> bool:
@@ -53,7 +56,7 @@ def replace(folder: Path, new: Path) -> bool:
     if not delete(folder):
         return False
     folder.parent.mkdir(parents=True, exist_ok=True)
-    new.replace(folder)
+    patiently(new.replace, folder)
     return True
 
 
@@ -65,8 +68,10 @@ def delete(folder: Path) -> bool:
     bool
         Whether it was deleted.
     """
-    take_from_path(folder)
-    shutil.rmtree(folder, ignore_errors=True)
+    if take_from_path(folder):  # Windows keeps what is loaded, there is nothing to wait for
+        shutil.rmtree(folder, ignore_errors=True)
+    else:
+        remove(folder)
     if folder.exists():
         (folder / _REMOVED).touch()
     return not folder.exists()
@@ -77,5 +82,8 @@ def remove_if_uninstalled(plugin: Path, profile: Path) -> None:
 
     QGIS does not say whether it unloads a plugin to update or to uninstall it.
     """
-    if not plugin.exists():
-        shutil.rmtree(profile / _HOME, ignore_errors=True)
+    if plugin.exists():
+        return
+    # Marked one by one, since a plugin that is installed again must not use what is left of them.
+    if all([delete(each) for each in (profile / _HOME / "packages").glob("*")]):
+        remove(profile / _HOME)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
-import tempfile
 from pathlib import Path
 from typing import Callable
 
 from ...algorithms.core.errors import BareEarthError
+from ...algorithms.core.files import temporary_folder
 from ..i18n import tr
 from . import folders, pip, wheels
 from .build import Build
@@ -32,7 +32,9 @@ class LazSupport:
     @property
     def is_there(self) -> bool:
         """Whether any lazrs is installed, so that .laz files can be read."""
-        return importlib.util.find_spec(PACKAGE) is not None
+        spec = importlib.util.find_spec(PACKAGE)
+        # Without origin it is a folder without a package, as of one that is removed only in part.
+        return spec is not None and spec.origin is not None
 
     @property
     def is_ours(self) -> bool:
@@ -94,8 +96,8 @@ class LazSupport:
         """Let `put` fill a new folder, replace the present one by it, and import lazrs."""
         try:
             self.folder.parent.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryDirectory(dir=self.folder.parent) as name:
-                new, scratch = Path(name, "new"), Path(name, "scratch")
+            with temporary_folder(self.folder.parent) as folder:
+                new, scratch = folder / "new", folder / "scratch"
                 new.mkdir()
                 put(new, scratch)
                 if not folders.replace(self.folder, new):

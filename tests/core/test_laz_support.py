@@ -174,6 +174,38 @@ def test_what_windows_still_holds_goes_at_the_next_start(support, tmp_path, monk
     assert not support.is_there and not left(support)
 
 
+def test_a_plugin_that_is_installed_again_uses_nothing_that_windows_still_holds(
+    support, tmp_path, monkeypatch
+):
+    wheel = make_wheel(tmp_path / "a.whl", {f"{PACKAGE}/__init__.py": "", f"{PACKAGE}/a.pyd": ""})
+    support.get_from_wheel(wheel)
+    importlib.import_module(PACKAGE)
+    delete = shutil.rmtree
+
+    def all_but_what_is_loaded(path, *rest, **words):
+        if Path(path) != support.folder and Path(path) not in support.folder.parents:
+            delete(path, *rest, **words)
+        for each in Path(path).rglob("*"):
+            if each.is_file() and each.suffix != ".pyd":
+                each.unlink()
+
+    with monkeypatch.context() as held:
+        held.setattr(shutil, "rmtree", all_but_what_is_loaded)
+        folders.remove_if_uninstalled(tmp_path / "plugin", tmp_path / "profile")
+        again = LazSupport(tmp_path / "profile")
+        again.use()
+        assert not again.is_there and "Not installed" in again.state
+        # What is left of a package is none.
+        with monkeypatch.context() as added:
+            added.syspath_prepend(support.folder)
+            assert importlib.util.find_spec(PACKAGE) and not again.is_there
+        with pytest.raises(BareEarthError, match="restart QGIS and try again"):
+            again.get_from_wheel(wheel)
+    LazSupport(tmp_path / "profile").use()
+    again.get_from_wheel(wheel)
+    assert again.is_ours
+
+
 @pytest.mark.parametrize(
     ("words", "changed"),
     [
