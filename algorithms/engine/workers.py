@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
+import sys
 import threading
 import time
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
@@ -52,6 +53,8 @@ class Workers:
     """
 
     are_local = True
+    # How many jobs can run at the same time at most.
+    most: int | None = None
 
     def __init__(self, resources: Resources = Resources()) -> None:
         self.resources = resources
@@ -70,7 +73,8 @@ class Workers:
             Numbers of blocks and tiles to do.
         """
         threads, memory = self.resources.thread_count, self.resources.bytes
-        self.at_once = int(max(1, min(threads, memory // max(least, 1), max(blocks, tiles))))
+        most = min(threads, self.most or threads)
+        self.at_once = int(max(1, min(most, memory // max(least, 1), max(blocks, tiles))))
         # If there are few blocks, each can use the threads that would be idle.
         together = max(1, min(self.at_once, blocks))
         self.share = Resources.of(max(1, threads // together), memory // self.at_once)
@@ -122,6 +126,9 @@ class Threads(Workers):
 
 class Processes(Workers):
     """Processes of this computer, started by "spawn", since a fork of threads may hang."""
+
+    # Windows cannot wait for more.
+    most = 61 if sys.platform == "win32" else None
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Prepare for jobs."""

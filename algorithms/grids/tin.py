@@ -213,7 +213,11 @@ def _strips(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     Quantiles, not equal widths: one stray point far away must not put all others into one strip.
     """
     count = max(int(np.sqrt(len(x) / 2)), 1)
-    edges = np.sort(x)[(np.arange(1, count) * len(x)) // count] if count > 1 else np.empty(0)
+    edges = (
+        np.sort(x)[(np.arange(1, count, dtype=np.int64) * len(x)) // count]
+        if count > 1
+        else np.empty(0)
+    )
     return np.searchsorted(edges, x, side="right"), edges
 
 

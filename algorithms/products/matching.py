@@ -186,7 +186,7 @@ def _edges(columns: Sequence[np.ndarray]) -> np.ndarray:
     most = max(columns, key=len)
     count = max(-(-len(most) // _STRIP), 1)
     inner = np.sort(most[:: max(len(most) // 100_000, 1)])
-    inner = inner[np.arange(1, count) * len(inner) // count]
+    inner = inner[np.arange(1, count, dtype=np.int64) * len(inner) // count]
     ends = np.iinfo(np.int64)
     return np.unique([ends.min, *inner.tolist(), ends.max])
 

@@ -45,7 +45,7 @@ class RepeatedPoints:
         self.shared = self.duplicates = 0
         # Coordinates are compared in the smallest unit of all files.
         self._unit = tuple(min(tile.scale[axis] for tile in tiles) for axis in range(3))
-        self._starts = np.cumsum([0, *(tile.count for tile in tiles)])
+        self._starts = np.cumsum([0, *(tile.count for tile in tiles)], dtype=np.int64)
         total = int(self._starts[-1])
         self._keys = array("keys", (max(total, 1),), "u8")[:total]
         self._is_repeated = array("repeated", (max(total, 1),), "?")[:total]

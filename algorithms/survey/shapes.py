@@ -171,7 +171,9 @@ def _in_crs(shapes: Shapes, place: Place, progress: Progress) -> tuple[Any, ...]
     if is_guess:
         named += ", as its numbers say"
     progress.info(f"{shapes.source} is transformed to the CRS of the points from {named}.")
-    places = iter(np.split(moved, np.cumsum([len(each) for each in _parts(shapes)])))
+    places = iter(
+        np.split(moved, np.cumsum([len(each) for each in _parts(shapes)], dtype=np.int64))
+    )
     return tuple(_moved(each, places) for each in shapes)
 
 

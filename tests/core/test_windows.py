@@ -1,0 +1,73 @@
+"""What differs on Windows and macOS, as far as it can be seen on any system."""
+
+import ast
+import ctypes
+import os
+import re
+from types import SimpleNamespace
+
+import pytest
+from shipped import SHIPPED
+
+from bare_earth.algorithms.core import commands
+from bare_earth.algorithms.core.commands import shell_line
+from bare_earth.algorithms.engine import memory
+from bare_earth.algorithms.engine.memory import Resources, free_memory
+from bare_earth.algorithms.engine.workers import Processes
+
+_NARROW = re.compile(r"np\.arange\([^=]*\) \* len\(.*\)|np\.cumsum\(\[[^=]*\]\)")
+
+
+def test_a_mac_counts_free_pages_and_those_that_were_not_used_lately(monkeypatch):
+    class System:
+        class mach_host_self:
+            def __new__(cls):
+                return 7
+
+        @staticmethod
+        def host_statistics64(host, flavour, pages, count):
+            assert (host, flavour, count._obj.value) == (7, 4, 38)
+            pages[0], pages[1], pages[2] = 1 << 20, 1 << 21, 1 << 19
+            return 0
+
+    monkeypatch.setattr(memory.sys, "platform", "darwin")
+    monkeypatch.setattr(ctypes, "CDLL", lambda name: System)
+    monkeypatch.setattr(memory, "_CGROUP", memory._CGROUP / "none")
+    assert free_memory() == (3 << 19) * os.sysconf("SC_PAGE_SIZE")
+    monkeypatch.setattr(System, "host_statistics64", lambda *_: 5)
+    assert free_memory() == 4 << 30
+
+
+def test_windows_gets_no_more_processes_than_it_can_wait_for(monkeypatch, tmp_path):
+    monkeypatch.setattr(Processes, "most", 61)
+    workers = Processes(Resources(threads=200, memory=100.0))
+    workers.start(tmp_path, 1, 500, 500)
+    workers.stop()
+    assert workers.at_once == 61 and workers.share.thread_count == 3
+
+
+@pytest.mark.parametrize(
+    ("word", "shown"),
+    [
+        (r"C:\data\dtm-1_0.tif", r"C:\data\dtm-1_0.tif"),
+        ("--crs=25832", "--crs=25832"),
+        (r"C:\my data\a.laz", r'"C:\my data\a.laz"'),
+        (r"C:\my data\\", r'"C:\my data\\\\"'),
+        ("R&D(1)^2;a,b.laz", '"R&D(1)^2;a,b.laz"'),
+        ("", '""'),
+    ],
+)
+def test_words_of_commands_are_quoted_for_windows(monkeypatch, word, shown):
+    monkeypatch.setattr(commands, "os", SimpleNamespace(name="nt"))
+    assert shell_line(["bare-earth", word]) == f"bare-earth {shown}"
+
+
+def test_products_and_sums_of_many_have_64_bits():
+    # Before numpy 2, integers have 32 bits on Windows where nothing else is said.
+    wrong = [
+        f"{path}:{node.lineno}"
+        for path in SHIPPED
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.expr) and _NARROW.fullmatch(ast.unparse(node))
+    ]
+    assert not wrong
