@@ -92,9 +92,9 @@ def test_a_helping_thread_ends_where_another_computation_needs_its_place():
     both, begun, ended = threading.Barrier(2), threading.Event(), threading.Event()
 
     def work(item):
+        (since if begun.is_set() else helped).append(threading.get_ident())
         if item < 2:
             both.wait(20.0)
-        (since if begun.is_set() else helped).append(threading.get_ident())
         if item == 2:
             other.start()
         if item >= 2:
