@@ -9,7 +9,7 @@ spread as a measure of quality, are those of r.hydro.flatten of GRASS.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Iterator, NamedTuple
+from typing import Callable, Iterator, NamedTuple
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from .constraints import STATION
 from .water_bridges import below_decks, beside_decks
 from .water_grid import WaterGrid
 from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
+from .water_steps import parts_of_step
 
 # Radius in cells of the disc that closes single stray cells, and of that which cuts thin links.
 _CLOSE, _OPEN = 1.5, 1.5
@@ -47,6 +48,10 @@ _ABOVE, _MOST_ABOVE = 2.0, 0.05
 _MOST_OFF = 0.5
 # Share of class 9 among the points from which a region needs no rising shore.
 _CLASSIFIED = 0.5
+# A part of water beyond a step of its level has at least this share of the smallest area.
+_LEAST_PART = 0.1
+# Most certainty where a part of the shore is not explained by the level.
+_MOST_MISFITTING = 0.7
 # Least certainty of each grade.
 GRADES = ((0.75, "certain"), (0.5, "likely"), (0.0, "doubtful"))
 
@@ -131,17 +136,35 @@ class WaterBody(NamedTuple):
 
 
 class _Region(NamedTuple):
-    """Connected cells, with a margin; `below` are those of them below decks of bridges."""
+    """Connected cells, with a margin; `below` are those of them below decks of bridges.
+
+    `other` are the cells of water with another level, and those beside it.
+    """
 
     water: np.ndarray
     below: np.ndarray
     rows: slice
     columns: slice
+    other: np.ndarray | None = None
 
     @property
     def open(self) -> np.ndarray:
         """The cells that the laser sees."""
         return self.water & ~self.below
+
+
+class _Marks(NamedTuple):
+    """What tells the level of a region.
+
+    `share` is its share of class 9, `rising` that of its shore from which the land rises.
+    """
+
+    shore: Shore
+    share: float
+    rising: float
+
+
+_Measure = Callable[[_Region, WaterGrid], "_Marks | None"]
 
 
 def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list[WaterBody]:
@@ -216,26 +239,65 @@ def _bodies_of(
     """Yield a region as water; if it is something else, its parts of class 9."""
     window = region.rows, region.columns
     is_class = region.water & grid.class_in(*window)
-    share = float(is_class[region.open].mean())
-    if share < _CLASSIFIED:
-        hidden = beside_decks(grid, *window)
-        shore = shore_of(region.water, grid.ground[window], grid.cell, hidden)
-        rising = _rising(shore)
-        body = None
-        if shore is not None and shore.known >= _LEAST_KNOWN and rising >= _LEAST_RISING:
-            body = _body_of(region, shore, (share, rising), grid, usual, how)
-        if body is not None:
-            yield body
+    if is_class[region.open].mean() < _CLASSIFIED:
+        bodies = _parts_of(region, _by_shore, grid, usual, how)
+        if bodies:
+            yield from bodies
             return
     classified = closing(is_class, _CLOSE_CLASS) | region.below
     for cells in _labelled(classified, how.min_area / grid.cell**2):
         cells = _with_small_islands(cells, grid.cell)
-        part = _Region(cells, cells & region.below, *window)
-        shore = surface_of(cells & is_class, grid.lowest[window], grid.cell)
-        share = float(is_class[part.open].mean()) if part.open.any() else 0.0
-        body = _body_of(part, shore, (share, 1.0), grid, usual, how)
-        if body is not None:
-            yield body
+        part = region._replace(water=cells, below=cells & region.below)
+        yield from _parts_of(part, _by_class, grid, usual, how)
+
+
+def _by_shore(region: _Region, grid: WaterGrid) -> _Marks | None:
+    """Return what tells the level of a region with a shore; None if that is not one of water."""
+    window = region.rows, region.columns
+    hidden = beside_decks(grid, *window)
+    if region.other is not None:
+        hidden = region.other if hidden is None else hidden | region.other
+    shore = shore_of(region.water, grid.ground[window], grid.cell, hidden)
+    rising = _rising(shore)
+    if shore is None or shore.known < _LEAST_KNOWN or rising < _LEAST_RISING:
+        return None
+    return _Marks(shore, _share_of_class(region, grid), rising)
+
+
+def _by_class(region: _Region, grid: WaterGrid) -> _Marks:
+    """Return what tells the level of a region of class 9: its points."""
+    window = region.rows, region.columns
+    is_class = region.water & grid.class_in(*window)
+    shore = surface_of(is_class, grid.lowest[window], grid.cell)
+    return _Marks(shore, _share_of_class(region, grid), 1.0)
+
+
+def _share_of_class(region: _Region, grid: WaterGrid) -> float:
+    is_class = grid.class_in(region.rows, region.columns)[region.open]
+    return float(is_class.mean()) if len(is_class) else 0.0
+
+
+def _parts_of(
+    region: _Region, measured: _Measure, grid: WaterGrid, usual: np.ndarray, how: Water
+) -> list[WaterBody]:
+    """Return a region as water, or what it falls into at steps of its level."""
+    marks = measured(region, grid)
+    if marks is None or len(marks.shore.lowest) < _FEWEST:
+        return []
+    surface = _inner_returns(region.open, grid.lowest[region.rows, region.columns])
+    most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell) * (1.0 + (marks.share >= _CLASSIFIED))
+    kind, levels = _levels_of(region.water, marks.shore, surface, most)
+    if kind == "river":
+        parts = parts_of_step(region.water, levels, grid.ground[region.rows, region.columns])
+        bodies: list[WaterBody] = []
+        for cells, other in parts:
+            if np.count_nonzero(cells) * grid.cell**2 >= _LEAST_PART * how.min_area:
+                beside = other if region.other is None else other | region.other
+                part = region._replace(water=cells, below=region.below & cells, other=beside)
+                bodies += _parts_of(part, measured, grid, usual, how)
+        if bodies:
+            return bodies
+    return _body_of(region, marks, (kind, levels, surface), most, grid, usual, how)
 
 
 def _labelled(cells: np.ndarray, least: float) -> Iterator[np.ndarray]:
@@ -249,26 +311,21 @@ def _labelled(cells: np.ndarray, least: float) -> Iterator[np.ndarray]:
 
 
 def _body_of(
-    region: _Region, shore: Shore, marks: tuple[float, float], grid: WaterGrid, usual: np.ndarray,
-    how: Water,
-) -> WaterBody | None:  # fmt: skip
-    """Return a region as water, or None if its level is not that of water.
-
-    `marks` are its share of class 9, and that of the shore from which the land rises.
-    """
-    if len(shore.lowest) < _FEWEST:
-        return None
-    share, rising = marks
-    kind, levels = _levels_of(region.water, shore)
+    region: _Region, marks: _Marks, measured: tuple[str, Levels, np.ndarray], most: float,
+    grid: WaterGrid, usual: np.ndarray, how: Water,
+) -> list[WaterBody]:  # fmt: skip
+    """Return a region as water; nothing if its level is not that of water."""
+    kind, levels, surface = measured
     width = levels.width * grid.cell
-    most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell) * (1.0 + (share >= _CLASSIFIED))
     if levels.spread > most or width < (how.min_width if kind == "river" else 0.0):
-        return None
-    if not _is_free(region.open, grid.lowest[region.rows, region.columns], levels):
-        return None
+        return []
+    if not _is_free(surface, levels):
+        return []
     filled = _filled(region, grid, usual)
-    certainty = _certainty(max(1.0 - filled, share), levels.spread, rising)
-    return _made(kind, region, grid, levels, (certainty, share, filled, width))
+    certainty = _certainty(max(1.0 - filled, marks.share), levels.spread, marks.rising)
+    if levels.misfit > most:
+        certainty = min(certainty, _MOST_MISFITTING)
+    return [_made(kind, region, grid, levels, (certainty, marks.share, filled, width))]
 
 
 def _rising(shore: Shore | None) -> float:
@@ -279,26 +336,43 @@ def _rising(shore: Shore | None) -> float:
     return float((known > _RISE).mean()) if len(known) else 0.0
 
 
-def _levels_of(water: np.ndarray, shore: Shore) -> tuple[str, Levels]:
-    """Return the kind of water, and its level."""
-    flat, falling = lake_level(water, shore), river_level(water, shore)
-    if falling is None or falling.length < _ELONGATED * falling.width:
+def _levels_of(
+    water: np.ndarray, shore: Shore, surface: np.ndarray, most: float
+) -> tuple[str, Levels]:
+    """Return the kind of water, and its level; a shore is at most so far from it."""
+    flat, falling = lake_level(water, shore, surface), river_level(water, shore, surface)
+    if falling is None:
         return "lake", flat
-    fall = float(falling.heights[0] - falling.heights[-1])
-    if fall >= _FALL and falling.spread < _BETTER * flat.spread:
+    is_long = falling.length >= _ELONGATED * falling.width
+    fits = falling.spread < _BETTER * flat.spread
+    if not is_long:
+        # A river that flows into a wide lake is a small part of the shore.
+        fits = flat.misfit > most and falling.misfit < flat.misfit / 2.0
+    if fits and np.ptp(falling.heights) >= _FALL:
         return "river", falling
     # A long region with one level is a river that hardly falls, or a long lake: both are flat.
-    return "lake", flat._replace(width=falling.width)
+    return "lake", flat._replace(width=falling.width) if is_long else flat
 
 
-def _is_free(water: np.ndarray, lowest: np.ndarray, levels: Levels) -> bool:
-    """Return whether what lies in a region is at its level, away from its banks."""
+def _inner_returns(water: np.ndarray, lowest: np.ndarray) -> np.ndarray:
+    """Return row, column and height of the lowest returns in a region, away from its banks.
+
+    Cells without returns have the height NaN.
+    """
     inner = erosion(np.pad(water, 1).view(np.uint8), _BANK).view(bool)[1:-1, 1:-1]
-    places = np.argwhere(inner & np.isfinite(lowest))
-    if not len(places):
+    rows, columns = np.nonzero(inner)
+    heights = lowest[rows, columns].astype(np.float64)
+    heights[~np.isfinite(heights)] = np.nan
+    return np.column_stack((rows, columns, heights))
+
+
+def _is_free(inner: np.ndarray, levels: Levels) -> bool:
+    """Return whether what lies in a region is at its level, away from its banks."""
+    known = inner[~np.isnan(inner[:, 2])]
+    if not len(known):
         return True
-    off = lowest[tuple(places.T)] - levels.at(places)
-    above = np.count_nonzero(off > _ABOVE) / np.count_nonzero(inner)
+    off = known[:, 2] - levels.at(known[:, :2])
+    above = np.count_nonzero(off > _ABOVE) / len(inner)
     return bool(above <= _MOST_ABOVE and np.median(np.abs(off)) <= _MOST_OFF)
 
 
@@ -331,14 +405,13 @@ def _made(
         return np.column_stack((x, y, levels.at(places)))
 
     rings = rings_of(region.water)
-    lines: tuple[np.ndarray, ...] = ()
     if kind == "river":
         # The level also changes between the corners.
         rings = [_divided(each, STATION / grid.cell) for each in rings]
-        lines = (np.column_stack((placed(levels.line)[:, :2], levels.heights)),)
-    high, low = float(levels.heights[0]), float(levels.heights[-1])
+    lines = (np.column_stack((placed(each[:, :2])[:, :2], each[:, 2])) for each in levels.lines)
+    high, low = float(levels.heights.max()), float(levels.heights.min())
     return WaterBody(
-        kind, tuple(map(placed, rings)), lines, high, low, levels.spread,
+        kind, tuple(map(placed, rings)), tuple(lines), high, low, levels.spread,
         certainty, float(region.water.sum()) * grid.cell**2, width, share, filled,
     )  # fmt: skip
 

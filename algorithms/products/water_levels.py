@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+
+from ..grids.descent import descent
+from .water_reaches import Reaches, reaches_of
 
 # Cells round the water whose ground is its shore, and cells farther out that show whether the land
 # rises from it.
@@ -14,12 +17,13 @@ _SHORE, _BEYOND = 2, 6
 _SEGMENT, _SEGMENT_CELLS, _SEGMENTS = 20.0, 8.0, 12
 # Share of the shore that is below its level: banks are higher.
 LEVEL_PERCENTILE = 10.0
-# Most cells in which the way along a river is searched.
-_MOST_CELLS = 40_000
-# Stations that are left out from each end of a long line; four are as long as half the width.
-_ENDS = 3
 # Standard deviations in the distance between the 10th and the 90th percentile.
 _DEVIATIONS = 2.563
+# Segments that lie together, whose median must be near the level too.
+_TOGETHER = 7
+# Returns from the surface lie at most so far from the level of the shore, in metres. At least so
+# many decide the level, and so large a share of all returns inside.
+_SURFACE, _FEW_RETURNS, _MOST_RETURNS = 0.5, 8, 0.6
 
 
 class Shore(NamedTuple):
@@ -38,6 +42,8 @@ class Shore(NamedTuple):
         The ground of all cells of the shore.
     known : float
         Share of the cells of the shore that have ground.
+    side : int
+        Length of the segments in cells.
     percentile : float
         The level of a lake is this percentile of the heights.
     """
@@ -47,6 +53,7 @@ class Shore(NamedTuple):
     rises: np.ndarray
     heights: np.ndarray
     known: float
+    side: int
     percentile: float = LEVEL_PERCENTILE
 
 
@@ -55,31 +62,41 @@ class Levels(NamedTuple):
 
     Attributes
     ----------
-    line : numpy.ndarray of float64, shape (n, 2)
-        Row and column of stations down a river; one place for a lake.
     heights : numpy.ndarray of float64, shape (n,)
-        The level at the stations, which never rises.
+        The level at the reaches of a river; one level for a lake.
     spread : float
         Robust standard deviation in metres of the lowest ground of segments of the shore from it.
+    misfit : float
+        Largest distance in metres of the level from segments of the shore that lie together.
     width, length : float
         Mean width, and length along the middle, in cells.
+    reaches : Reaches or None
+        The reaches of a river; None for a lake.
+    chains : tuple of numpy.ndarray of int64
+        The reaches of each branch, downstream: the level never rises.
     """
 
-    line: np.ndarray
     heights: np.ndarray
     spread: float
+    misfit: float
     width: float
-    length: float
+    length: float = 0.0
+    reaches: Reaches | None = None
+    chains: tuple[np.ndarray, ...] = ()
 
     def at(self, places: np.ndarray) -> np.ndarray:
         """Return the level at rows and columns, shape (k, 2)."""
-        from scipy.spatial import cKDTree
-
-        if len(self.heights) == 1:
+        if self.reaches is None:
             return np.full(len(places), self.heights[0])
-        distance, nearest = cKDTree(self.line).query(places, min(2, len(self.line)))
-        weight = 1.0 / np.maximum(distance, 1e-6)
-        return (self.heights[nearest] * weight).sum(axis=1) / weight.sum(axis=1)
+        return self.reaches.between(self.heights, places)
+
+    @property
+    def lines(self) -> list[np.ndarray]:
+        """Row, column and level along the middle of each branch, downstream."""
+        if self.reaches is None:
+            return []
+        along = np.column_stack((self.reaches.places, self.heights))
+        return [along[chain] for chain in self.chains if len(chain) > 1]
 
 
 def shore_of(
@@ -123,7 +140,7 @@ def shore_of(
     beside = np.isin(squares, squares[away[rows, columns] == 1])
     places, lowest, _ = _segments(rows[beside], columns[beside], heights[beside], side)
     known = len(rows) / int(is_shore.sum())
-    return Shore(places, lowest, outer - median, heights, known)
+    return Shore(places, lowest, outer - median, heights, known, side)
 
 
 def surface_of(water: np.ndarray, heights: np.ndarray, cell: float) -> Shore:
@@ -140,8 +157,9 @@ def surface_of(water: np.ndarray, heights: np.ndarray, cell: float) -> Shore:
     """
     rows, columns = np.nonzero(water & np.isfinite(heights))
     heights = heights[rows, columns].astype(np.float64)
-    places, _, median = _segments(rows, columns, heights, _side(water, cell))
-    return Shore(places, median, np.full(len(median), np.nan), heights, 1.0, 50.0)
+    side = _side(water, cell)
+    places, _, median = _segments(rows, columns, heights, side)
+    return Shore(places, median, np.full(len(median), np.nan), heights, 1.0, side, 50.0)
 
 
 def _side(water: np.ndarray, cell: float) -> int:
@@ -190,139 +208,61 @@ def _beyond(which: np.ndarray, ground: np.ndarray, places: np.ndarray, side: int
     return found
 
 
-def lake_level(water: np.ndarray, shore: Shore) -> Levels:
-    """Return one level: a low percentile of the ground along the shore, or that of the surface."""
-    level = float(np.percentile(shore.heights, shore.percentile))
-    middle = np.argwhere(water).mean(axis=0)[None]
-    return Levels(middle, np.array([level]), _spread(shore.lowest), math.sqrt(water.sum()), 0.0)
+def lake_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels:
+    """Return one level: a low percentile of the ground along the shore, or that of the surface.
 
-
-def river_level(water: np.ndarray, shore: Shore) -> Levels | None:
-    """Return levels that fall along the middle of a region, or None if it has no length.
-
-    The level at a station is that of the lowest ground of the segments of the shore beside it, by
-    isotonic regression along the line.
+    `surface` is row, column and height of returns inside, shape (k, 3).
     """
-    line = middle_line(water)
-    if len(line) < 3:
+    level = float(np.percentile(shore.heights, shore.percentile))
+    off = _off_surface(np.full(len(surface), level), surface[:, 2])
+    if off is not None:
+        level += float(np.median(off[~np.isnan(off)]))
+    spread, misfit = _fit(shore, np.full(len(shore.lowest), level))
+    return Levels(np.array([level]), spread, misfit, math.sqrt(np.count_nonzero(water)))
+
+
+def river_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels | None:
+    """Return levels that fall along a region and its branches, or None if it has no length.
+
+    The level of a reach is that of the lowest ground of the segments of the shore beside it, by
+    isotonic regression along the branches, and of returns from the surface.
+    """
+    reaches = reaches_of(water, shore.side)
+    if reaches.network.size < 3:
         return None
+    station, heights = reaches.of(shore.places), shore.lowest
+    found = descent(reaches.network, station, heights)
+    off = _off_surface(reaches.between(found.levels, surface[:, :2]), surface[:, 2])
+    if off is not None:
+        # Banks are higher than the water: they count for the shape of the fall only.
+        near = ~np.isnan(off)
+        station = np.concatenate((station, reaches.of(surface[near, :2])))
+        heights = np.concatenate((heights + np.median(off[near]), surface[near, 2]))
+        found = descent(reaches.network, station, heights)
+    spread, misfit = _fit(shore, reaches.between(found.levels, shore.places))
+    return Levels(
+        found.levels, spread, misfit, reaches.width, reaches.length, reaches, tuple(found.chains)
+    )
+
+
+def _off_surface(levels: np.ndarray, heights: np.ndarray) -> np.ndarray | None:
+    """Return how far returns lie above levels: NaN if not from the surface, None if too few are."""
+    off = heights - levels
+    near = np.abs(off) <= _SURFACE
+    if near.sum() < max(_FEW_RETURNS, _MOST_RETURNS * np.count_nonzero(~np.isnan(off))):
+        return None
+    return np.where(near, off, np.nan)
+
+
+def _fit(shore: Shore, levels: np.ndarray) -> tuple[float, float]:
+    """Return the spread of segments of a shore round levels, and the largest local misfit."""
     from scipy.spatial import cKDTree
 
-    length = float(np.hypot(*np.diff(line, axis=0).T).sum())
-    # The ends of the way run into corners. They count for the length, not for the direction.
-    line = line[_ENDS:-_ENDS] if len(line) > 5 * _ENDS else line
-    station = cKDTree(line).query(shore.places)[1]
-    order = np.argsort(station, kind="stable")
-    values = shore.lowest[order]
-    both = [sign * isotonic(sign * values) for sign in (-1.0, 1.0)]
-    fitted = min(both, key=lambda each: float(np.abs(each - values).sum()))
-    spread = _spread(values - fitted)
-    at, where = np.unique(station[order], return_index=True)
-    heights = np.interp(np.arange(len(line)), at, fitted[where])
-    if heights[0] < heights[-1]:
-        line, heights = line[::-1], heights[::-1]
-    return Levels(line, heights, spread, water.sum() / max(length, 1.0), length)
-
-
-def isotonic(values: np.ndarray) -> np.ndarray:
-    """Return the non-decreasing values with the least squared distance, shape (n,).
-
-    Neighbours that violate the order are pooled (Ayer et al. 1955).
-
-    >>> isotonic(np.array([1.0, 3.0, 2.0, 4.0])).tolist()
-    [1.0, 2.5, 2.5, 4.0]
-    """
-    pools: list[tuple[float, int]] = []
-    for value in np.asarray(values, dtype=np.float64).tolist():
-        mean, count = value, 1
-        while pools and pools[-1][0] > mean:
-            before, more = pools.pop()
-            mean = (mean * count + before * more) / (count + more)
-            count += more
-        pools.append((mean, count))
-    means, counts = zip(*pools) if pools else ((), ())
-    return np.repeat(np.array(means, dtype=np.float64), np.array(counts, dtype=np.int64))
-
-
-def middle_line(water: np.ndarray) -> np.ndarray:
-    """Return the longest way through a region along its middle: its skeleton without branches.
-
-    Parameters
-    ----------
-    water : numpy.ndarray of bool, shape (rows, columns)
-        A connected region.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (n, 2)
-        Row and column of places along the way.
-    """
-    from scipy.ndimage import distance_transform_edt
-
-    group = max(1, math.ceil(math.sqrt(water.sum() / _MOST_CELLS)))
-    rows, columns = (-(-side // group) * group for side in water.shape)
-    cells = np.pad(water, ((0, rows - water.shape[0]), (0, columns - water.shape[1])))
-    cells = cells.reshape(rows // group, group, columns // group, group).max(axis=(1, 3))
-    deep = distance_transform_edt(np.pad(cells, 1))[1:-1, 1:-1]
-    # A way along the middle is cheap.
-    cost = (deep.max() / np.maximum(deep, 1.0)) ** 2
-    plain, costly = _graph(cells, np.ones(cells.shape)), _graph(cells, cost)
-    places = np.argwhere(cells)
-    start = _farthest(plain, 0)
-    end = _farthest(plain, start)
-    way = _way(costly, start, end)
-    line = (places[way] + 0.5) * group - 0.5
-    step = max(1, round(float(deep.max()) / 2.0))
-    return _smoothed(line, step)[::step]
-
-
-def _graph(cells: np.ndarray, cost: np.ndarray) -> Any:
-    """Return the graph of neighbouring cells, weighted by distance and mean cost."""
-    from scipy.sparse import coo_matrix
-
-    number = np.full(cells.shape, -1)
-    number[cells] = np.arange(int(cells.sum()))
-    starts, ends, weights = [], [], []
-    for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
-        left = max(-right, 0)
-        one = (slice(0, cells.shape[0] - down), slice(left, cells.shape[1] - max(right, 0)))
-        other = (slice(down, None), slice(left + right, cells.shape[1] - left))
-        both = np.logical_and(cells[one], cells[other])
-        starts.append(number[one][both])
-        ends.append(number[other][both])
-        weights.append((cost[one] + cost[other])[both] / 2.0 * math.hypot(down, right))
-    size = int(cells.sum())
-    edges = np.concatenate(starts), np.concatenate(ends)
-    return coo_matrix((np.concatenate(weights), edges), shape=(size, size)).tocsr()
-
-
-def _farthest(graph: Any, start: int) -> int:
-    from scipy.sparse.csgraph import dijkstra
-
-    far = dijkstra(graph, directed=False, indices=start)
-    return int(np.argmax(np.where(np.isfinite(far), far, -1.0)))
-
-
-def _way(graph: Any, start: int, end: int) -> list[int]:
-    """Return the nodes of the cheapest way."""
-    from scipy.sparse.csgraph import dijkstra
-
-    before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)[1]
-    way = [end]
-    while way[-1] != start and before[way[-1]] >= 0:
-        way.append(int(before[way[-1]]))
-    return way[::-1]
-
-
-def _smoothed(line: np.ndarray, half: int) -> np.ndarray:
-    """Return the running mean of a line; its ends stay."""
-    from scipy.ndimage import uniform_filter1d
-
-    if len(line) < 3:
-        return line
-    smooth = uniform_filter1d(line, 2 * half + 1, axis=0, mode="nearest")
-    smooth[0], smooth[-1] = line[0], line[-1]
-    return smooth
+    off = shore.lowest - levels
+    count = min(_TOGETHER, len(off))
+    near = cKDTree(shore.places).query(shore.places, list(range(1, count + 1)))[1]
+    together = np.median(off[near], axis=1) - np.median(off)
+    return _spread(off), float(np.abs(together).max())
 
 
 def _spread(values: np.ndarray) -> float:

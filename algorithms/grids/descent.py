@@ -1,0 +1,254 @@
+"""Levels that never rise downstream, on a network of stations with branches and loops."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+# Heights this near to a level, in metres, count fully; others by their distance: a median.
+_NEAR, _ROUNDS = 0.02, 6
+# Levels are smoothed over so many stations to learn which end of a chain is the upper one.
+_SMOOTH = 3.0
+# A chain that is so many metres lower between its ends has two upper ends, such as two rivers that
+# meet where the survey ends.
+_VALLEY = 0.3
+# Weight of a station without heights, compared to a height; rounds of projections.
+_NO_HEIGHT, _PROJECTIONS, _SAME = 1e-4, 200, 1e-4
+# Heights so many metres from those of the next stations do not count. So the end of a chain is not
+# that of a single wall.
+_STRAY, _STRAY_STATIONS = 0.5, 2
+# What a percentile differs from the median is taken from so many stations on each side.
+_STATIONS = 5
+
+
+class Network(NamedTuple):
+    """Stations in water, and which of them are neighbours.
+
+    Attributes
+    ----------
+    size : int
+        Number of stations.
+    edges : numpy.ndarray of int64, shape (m, 2)
+        Pairs of neighbours, each once.
+    """
+
+    size: int
+    edges: np.ndarray
+
+    def chains(self) -> list[np.ndarray]:
+        """Return the ways between stations that have not two neighbours.
+
+        Examples
+        --------
+        >>> fork = Network(4, np.array([[0, 1], [1, 2], [1, 3]]))
+        >>> [each.tolist() for each in fork.chains()]
+        [[0, 1], [1, 2], [1, 3]]
+        """
+        beside: list[list[int]] = [[] for _ in range(self.size)]
+        for one, other in self.edges.tolist():
+            beside[one].append(other)
+            beside[other].append(one)
+        found, passed = [], np.zeros(self.size, dtype=bool)
+        ends = [station for station in range(self.size) if len(beside[station]) != 2]
+        used: set[tuple[int, int]] = set()
+        # What has no end is a ring: it begins anywhere.
+        for start in (*ends, *(one for one in range(self.size) if len(beside[one]) == 2)):
+            if passed[start] and len(beside[start]) == 2:
+                continue
+            if not beside[start]:
+                found.append(np.array([start]))
+            for second in beside[start]:
+                if (start, second) not in used:
+                    way = _way_on(beside, start, second)
+                    used |= {(start, second), (way[-1], way[-2])}
+                    passed[way] = True
+                    found.append(np.array(way))
+        return found
+
+    def matrix(self, weights: np.ndarray | float = 1.0) -> np.ndarray:
+        """Return the symmetric matrix of neighbours, sparse."""
+        from scipy.sparse import coo_matrix
+
+        one, other = self.edges.reshape(-1, 2).T
+        values = np.broadcast_to(np.asarray(weights, dtype=np.float64), one.shape)
+        shape = self.size, self.size
+        half = coo_matrix((values, (one, other)), shape=shape)
+        return (half + half.T).tocsr()
+
+
+def _way_on(beside: list[list[int]], start: int, second: int) -> list[int]:
+    """Return the way from a station over its neighbour to the next end or junction."""
+    way = [start, second]
+    while len(beside[way[-1]]) == 2 and way[-1] != start:
+        one, other = beside[way[-1]]
+        way.append(other if one == way[-2] else one)
+    return way
+
+
+class Descent(NamedTuple):
+    """Levels on a network.
+
+    Attributes
+    ----------
+    levels : numpy.ndarray of float64, shape (size,)
+        At each station.
+    chains : list of numpy.ndarray of int64
+        The stations of each chain, downstream.
+    """
+
+    levels: np.ndarray
+    chains: list[np.ndarray]
+
+
+def descent(
+    network: Network, station: np.ndarray, heights: np.ndarray, percentile: float = 50.0
+) -> Descent:
+    """Return the levels nearest to heights, which rise in no chain downstream.
+
+    The sum of distances is least (isotonic regression), so that single heights do not count; the
+    direction of each chain is that of smoothed levels. Chains share the level of a junction.
+
+    Parameters
+    ----------
+    network : Network
+        The stations.
+    station : numpy.ndarray of int64, shape (n,)
+        The station beside each height.
+    heights : numpy.ndarray of float64, shape (n,)
+        Heights of banks or of the surface. At least one.
+    percentile : float
+        The level is this percentile of the heights beside a station, compared with their trend.
+
+    Returns
+    -------
+    Descent
+    """
+    usual = _percentiles(network.size, station, heights, 50.0)
+    usual = _medians_near(network, usual, _STRAY_STATIONS)
+    near = np.abs(heights - usual[station]) <= _STRAY
+    if near.any():
+        station, heights = station[near], heights[near]
+    smooth = _smoothed(network, station, heights)
+    chains = _directed(network.chains(), smooth)
+    levels = smooth
+    for _ in range(_ROUNDS):
+        weights = 1.0 / np.maximum(np.abs(heights - levels[station]), _NEAR)
+        mean, total = _means(network.size, station, heights, weights)
+        levels = _ordered(np.where(total > 0, mean, levels), total + _NO_HEIGHT, chains)
+    if percentile != 50.0:
+        off = _percentiles(network.size, station, heights - levels[station], percentile)
+        levels = levels + _medians_near(network, off, _STATIONS)
+        levels = _ordered(levels, np.ones(network.size), chains)
+    return Descent(levels, chains)
+
+
+def _means(
+    count: int, station: np.ndarray, heights: np.ndarray, weights: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the weighted mean of the heights at each station, and their weight."""
+    total = np.bincount(station, weights, count)
+    mean = np.bincount(station, weights * heights, count) / np.maximum(total, 1e-300)
+    return mean, total
+
+
+def _smoothed(network: Network, station: np.ndarray, heights: np.ndarray) -> np.ndarray:
+    """Return levels that change little between neighbours, in either direction."""
+    from scipy.sparse import diags
+    from scipy.sparse.linalg import spsolve
+
+    beside = network.matrix()
+    laplace = _SMOOTH**2 * (diags(np.asarray(beside.sum(axis=1)).ravel()) - beside)
+    levels = np.full(network.size, np.median(heights))
+    weights = np.ones(len(heights))
+    for _ in range(_ROUNDS):
+        mean, total = _means(network.size, station, heights, weights)
+        matrix = (laplace + diags(total + _NO_HEIGHT)).tocsc()
+        right = total * mean + _NO_HEIGHT * levels
+        levels = np.atleast_1d(spsolve(matrix, right))
+        # As for a median, but all heights count alike when they are a bank's height away.
+        weights = 0.5 / np.maximum(np.abs(heights - levels[station]), 0.5)
+    return levels
+
+
+def _directed(chains: list[np.ndarray], smooth: np.ndarray) -> list[np.ndarray]:
+    """Return chains downstream; those with a valley between their ends, or a ring, are two."""
+    found = []
+    for chain in chains:
+        heights = smooth[chain]
+        cut = int(np.argmin(heights))
+        if chain[0] == chain[-1] and len(chain) > 2:
+            cut = int(np.argmax(np.abs(heights - heights[0])))
+        elif heights[cut] > min(heights[0], heights[-1]) - _VALLEY:
+            cut = 0
+        parts = [chain[: cut + 1], chain[cut:]] if 0 < cut < len(chain) - 1 else [chain]
+        found += [part if smooth[part[0]] >= smooth[part[-1]] else part[::-1] for part in parts]
+    return sorted(found, key=lambda each: -float(smooth[each[0]]))
+
+
+def _ordered(values: np.ndarray, weights: np.ndarray, chains: list[np.ndarray]) -> np.ndarray:
+    """Return the values with the least squared distance that rise in no chain (Dykstra 1983)."""
+    levels = values.copy()
+    moved = [np.zeros(len(each)) for each in chains]
+    for _ in range(_PROJECTIONS if len(chains) > 1 else 1):
+        before = levels.copy()
+        for number, chain in enumerate(chains):
+            wanted = levels[chain] + moved[number]
+            levels[chain] = -isotonic(-wanted, weights[chain])
+            moved[number] = wanted - levels[chain]
+        if np.abs(levels - before).max() < _SAME:
+            break
+    # From the highest junction to the lowest: what little is left out of order.
+    for chain in chains:
+        levels[chain] = np.minimum.accumulate(levels[chain])
+    return levels
+
+
+def _percentiles(
+    count: int, station: np.ndarray, heights: np.ndarray, percentile: float
+) -> np.ndarray:
+    """Return the percentile of the heights beside each station; NaN without any."""
+    order = np.argsort(station, kind="stable")
+    names, starts = np.unique(station[order], return_index=True)
+    found = np.full(count, np.nan)
+    parts = np.split(heights[order], starts[1:])
+    found[names] = [np.percentile(some, percentile) for some in parts]
+    return found
+
+
+def _medians_near(network: Network, values: np.ndarray, steps: int) -> np.ndarray:
+    """Return the median of the values up to so many stations away, without NaN."""
+    from scipy.sparse import identity
+
+    beside, near = network.matrix(), identity(network.size, format="csr")
+    for _ in range(steps):
+        near = near @ beside + near
+    result = np.full(network.size, float(np.nanmedian(values)))
+    for number, (first, last) in enumerate(zip(near.indptr[:-1], near.indptr[1:])):
+        some = values[near.indices[first:last]]
+        some = some[~np.isnan(some)]
+        if len(some):
+            result[number] = np.median(some)
+    return result
+
+
+def isotonic(values: np.ndarray, weights: np.ndarray | None = None) -> np.ndarray:
+    """Return the non-decreasing values with the least squared distance, shape (n,).
+
+    Neighbours that violate the order are pooled (Ayer et al. 1955).
+
+    >>> isotonic(np.array([1.0, 3.0, 2.0, 4.0])).tolist()
+    [1.0, 2.5, 2.5, 4.0]
+    """
+    values = np.asarray(values, dtype=np.float64)
+    shares = np.ones(len(values)) if weights is None else weights
+    pools: list[tuple[float, float, int]] = []
+    for value, share in zip(values.tolist(), shares.tolist()):
+        mean, weight, count = value, share, 1
+        while pools and pools[-1][0] > mean:
+            before, other, more = pools.pop()
+            mean = (mean * weight + before * other) / (weight + other)
+            weight, count = weight + other, count + more
+        pools.append((mean, weight, count))
+    means, _, counts = zip(*pools) if pools else ((), (), ())
+    return np.repeat(np.array(means, dtype=np.float64), np.array(counts, dtype=np.int64))

@@ -1,0 +1,213 @@
+"""Cuts a region of water across into reaches: a network with its branches and its islands.
+
+The reaches are the connected parts of bands of equal distance from one end (a Reeb graph).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..grids.descent import Network
+
+# Most cells in which the ways along a river are searched.
+_MOST_CELLS = 200_000
+# Length of a reach in mean depths, about half the width of a river; least in cells.
+_DEPTHS, _LEAST = 2.0, 2.0
+# A branch is so many times as long as wide, and has at least so many reaches. Others are bays.
+_ELONGATED, _FEWEST = 2.0, 3
+
+
+class Reaches(NamedTuple):
+    """The reaches of a region of water.
+
+    Attributes
+    ----------
+    network : Network
+        The reaches, and which of them are neighbours.
+    places : numpy.ndarray of float64, shape (size, 2)
+        Row and column of the middle of each.
+    numbers : numpy.ndarray of int32, shape (rows, columns)
+        The reach of each group of cells, also on land, where it is that of the nearest water.
+    along : numpy.ndarray of float64, shape (rows, columns)
+        Distance of each group from one end of the region, in cells.
+    middles : numpy.ndarray of float64, shape (size,)
+        The mean of that in each reach.
+    group : int
+        Side of a group in cells.
+    width, length : float
+        Mean width, and length of all chains together, in cells.
+    """
+
+    network: Network
+    places: np.ndarray
+    numbers: np.ndarray
+    along: np.ndarray
+    middles: np.ndarray
+    group: int
+    width: float
+    length: float
+
+    def of(self, places: np.ndarray) -> np.ndarray:
+        """Return the reach at rows and columns, shape (k, 2)."""
+        return self.numbers[self._groups(places)]
+
+    def _groups(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        row, column = np.floor((np.asarray(places) + 0.5) / self.group).astype(np.int64).T
+        rows, columns = self.numbers.shape
+        return np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)
+
+    def between(self, values: np.ndarray, places: np.ndarray) -> np.ndarray:
+        """Return values of reaches at rows and columns, interpolated along the water."""
+        groups = self._groups(places)
+        reach, along = self.numbers[groups], self.along[groups]
+        off = along - self.middles[reach]
+        found, share, nearest = (np.zeros(len(reach)) for _ in range(3))
+        nearest[:] = np.inf
+        both = np.concatenate((self.network.edges, self.network.edges[:, ::-1]))
+        order = np.argsort(both[:, 0], kind="stable")
+        starts = np.searchsorted(both[order, 0], np.arange(self.network.size + 1))
+        most = int(np.diff(starts).max(initial=0))
+        for turn in range(most):
+            place = np.minimum(starts[reach] + turn, len(order) - 1)
+            other = np.where(starts[reach] + turn < starts[reach + 1], both[order[place], 1], reach)
+            length = self.middles[other] - self.middles[reach]
+            far = np.hypot(*(self.places[other] - places).T)
+            closer = (length * off > 0) & (far < nearest)
+            ratio = off / np.where(closer, length, 1.0)
+            share = np.where(closer, np.clip(ratio, 0.0, 1.0), share)
+            found = np.where(closer, values[other], found)
+            nearest = np.where(closer, far, nearest)
+        return values[reach] * (1.0 - share) + found * share
+
+
+def reaches_of(water: np.ndarray, longest: float) -> Reaches:
+    """Return the reaches of a region.
+
+    Parameters
+    ----------
+    water : numpy.ndarray of bool, shape (rows, columns)
+        A connected region.
+    longest : float
+        Most length of a reach in cells.
+    """
+    from scipy.ndimage import distance_transform_edt
+    from scipy.sparse.csgraph import dijkstra
+
+    group = max(1, math.ceil(math.sqrt(np.count_nonzero(water) / _MOST_CELLS)))
+    rows, columns = (-(-side // group) * group for side in water.shape)
+    cells = np.pad(water, ((0, rows - water.shape[0]), (0, columns - water.shape[1])))
+    cells = cells.reshape(rows // group, group, columns // group, group).max(axis=(1, 3))
+    deep = distance_transform_edt(np.pad(cells, 1))[1:-1, 1:-1][cells]
+    one, other, length = _neighbours(cells)
+    graph = _matrix(one, other, length, len(deep))
+    end = _farthest(graph, _farthest(graph, 0))
+    away = dijkstra(graph, directed=False, indices=end)
+    away[~np.isfinite(away)] = 0.0
+    side = max(_LEAST, round(min(_DEPTHS * float(deep.mean()), longest / group)))
+    reach, edges = _bands(one, other, np.floor(away / side).astype(np.int64))
+    sizes, middles = np.bincount(reach), _means(reach, away)
+    owner = _without_bays(edges, sizes, middles, side)
+    # A bay is as far along as the water that it belongs to.
+    away = np.where(owner[reach] == reach, away, middles[owner[reach]])
+    names, reach = np.unique(owner[reach], return_inverse=True)
+    edges = np.searchsorted(names, owner[edges])
+    edges = np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], axis=1), axis=0)
+    network, middles = Network(len(names), edges), middles[names]
+    places = _middle_places(cells, reach, deep**4)
+    total = _length(network, places, side)
+    nearest = distance_transform_edt(~cells, return_distances=False, return_indices=True)
+    numbers, along = np.zeros(cells.shape, np.int32), np.zeros(cells.shape)
+    numbers[cells], along[cells] = reach, away
+    width = len(deep) / total * group
+    places = (places + 0.5) * group - 0.5
+    numbers, along = numbers[tuple(nearest)], along[tuple(nearest)]
+    return Reaches(network, places, numbers, along, middles, group, width, total * group)
+
+
+def _neighbours(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the numbers of neighbouring cells of a region, and their distances."""
+    number = np.full(cells.shape, -1, dtype=np.int64)
+    number[cells] = np.arange(np.count_nonzero(cells))
+    starts, ends, lengths = [], [], []
+    for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
+        left = max(-right, 0)
+        one = (slice(0, cells.shape[0] - down), slice(left, cells.shape[1] - max(right, 0)))
+        other = (slice(down, None), slice(left + right, cells.shape[1] - left))
+        both = np.logical_and(cells[one], cells[other])
+        starts.append(number[one][both])
+        ends.append(number[other][both])
+        lengths.append(np.full(len(starts[-1]), math.hypot(down, right)))
+    return np.concatenate(starts), np.concatenate(ends), np.concatenate(lengths)
+
+
+def _matrix(one: np.ndarray, other: np.ndarray, weights: np.ndarray, size: int) -> Any:
+    from scipy.sparse import coo_matrix
+
+    return coo_matrix((weights, (one, other)), shape=(size, size)).tocsr()
+
+
+def _farthest(graph: Any, start: int) -> int:
+    from scipy.sparse.csgraph import dijkstra
+
+    far = dijkstra(graph, directed=False, indices=start)
+    return int(np.argmax(np.where(np.isfinite(far), far, -1.0)))
+
+
+def _bands(one: np.ndarray, other: np.ndarray, band: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the number of the connected part of its band for each cell, and which parts touch."""
+    from scipy.sparse.csgraph import connected_components
+
+    same = band[one] == band[other]
+    graph = _matrix(one[same], other[same], np.ones(np.count_nonzero(same)), len(band))
+    reach = connected_components(graph, directed=False)[1]
+    edges = np.column_stack((reach[one[~same]], reach[other[~same]]))
+    return reach, np.unique(np.sort(edges, axis=1), axis=0)
+
+
+def _means(group: np.ndarray, values: np.ndarray) -> np.ndarray:
+    return np.bincount(group, values) / np.bincount(group)
+
+
+def _without_bays(
+    edges: np.ndarray, sizes: np.ndarray, middles: np.ndarray, side: float
+) -> np.ndarray:
+    """Return the reach that each one belongs to when short branches belong to their junction."""
+    owner, sizes = np.arange(len(sizes)), sizes.astype(np.float64)
+    while True:
+        links = owner[edges]
+        links = np.unique(np.sort(links[links[:, 0] != links[:, 1]], axis=1), axis=0)
+        degree = np.bincount(links.ravel(), minlength=len(owner))
+        bays: dict[int, tuple[float, np.ndarray]] = {}
+        for chain in Network(len(owner), links).chains():
+            if degree[chain[0]] > degree[chain[-1]]:
+                chain = chain[::-1]
+            if degree[chain[0]] != 1 or degree[chain[-1]] < 3:
+                continue
+            tip, junction = chain[0], int(chain[-1])
+            length = abs(middles[tip] - middles[junction]) + side / 2.0
+            width = sizes[chain[:-1]].sum() / length
+            is_short = length < _ELONGATED * width or len(chain) <= _FEWEST
+            if is_short and (junction not in bays or length < bays[junction][0]):
+                bays[junction] = length, chain[:-1]
+        if not bays:
+            return owner
+        # Only the shortest at each junction: the next one can be the main water then.
+        for junction, (_, chain) in bays.items():
+            owner[np.isin(owner, chain)] = junction
+
+
+def _middle_places(cells: np.ndarray, reach: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Return the weighted middle of each reach."""
+    total = np.bincount(reach, weights)
+    sums = [np.bincount(reach, weights * axis) for axis in np.nonzero(cells)]
+    return np.column_stack(sums) / total[:, None]
+
+
+def _length(network: Network, places: np.ndarray, side: float) -> float:
+    """Return the length of all chains together."""
+    one, other = network.edges.reshape(-1, 2).T
+    ends = np.count_nonzero(np.bincount(network.edges.ravel(), minlength=network.size) <= 1)
+    return float(np.hypot(*(places[one] - places[other]).T).sum()) + ends * side / 2.0
