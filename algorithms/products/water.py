@@ -15,10 +15,9 @@ import numpy as np
 
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..grids.isolines import Isolines
-from ..grids.lines import along
 from ..grids.morphology import closing, dilation, erosion
 from .constraints import STATION
+from .water_body import WaterBody, divided, rings_of
 from .water_bridges import below_decks, beside_decks
 from .water_grid import WaterGrid
 from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
@@ -52,8 +51,6 @@ _CLASSIFIED = 0.5
 _LEAST_PART = 0.1
 # Most certainty where a part of the shore is not explained by the level.
 _MOST_MISFITTING = 0.7
-# Least certainty of each grade.
-GRADES = ((0.75, "certain"), (0.5, "likely"), (0.0, "doubtful"))
 
 
 @dataclass(frozen=True)
@@ -90,49 +87,6 @@ class Water(ParameterSet):
         help="Side of the cells in which points are counted. Empty: twice the distance between"
         " points, at least 1 m, and up to 5 m if a large survey would have too many cells.",
     )
-
-
-class WaterBody(NamedTuple):
-    """A lake, or a part of a river.
-
-    Attributes
-    ----------
-    kind : str
-        "lake" or "river".
-    rings : tuple of numpy.ndarray of float64, shape (n, 3)
-        Shore and islands, closed: x, y and level in metres.
-    lines : tuple of numpy.ndarray of float64, shape (m, 3)
-        The middle of each branch of a river, downstream, with its level; none for a lake.
-    level, lowest : float
-        The level in metres; of a river, the level at its upper and lower end.
-    spread : float
-        Robust standard deviation of the shore from the level in metres.
-    certainty : float
-        0 to 1.
-    area : float
-        In square metres.
-    width : float
-        Mean width in metres.
-    class_share, filled : float
-        Share of cells with mostly points of class 9, and number of last returns relative to land.
-    """
-
-    kind: str
-    rings: tuple[np.ndarray, ...]
-    lines: tuple[np.ndarray, ...]
-    level: float
-    lowest: float
-    spread: float
-    certainty: float
-    area: float
-    width: float
-    class_share: float
-    filled: float
-
-    @property
-    def grade(self) -> str:
-        """The grade of certainty: certain, likely or doubtful."""
-        return next(name for least, name in GRADES if self.certainty >= least)
 
 
 class _Region(NamedTuple):
@@ -407,46 +361,10 @@ def _made(
     rings = rings_of(region.water)
     if kind == "river":
         # The level also changes between the corners.
-        rings = [_divided(each, STATION / grid.cell) for each in rings]
+        rings = [divided(each, STATION / grid.cell) for each in rings]
     lines = (np.column_stack((placed(each[:, :2])[:, :2], each[:, 2])) for each in levels.lines)
     high, low = float(levels.heights.max()), float(levels.heights.min())
     return WaterBody(
         kind, tuple(map(placed, rings)), tuple(lines), high, low, levels.spread,
         certainty, float(region.water.sum()) * grid.cell**2, width, share, filled,
     )  # fmt: skip
-
-
-def _divided(ring: np.ndarray, step: float) -> np.ndarray:
-    """Return a ring with places that are at most a step apart."""
-    return along(np.column_stack((ring, np.zeros(len(ring)))), step)[:, :2]
-
-
-def rings_of(cells: np.ndarray) -> list[np.ndarray]:
-    """Return the outline of a connected region, and then those of its holes.
-
-    Parameters
-    ----------
-    cells : numpy.ndarray of bool, shape (rows, columns)
-        The region.
-
-    Returns
-    -------
-    list of numpy.ndarray of float64, shape (n, 2)
-        Row and column; whole numbers are centres of cells. Corners are cut, and rings are closed.
-    """
-    heights = np.pad(cells, 1) + 0.5
-    lines = [each.places - 1.0 for each in Isolines(1.0, heights.shape[1]).add(heights, 0, True)]
-    return [_without_straight(each) for each in sorted(lines, key=lambda each: -abs(_area(each)))]
-
-
-def _area(ring: np.ndarray) -> float:
-    row, column = ring.T
-    return float((row[:-1] * column[1:] - row[1:] * column[:-1]).sum() / 2.0)
-
-
-def _without_straight(ring: np.ndarray) -> np.ndarray:
-    """Return a closed ring without the corners that lie on straight lines."""
-    corners = ring[:-1]
-    back, on = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
-    kept = corners[back[:, 0] * on[:, 1] != back[:, 1] * on[:, 0]]
-    return np.concatenate((kept, kept[:1]))

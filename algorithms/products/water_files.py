@@ -18,7 +18,8 @@ from ..survey.kept_classes import NOISE, is_one_of
 from .constraints import Constraints
 from .line_files import Feature, Layer, check_features, feature_writer, files_beside
 from .survey_ground import SurveyGround
-from .water import GRADES, Water, WaterBody, find_water
+from .water import Water, find_water
+from .water_body import GRADES, WaterBody
 from .water_grid import WaterGrid, cell_for
 
 # The classes of water and of the decks of bridges in the LAS specification.
