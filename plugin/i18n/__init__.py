@@ -36,9 +36,15 @@ def number(value: float) -> str:
     text = f"{value:g}"
     if QCoreApplication is None:
         return text
-    language = QLocale(QgsApplication.instance().locale())
+    language = _language()
     is_spoken = any(_FOLDER.glob(f"bare_earth_{language.name()[:2]}.*"))
     return text.replace(".", language.decimalPoint()) if is_spoken else text
+
+
+def _language() -> QLocale:
+    """Return the language that QGIS speaks: that of `qgis --lang`, or of the settings."""
+    application = QgsApplication.instance()
+    return QLocale(application.translation() or application.locale())
 
 
 def install(folder: Path = _FOLDER) -> QTranslator | None:
@@ -50,8 +56,7 @@ def install(folder: Path = _FOLDER) -> QTranslator | None:
         Keep it, and remove it when the plugin is unloaded. None if there are no translations.
     """
     translator = QTranslator()
-    language = QLocale(QgsApplication.instance().locale())
-    if not translator.load(language, "bare_earth", "_", str(folder)):
+    if not translator.load(_language(), "bare_earth", "_", str(folder)):
         return None
     QCoreApplication.installTranslator(translator)
     return translator

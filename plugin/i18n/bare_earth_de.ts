@@ -2078,6 +2078,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Das KBS der Punkte, für Dateien, die keines oder ein falsches angeben. Es tritt an die Stelle dessen, was Dateien angeben: Es bestimmt die Einheiten von Längen und Höhen, und Raster und Layer bekommen es. Geschriebene Punktwolken behalten die Angaben der Dateien. Leer: was die Dateien angeben.</translation>
     </message>
     <message>
+        <source>The Python of this QGIS has no pip. In Debian and Ubuntu run sudo apt-get install python3-pip, elsewhere install pip for it, and try again; or choose a wheel file.</source>
+        <translation>Dem Python dieses QGIS fehlt pip. Führen Sie unter Debian und Ubuntu sudo apt-get install python3-pip aus, sonst installieren Sie pip dafür, und versuchen Sie es erneut; oder wählen Sie eine Wheel-Datei.</translation>
+    </message>
+    <message>
         <source>The attribute of these polygons that holds their class: 2 for ground, 1 for unclassified.</source>
         <translation>Das Attribut dieser Polygone, das ihre Klasse enthält: 2 für Boden, 1 für nicht klassifiziert.</translation>
     </message>
@@ -2312,10 +2316,6 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points. Empty: 250 x 250 m in the middle of the points; the log says where.</source>
         <translation>Das Fenster, das klassifiziert wird, etwa die Kartenausdehnung; höchstens 1.000 m breit, und schnell bis etwa 250 x 250 m. Es wird in das KBS der Punkte transformiert. Leer: 250 x 250 m in der Mitte der Punkte; das Protokoll sagt, wo.</translation>
-    </message>
-    <message>
-        <source>This Python has neither pip nor ensurepip: install pip for it (in Debian and Ubuntu python3-pip), or choose a wheel file.</source>
-        <translation>Dieses Python hat weder pip noch ensurepip: Installieren Sie pip dafür (in Debian und Ubuntu python3-pip), oder wählen Sie eine Wheel-Datei.</translation>
     </message>
     <message>
         <source>This QGIS cannot load the installed lazrs: {}.</source>

@@ -2078,6 +2078,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Le SCR des points, pour les fichiers qui n'en indiquent aucun ou un faux. Il remplace ce que les fichiers indiquent : il décide des unités des longueurs et des altitudes, et les rasters et les couches le reçoivent. Les nuages de points écrits gardent les indications des fichiers. Vide : ce que les fichiers indiquent.</translation>
     </message>
     <message>
+        <source>The Python of this QGIS has no pip. In Debian and Ubuntu run sudo apt-get install python3-pip, elsewhere install pip for it, and try again; or choose a wheel file.</source>
+        <translation>Le Python de ce QGIS n'a pas pip. Sous Debian et Ubuntu, exécutez sudo apt-get install python3-pip, ailleurs installez pip pour lui, puis réessayez ; ou choisissez un fichier wheel.</translation>
+    </message>
+    <message>
         <source>The attribute of these polygons that holds their class: 2 for ground, 1 for unclassified.</source>
         <translation>L'attribut de ces polygones qui contient leur classe : 2 pour le sol, 1 pour non classé.</translation>
     </message>
@@ -2312,10 +2316,6 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>The window to classify, such as the map's extent: at most 1,000 m wide, and quick up to about 250 x 250 m. It is transformed to the CRS of the points. Empty: 250 x 250 m in the middle of the points; the log says where.</source>
         <translation>La fenêtre à classer, par exemple l'emprise de la carte ; au plus 1 000 m de large, et rapide jusqu'à environ 250 x 250 m. Elle est transformée dans le SCR des points. Vide : 250 x 250 m au milieu des points ; le journal dit où.</translation>
-    </message>
-    <message>
-        <source>This Python has neither pip nor ensurepip: install pip for it (in Debian and Ubuntu python3-pip), or choose a wheel file.</source>
-        <translation>Ce Python n'a ni pip ni ensurepip : installez pip pour lui (python3-pip dans Debian et Ubuntu), ou choisissez un fichier wheel.</translation>
     </message>
     <message>
         <source>This QGIS cannot load the installed lazrs: {}.</source>

@@ -147,8 +147,8 @@ def _pip_of(python: str, scratch: Path, run: Run) -> list[str]:
     if done.code or not found:
         raise BareEarthError(
             tr(
-                "This Python has neither pip nor ensurepip: install pip for it (in Debian and"
-                " Ubuntu python3-pip), or choose a wheel file."
+                "The Python of this QGIS has no pip. In Debian and Ubuntu run sudo apt-get install"
+                " python3-pip, elsewhere install pip for it, and try again; or choose a wheel file."
             )
         )
     return [python, str(found[0].parent)]

@@ -24,7 +24,7 @@ from ...algorithms.core.parameters import Declaration, ParameterSet, shown_value
 from ...algorithms.las.backends import install_hint, missing_packages
 from .. import compat
 from ..help_pages import address_of
-from ..i18n import tr
+from ..i18n import mark, tr
 from ..styles import layers
 from ..styles.metadata import Origin, settings_of
 from ..styles.stage import Stage
@@ -172,7 +172,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         path = compat.point_cloud_output_path(self, parameters, name, context)
         field = self.parameterDefinition(name)
         if not path and not field.flags() & compat.OPTIONAL:
-            raise BareEarthError(tr("Choose a file: {}.").format(field.description()))
+            raise Refusal(mark("Choose a file: {}."), field.description())
         if not compat.can_load(path):
             do_not_load(context, [path])
         return path

@@ -35,6 +35,10 @@ CLOUD, BELOW_TERRAIN = 6, 4
 _FIRST = 9
 
 
+# Coordinates in metres, somewhere.
+_LOCAL = 'LOCAL_CS["Local coordinates in metres",UNIT["metre",1]]'
+
+
 class Look(NamedTuple):
     """Title, place and style of a layer.
 
@@ -255,9 +259,22 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
             node = self._stage.place(node, self.look.height)
         show_fresh_points(layer)
         _dress(self.look, self._subject, project, layer)
+        if project is not None:
+            _leave_degrees(project)
         if node is not None:
             node.setItemVisibilityChecked(self._is_visible)
             node.setExpanded(self._is_visible and not self.look.is_shade)
+
+
+def _leave_degrees(project: QgsProject) -> None:
+    """Let a project in degrees count in metres, as the runs did, if no layer has a CRS.
+
+    That of a new project is in degrees. Metres taken for these make scales of 1:500,000,000, and
+    points of a size in metres that take minutes to draw. Without any CRS, QGIS also takes degrees.
+    """
+    has_none = not any(each.crs().isValid() for each in project.mapLayers().values())
+    if has_none and project.crs().isGeographic():
+        project.setCrs(QgsCoordinateReferenceSystem.fromWkt(_LOCAL))
 
 
 def _dress(look: Look, subject: str, project: QgsProject | None, layer: QgsMapLayer) -> None:

@@ -53,6 +53,26 @@ def feet(tmp_path):
     return tmp_path / "feet.las"
 
 
+def test_without_a_crs_a_project_in_degrees_counts_in_metres(context, tmp_path):
+    import processing
+
+    project = QgsProject.instance()
+    write_scene(tmp_path / "bare.las", None, (0.0, 0.0))
+    write_scene(tmp_path / "utm.las")
+    for before, file, after in (
+        ("EPSG:4326", "bare.las", "Local coordinates in metres"),
+        ("EPSG:25832", "bare.las", UTM.description()),
+        ("EPSG:4326", "utm.las", QgsCoordinateReferenceSystem("EPSG:4326").description()),
+    ):
+        project.setCrs(QgsCoordinateReferenceSystem(before))
+        given = {"INPUT": str(tmp_path / file), "DTM": str(tmp_path / f"{file}.tif")}
+        processing.runAndLoadResults("bareearth:terrainmodel", {**given, "GROUND_CLASSES": "1"})
+        assert project.crs().description() == after
+        # Of degrees QGIS would make scales of 1:500,000,000.
+        assert project.crs().isGeographic() == (file == "utm.las")
+        project.clear()
+
+
 def raster(path):
     layer = QgsRasterLayer(str(path))
     assert layer.isValid()

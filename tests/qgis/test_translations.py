@@ -5,7 +5,7 @@ import re
 import pytest
 import qm
 import translations
-from qgis.core import QgsProcessingParameterEnum
+from qgis.core import QgsApplication, QgsProcessingParameterEnum
 from qgis.PyQt.QtCore import QCoreApplication, QTranslator
 from support import ALGORITHM, Log, Scene, remove
 
@@ -100,6 +100,16 @@ def test_numbers_are_those_of_the_language_of_the_text(algorithm, speak, locale,
 def test_other_languages_see_english(algorithm, speak, locale):
     assert speak(locale) is None
     assert algorithm.create().displayName() == "Classify ground (TIN densification)"
+
+
+def test_the_option_lang_of_qgis_counts_more_than_the_settings(algorithm, speak):
+    speak("fr")
+    QgsApplication.setTranslation("de")
+    try:
+        assert speak("fr")
+        assert algorithm.create().displayName() == "Boden klassifizieren (TIN-Verdichtung)"
+    finally:
+        QgsApplication.setTranslation("")
 
 
 @pytest.mark.parametrize("path", translations.FILES, ids=lambda path: path.stem)
