@@ -150,7 +150,10 @@ def _measured(survey: Survey, request: QualityRequest, work: Path, progress: Pro
     fine, filled = (window.rows * window.columns for window in (sizes.fine, sizes.filled))
     store = Store(work, max(fine, filled), sum(tile.count for tile in survey.tiles))
     repeated = RepeatedPoints(survey.tiles, store.array)
-    cells = QualityCells(sizes, store, request.ground, repeated)
+    from_images = not asked.source and _all_synthetic(survey)
+    if from_images:
+        progress.info("All points have the flag synthetic, as those of images do: all are counted.")
+    cells = QualityCells(sizes, store, request.ground, repeated, from_images)
     for add, share in ((cells.add, (0.02, 0.4)), (cells.compare, (0.45, 0.8))):
         if add == cells.compare:
             cells.make_planes(progress.part(0.4, 0.45))
@@ -175,6 +178,12 @@ def _measured(survey: Survey, request: QualityRequest, work: Path, progress: Pro
             page.write_text(html, encoding="utf-8")
         progress(1.0)  # the last moment to cancel
     return found
+
+
+def _all_synthetic(survey: Survey) -> bool:
+    """Return whether all points have the flag synthetic; mostly the first part of them tells."""
+    parts = (part for tile in survey.tiles for part in read_parts(tile, strips=True))
+    return all(part.synthetic is not None and part.synthetic.all() for part in parts)
 
 
 def _files(survey: Survey) -> list[dict[str, Any]]:

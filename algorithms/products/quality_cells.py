@@ -123,11 +123,11 @@ class Marks(NamedTuple):
     real: np.ndarray
 
     @classmethod
-    def of(cls, part: PointCloud) -> Marks:
-        """Return what the flags of a part of the points say."""
+    def of(cls, part: PointCloud, all_synthetic: bool = False) -> Marks:
+        """Return what the flags of a part of the points say; if all are synthetic, all are real."""
         used = ~part.withheld
         synthetic = np.zeros(part.count, bool) if part.synthetic is None else part.synthetic
-        real = used & ~synthetic & ~np.isin(part.classification, NOISE)
+        real = used & (all_synthetic | ~synthetic) & ~np.isin(part.classification, NOISE)
         return cls(used, used & synthetic, used & overlapping(part), real)
 
 
@@ -186,6 +186,8 @@ class QualityCells:
         Which points are ground.
     repeated : RepeatedPoints
         Finds the points that repeat others.
+    all_synthetic : bool
+        Whether all points are synthetic, as those of images, and count nevertheless.
 
     Attributes
     ----------
@@ -209,9 +211,15 @@ class QualityCells:
     """
 
     def __init__(
-        self, sizes: Sizes, store: Store, ground: GroundClasses, repeated: RepeatedPoints
+        self,
+        sizes: Sizes,
+        store: Store,
+        ground: GroundClasses,
+        repeated: RepeatedPoints,
+        all_synthetic: bool = False,
     ) -> None:
         self.sizes, self._ground, self._repeated = sizes, ground, repeated
+        self._all_synthetic = all_synthetic
         self.counts = Counts()
         fine, coarse = sizes.fine.shape, sizes.coarse.shape
         make = store.array
@@ -235,7 +243,7 @@ class QualityCells:
 
     def add(self, part: PointCloud, frame: Frame) -> None:
         """Add a part of the points, before the planes are made."""
-        marks = Marks.of(part)
+        marks = Marks.of(part, self._all_synthetic)
         self.counts.add(part, marks)
         self._repeated.add(part)
         used = marks.used
@@ -307,7 +315,7 @@ class QualityCells:
 
     def compare(self, part: PointCloud, frame: Frame) -> None:
         """Count a part of the points, and compare it with the planes."""
-        marks = Marks.of(part)
+        marks = Marks.of(part, self._all_synthetic)
         used = marks.real & ~self._repeated.among(part)
         x, y, z = part.points(used, frame)
         number, flagged = part.return_number[used], marks.flagged[used]

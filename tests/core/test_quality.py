@@ -238,6 +238,14 @@ def test_points_that_files_share_duplicates_and_points_that_were_not_measured_ar
     assert f"synthetic: {made.sum():,}" in "\n".join(synthetic.text())
 
 
+def test_points_that_are_all_synthetic_count_unless_a_specification_asks_for_pulses(tmp_path):
+    x, y = grid(0.5)
+    path = write(tmp_path / "images.laz", x, y, terrain(x, y), synthetic=np.ones(len(x), bool))
+    found = measured(path)
+    assert found.ground_density == 4.0 and found.synthetic == len(x)
+    assert measured(path, specification="lbs-ql2").pulse_density == 0.0
+
+
 @pytest.mark.parametrize("flag", ["flag", "class 12"])
 def test_points_of_overlap_are_no_pulses(tmp_path, flag):
     x, y = grid(0.25)
