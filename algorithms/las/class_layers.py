@@ -186,7 +186,8 @@ def _returns(
     return_number, number_of_returns, scanner_channel : numpy.ndarray of uint8, shape (k,)
     """
     pieces = [slice(group[0].start, group[-1].end) for group in groups]
-    if cloud is None or cloud.count != layout.count or cloud.scanner_channel is None:
+    has_them = cloud is not None and cloud.count == layout.count and not cloud.from_zero
+    if cloud is None or not has_them or cloud.scanner_channel is None:
         most = max(piece.stop - piece.start for piece in pieces)
         for records in read_records(layout, most, columns=(), pieces=pieces):
             points = named(layout, records)

@@ -66,6 +66,8 @@ class PointCloud:
         The records of the file, if they were kept for writing.
     file : LasFile, optional
         The opened file.
+    from_zero : bool
+        Whether return numbers of the file begin at 0, so that each is one higher here.
     """
 
     path: Path
@@ -88,6 +90,7 @@ class PointCloud:
     synthetic: np.ndarray | None = None
     records: np.ndarray | None = None
     file: LasFile | None = None
+    from_zero: bool = False
 
     @property
     def count(self) -> int:
@@ -230,7 +233,7 @@ def joined(parts: Sequence[PointCloud]) -> PointCloud:
             columns.setdefault(name, []).append(column)
     # One column after the other, so that not all are in memory twice at the same time.
     whole = {name: np.concatenate(columns.pop(name)) for name in list(columns)}
-    return replace(parts[0], **whole)
+    return replace(parts[0], from_zero=any(part.from_zero for part in parts), **whole)
 
 
 def survey_frame(crs: Crs, origin: tuple[float, float] = (0.0, 0.0)) -> Frame:

@@ -20,6 +20,7 @@ from .extrabytes import REMEMBERED, dimension_names, remembers
 from .lasfile import FIRST_EXTENDED_FORMAT, LasFile
 from .opening import open_las
 from .records import MOST_KEPT, named, needed, read_records
+from .return_numbers import FROM_ZERO, count_from_one
 
 if TYPE_CHECKING:
     import laspy
@@ -82,7 +83,7 @@ def read_cloud(
         _fill(cloud, slice(start, start + len(piece)), named(layout, piece))
         start += len(piece)
         progress(start / layout.count)
-    return cloud
+    return count_from_one(cloud)
 
 
 def read_parts(
@@ -120,7 +121,7 @@ def read_parts(
         if strips:
             part.strip = np.array(chunk["point_source_id"], dtype=np.uint16)
             part.synthetic = np.array(chunk["synthetic"], dtype=bool)
-        yield part
+        yield count_from_one(part)
         start += len(chunk)
         progress(start / layout.count)
 
@@ -214,6 +215,8 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
     """
     layout = open_las(path)
     cloud = read_cloud(layout, progress)
+    if cloud.from_zero:
+        progress.warning(FROM_ZERO)
     integers = (cloud.x, cloud.y, cloud.z)
     corners = [
         tuple(
@@ -242,7 +245,7 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
         vertical_unit=cloud.crs.vertical_unit,
         length_scale=scale,
         classes=_histogram(cloud.classification),
-        returns=_histogram(cloud.return_number),
+        returns=_histogram(cloud.return_number - np.uint8(cloud.from_zero)),
         withheld=int(np.count_nonzero(cloud.withheld)),
         extra_dimensions=dimension_names(layout),
         records=[

@@ -21,6 +21,8 @@ class PointCounts:
     ----------
     points, withheld, unnumbered, overlap : int
         All points, withheld points, points without return number, and points of overlap.
+    from_zero : bool
+        Whether the return numbers begin at 0.
     free : int
         Points in the area and its surroundings that are not withheld.
     eligible, of_returns : int
@@ -39,6 +41,7 @@ class PointCounts:
     withheld: int = 0
     unnumbered: int = 0
     overlap: int = 0
+    from_zero: bool = False
     free: int = 0
     eligible: int = 0
     of_returns: int = 0
@@ -54,6 +57,7 @@ class PointCounts:
     def add(self, part: PointCloud, within: np.ndarray | None, **masks: np.ndarray) -> None:
         """Count the points of a part, and of masks named as the attributes."""
         self.points += part.count
+        self.from_zero |= part.from_zero
         classes, free = part.classification, ~part.withheld
         counts = count_classes(classes)
         self.classes += counts

@@ -13,6 +13,7 @@ from ..core.progress import Progress
 from ..core.words import counted
 from ..las.cloud import PointCloud
 from ..las.extrabytes import REMEMBERED
+from ..las.return_numbers import FROM_ZERO
 from .corrections import ByHand, Corrections, changed_since
 from .kept_classes import (
     ALL_CLASSES,
@@ -249,7 +250,9 @@ class Selection(ParameterSet):
             words = "withheld point is", "withheld points are"
             progress.info(f"{counted(counts.withheld, *words)} left out.")
         self.tell_of_kept(counts, progress)
-        if self.returns == "last" and counts.unnumbered == counts.points:
+        if counts.from_zero:
+            progress.warning(FROM_ZERO)
+        elif self.returns == "last" and counts.unnumbered == counts.points:
             progress.warning("The points have no return numbers: all of them are used.")
         elif self.returns == "last" and counts.unnumbered:
             words = (

@@ -16,6 +16,7 @@ from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.reading import cloud_of, columns_of, read_parts, require_packages
+from ..las.return_numbers import count_from_one
 from .area import Area
 
 # Returns points with other values, given their indices in the file.
@@ -90,7 +91,7 @@ def _in_nodes(layout: LasFile, area: Area, progress: Progress, times: bool) -> I
         columns: dict[str, np.ndarray] = {
             name: np.asarray(chunk[source]).astype(kind) for name, (source, kind) in names.items()
         }
-        yield cloud_of(layout, crs, **columns)
+        yield count_from_one(cloud_of(layout, crs, **columns))
         done += len(chunk)
         progress(done / total)
 

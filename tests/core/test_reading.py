@@ -4,12 +4,13 @@ import laspy
 import lazrs
 import numpy as np
 import pytest
-from runs import CancelAt
+from realdata import real
+from runs import CancelAt, said
 
 from bare_earth.algorithms.core import progress
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.crs.system import Crs
-from bare_earth.algorithms.las.reading import inspect, read_cloud
+from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
@@ -53,6 +54,46 @@ def test_with_its_records_a_cloud_is_the_same(las, point_format, name):
             assert getattr(one, "dtype", None) == getattr(other, "dtype", None)
             assert np.array_equal(one, other) if isinstance(one, np.ndarray) else one == other
     np.testing.assert_array_equal(kept.records, las.split(path).records)
+
+
+@pytest.mark.parametrize(
+    ("pairs", "is_from_zero"),
+    [
+        ([(0, 1), (0, 2), (1, 2)], True),
+        ([(0, 3), (1, 3), (2, 3)], True),
+        ([(0, 6)], False),
+        ([(0, 0)], False),
+        ([(0, 1), (1, 1)], False),
+        ([(1, 1), (1, 2), (2, 2), (0, 0)], False),
+        ([(1, 2), (2, 2), (0, 2)], False),
+    ],
+)
+def test_return_numbers_begin_at_1_whatever_the_file_says(las, pairs, is_from_zero):
+    records = las.records(6)
+    records[:, 14] = [number | total << 4 for number, total in (pairs * 60)[:60]]
+    cloud = read_cloud(las.make("in.laz", version=4, point_format=6, records=records))
+    assert cloud.from_zero == is_from_zero
+    np.testing.assert_array_equal(cloud.return_number, (records[:, 14] & 15) + is_from_zero)
+    (part,) = read_parts(cloud.file)
+    np.testing.assert_array_equal(part.return_number, cloud.return_number)
+    heard = las.Heard()
+    assert set(inspect(cloud.file, heard).returns) == {number for number, _ in pairs}
+    assert any("begin at 0" in text for text in heard.warnings) == is_from_zero
+
+
+@pytest.mark.parametrize("name", ["out.laz", "out.copc.laz"])
+def test_returns_from_zero_give_the_ground_and_stay_as_they_are(tmp_path, name):
+    source, target = real("field2/returns-from-zero.laz"), tmp_path / name
+    code, _, told = said("classify", source, target)
+    assert code == 0 and told.count("begin at 0") == 1 and "no return number" not in told
+    one, other = laspy.read(source), laspy.read(target)
+    order = [
+        np.lexsort((each.return_number, each.gps_time, each.Y, each.X)) for each in (one, other)
+    ]
+    number, truth = (np.asarray(one[each])[order[0]] for each in ("return_number", "user_data"))
+    np.testing.assert_array_equal(np.asarray(other.return_number)[order[1]], number)
+    ground = np.asarray(other.classification)[order[1]] == 2
+    assert ground[truth == 1].mean() > 0.99 and ground[truth == 0].mean() < 0.01
 
 
 def test_several_chunks_are_joined_in_order(las, monkeypatch):
