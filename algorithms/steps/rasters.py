@@ -12,6 +12,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
+from ..core.words import counted
 from ..crs.system import Crs
 from ..engine.blocks import Block, Blocks
 from ..engine.blockwise import over_blocks
@@ -37,7 +38,7 @@ from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import TerrainModel
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundCounts
-from ..survey.kept_classes import NOISE
+from ..survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
 
 # Points are thinned unless there are so many times as many cells.
 _MOST_THINNED = 10
@@ -178,13 +179,28 @@ class MakeRasters(Step):
         if not any(LAYERS[each].of_all for each in self.files.layers):
             # The others only show where the survey is.
             shown = ground | roads | self._thinned(part, shown)
-        top = shown & self.needs_surface
-        if self.surface.surface_classes:
-            top &= np.isin(part.classification, self.surface.surface_classes)
-        if self.surface.surface_returns == "first":
-            top &= part.return_number <= 1
+        top = shown & self.needs_surface & self._is_surface(part, ground)
         counts.top += int(np.count_nonzero(top))
         return Marks(shown, ground, top, roads)
+
+    def _is_surface(self, part: PointCloud, ground: np.ndarray) -> np.ndarray:
+        """Return which points are of the classes and returns of the surface."""
+        if self.surface.surface_classes:
+            surface = np.isin(part.classification, self.surface.surface_classes)
+        else:
+            surface = ~np.isin(part.classification, self._left_out)
+        if self.surface.surface_returns == "first":
+            # The first returns of pulses that reach the bottom of a water are of the water.
+            bottom = ground & (part.classification == BOTTOM)
+            surface &= (part.return_number <= 1) | bottom
+        return surface
+
+    @property
+    def _left_out(self) -> list[int]:
+        """Classes that make no surface, unless the user names them."""
+        # If the bottom is terrain, the water above it is no canopy.
+        under_water = BOTTOM in self.ground.ground_classes
+        return [*(WATER_SURFACES if under_water else ()), *SUBMERGED]
 
     def _thinned(self, part: PointCloud, shown: np.ndarray) -> np.ndarray:
         """Return one point of each cell of those that are shown."""
@@ -218,6 +234,13 @@ class MakeRasters(Step):
                 )
             raise BareEarthError(
                 f"{path} has no first returns to make a surface of. Take all returns instead."
+            )
+        wet = 0 if self.surface.surface_classes else int(counts.classes[self._left_out].sum())
+        if self.needs_surface and wet:
+            words = "point on or in water is", "points on or in water are"
+            classes = ", ".join(map(str, self._left_out))
+            progress.info(
+                f"{counted(wet, *words)} left out of the surface model (classes {classes})."
             )
 
     def work(

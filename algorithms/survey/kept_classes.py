@@ -25,6 +25,8 @@ ROADS = (10, 11)
 OVERLAP = 12
 # Ground beside a shore or breakline, which terrain models leave out there.
 IGNORED_GROUND = 20
+# Topo-bathymetric lidar: the bottom of a water, the surface of it, and what lies or ends between.
+BOTTOM, WATER_SURFACES, SUBMERGED = 40, (41, 42), (43, 44, 45)
 ALL_CLASSES = "all"
 
 

@@ -1474,8 +1474,8 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Nur Punkte in diesem Rechteck werden kartiert und geschrieben. Punkte in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
-        <source>Only points of these classes make the surface, such as 41 for a water surface, or 2 and 6 for terrain with buildings. Empty: all classes but low and high noise (7 and 18).</source>
-        <translation>Nur Punkte dieser Klassen bilden die Oberfläche, etwa 41 für eine Wasseroberfläche, oder 2 und 6 für Gelände mit Gebäuden. Leer: alle Klassen außer tiefem und hohem Rauschen (7 und 18).</translation>
+        <source>Only points of these classes make the surface, such as 41 for a water surface, or 2 and 6 for terrain with buildings. Empty: all classes but low and high noise (7 and 18) and what lies in water (43 to 45); if the bottom of waters (40) is ground, their surfaces (41 and 42) are left out, too.</source>
+        <translation>Nur Punkte dieser Klassen bilden die Oberfläche, etwa 41 für eine Wasseroberfläche, oder 2 und 6 für Gelände mit Gebäuden. Leer: alle Klassen außer tiefem und hohem Rauschen (7 und 18) und dem, was im Wasser liegt (43 bis 45); ist der Grund von Gewässern (40) Boden, bleiben auch ihre Oberflächen (41 und 42) weg.</translation>
     </message>
     <message>
         <source>Only points of these classes take part and may change their class. Empty: 0 to 6, 8, 12 and the class of the ground. Points of other classes, such as water (9) and bridge decks (17), keep their class. Rails and roads (10 and 11) keep theirs too, but take part. all: all classes but low and high noise (7 and 18).</source>

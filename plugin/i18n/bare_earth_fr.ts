@@ -1474,8 +1474,8 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Seuls les points dans ce rectangle sont cartographiés et écrits. Les points proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
-        <source>Only points of these classes make the surface, such as 41 for a water surface, or 2 and 6 for terrain with buildings. Empty: all classes but low and high noise (7 and 18).</source>
-        <translation>Seuls les points de ces classes forment la surface, par exemple 41 pour une surface d'eau, ou 2 et 6 pour le terrain avec les bâtiments. Vide : toutes les classes sauf le bruit bas et haut (7 et 18).</translation>
+        <source>Only points of these classes make the surface, such as 41 for a water surface, or 2 and 6 for terrain with buildings. Empty: all classes but low and high noise (7 and 18) and what lies in water (43 to 45); if the bottom of waters (40) is ground, their surfaces (41 and 42) are left out, too.</source>
+        <translation>Seuls les points de ces classes forment la surface, par exemple 41 pour une surface d'eau, ou 2 et 6 pour le terrain avec les bâtiments. Vide : toutes les classes sauf le bruit bas et haut (7 et 18) et ce qui se trouve dans l'eau (43 à 45) ; si le fond des eaux (40) est du sol, leurs surfaces (41 et 42) sont aussi laissées de côté.</translation>
     </message>
     <message>
         <source>Only points of these classes take part and may change their class. Empty: 0 to 6, 8, 12 and the class of the ground. Points of other classes, such as water (9) and bridge decks (17), keep their class. Rails and roads (10 and 11) keep theirs too, but take part. all: all classes but low and high noise (7 and 18).</source>

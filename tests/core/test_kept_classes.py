@@ -173,3 +173,16 @@ def test_the_classes_of_the_surface_can_be_chosen(tmp_path):
         assert (read_raster(files.dsm).heights == height).all()
     code, _, told = said("terrain", source, "--dsm", tmp_path / "no.tif", "--surface-classes", "41")
     assert code and "Choose other classes for the surface" in told
+
+
+@pytest.mark.parametrize(("classes", "lowest"), [((2, 40), 6.0), ((2,), 9.8)])
+def test_water_above_its_bottom_is_no_canopy(tmp_path, classes, lowest):
+    source = real("field2/topobathy.laz")
+    files = RasterFiles(dsm=tmp_path / "dsm.tif", chm=tmp_path / "chm.tif")
+    request = TerrainRequest(rasters=files, ground=GroundClasses(ground_classes=classes))
+    heard = Heard()
+    terrain(source, request, heard)
+    assert np.nanmax(read_raster(files.chm).heights) < 0.3
+    assert np.nanmin(read_raster(files.dsm).heights) == pytest.approx(lowest, abs=0.1)
+    told = [text for text in heard.infos if "left out of the surface model" in text]
+    assert told[0].startswith("9,060 points" if 40 in classes else "1,569 points")
