@@ -22,6 +22,7 @@ from .request import DeliveryRequest
 from .steps import Made
 
 _MOST_ROWS = 200
+_NOT_MEASURED = "Not measured: no checkpoints are given."
 _STYLE = """
 .maps { display: grid; grid-template-columns: repeat(auto-fill, minmax(380px, 1fr)); gap: 1.2em; }
 .maps figure:first-child { grid-column: 1 / -1; }
@@ -98,7 +99,7 @@ def _figures(request: DeliveryRequest, made: Made, survey: Survey, units: Units)
         rows.append(("Contour interval", text(made.interval.text())))
     if made.water is not None:
         rows.append(("Water", text(made.water.text)))
-    rows += _accuracy(made)
+    rows += _accuracy(request, made)
     return f"<h2>In figures</h2>\n{_table(rows)}\n{_comparison(made)}"
 
 
@@ -108,23 +109,31 @@ def cell_text(request: DeliveryRequest, made: Made, units: Units) -> str:
     return units.length(size)
 
 
-def _accuracy(made: Made) -> list[tuple[str, str]]:
+def _accuracy(request: DeliveryRequest, made: Made) -> list[tuple[str, str]]:
     check = made.check
     if check is None:
-        return []
+        return [("Accuracy of the terrain", _NOT_MEASURED)]
     rows: dict[str, Figures | None] = {
         "Checkpoints, without vegetation (NVA)": check.nva,
         "Checkpoints, with vegetation (VVA)": check.vva,
         "Checkpoints, terrain model (NVA)": check.dtm_nva,
     }
-    if check.hold_out is not None:
-        held = check.hold_out
-        rows |= {
-            "Ground points held out": held.all, "Held out, open land": held.open,
-            "Held out, under trees": held.under_trees, "Held out, steep": held.steep,
-        }  # fmt: skip
     told = [(name, each.text) for name, each in rows.items() if each is not None]
-    return told + ([("Statement", text(check.statement))] if check.statement else [])
+    if not told:
+        told.append(("Accuracy of the terrain", _NOT_MEASURED))
+    stated = {"Verdict": check.verdict, "Statement": "" if check.doubt else check.statement}
+    told += [(name, text(words)) for name, words in stated.items() if words]
+    left = check.hold_out
+    if left is None:
+        return told
+    rows = {
+        "Ground points held out": left.all, "Held out, open land": left.open,
+        "Held out, under trees": left.under_trees, "Held out, steep": left.steep,
+    }  # fmt: skip
+    told += [(name, each.text) for name, each in rows.items() if each is not None]
+    share = None if made.quality is None else made.quality.ground_void_share
+    limits = left.limits(share, request.quality.void_distance)
+    return [*told, ("What held-out points tell", text(limits))]
 
 
 def _comparison(made: Made) -> str:

@@ -7,6 +7,7 @@ from typing import Any
 
 from ..products.checkpoint_results import Check
 from ..products.contours import Interval
+from ..products.hold_out import AGREEMENT
 from ..products.quality_figures import Quality
 from ..products.water_files import WaterSummary
 
@@ -82,7 +83,7 @@ class DeliverySummary:
         found = [("classes", classes)]
         if self.water is not None:
             found.append(("water", self.water.text))
-        found += self._accuracy()
+        found += self.accuracy()
         lines, left = self.quality.lines, self.quality.left
         if lines:
             names = ", ".join(f"{each.name} ({each.state})" for each in left)
@@ -90,16 +91,20 @@ class DeliverySummary:
             found.append(("comparisons", f"{passed}; not: {names}" if left else passed))
         return [*found, ("cell size", self.cell_text), ("page", self.page)]
 
-    def _accuracy(self) -> list[tuple[str, str]]:
+    def accuracy(self) -> list[tuple[str, str]]:
         """Return the rows of the errors at checkpoints and at points that were held out."""
         check = self.check
-        if check is None:
-            return []
-        figures = {
-            "checkpoints": check.nva or check.vva,
-            "held out": None if check.hold_out is None else check.hold_out.all,
-        }
-        return [(name, each.text) for name, each in figures.items() if each is not None]
+        nva, vva = (None, None) if check is None else (check.nva, check.vva)
+        found = [] if nva or vva else [("accuracy", "not measured: no checkpoints are given")]
+        for name, figures in (("checkpoints", nva), ("vegetated", vva)):
+            if figures is not None:
+                found.append((name, figures.text))
+        if check is not None and check.verdict:
+            found.append(("verdict", check.verdict))
+        left = None if check is None or check.hold_out is None else check.hold_out.all
+        if left is not None:
+            found.append(("held out", f"{left.text}; {AGREEMENT}"))
+        return found
 
     def lines(self) -> list[str]:
         """Return the figures as lines of text."""

@@ -56,9 +56,8 @@ def _summary(check: Check) -> str:
         f"{check.counted:,} of {check.checkpoint_count:,} checkpoints are counted, {count:,} of"
         f" them on land without vegetation. The standard asks for at least {check.needed} of these."
     ]
-    if check.meets_class is not None:
-        does = "meet" if check.meets_class else "do not meet"
-        words.append(f"The ground points {does} the class of {check.accuracy_class:g} m.")
+    if check.verdict and not check.doubt:
+        words.append(check.verdict)
     if check.shift is not None:
         words.append(
             f"The mean difference would be removed by a shift of {-check.shift:+.3f} m. Nothing was"
@@ -257,6 +256,5 @@ def _held_out(check: Check) -> str:
 <p>{left.left_out:,} ground points ({100 * left.share:g} %) were left out of the TIN;
 {left.no_height:,} of those that were looked at lie in voids of the others.</p>
 {_figures(rows)}
-<p>TIN of the other ground points minus the point, in metres. This tells how well the points agree
-with each other and how well heights between them are interpolated. It does not tell how right they
-are: if all lie 10 cm too high, it does not show.</p>"""
+<p>TIN of the other ground points minus the point, in metres. {text(left.limits())} If all points
+lie 10 cm too high, it does not show either.</p>"""

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..survey.checkpoint_files import Checkpoints
 from .accuracy import NEEDED, Figures
-from .hold_out import HoldOut
+from .hold_out import AGREEMENT, HoldOut
 from .land_covers import CONTROL, NVA, VVA
 
 COUNTED = "counted"
@@ -18,6 +18,8 @@ COUNTED = "counted"
 COLOURS, NOT_COUNTED = ("#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b"), "#888888"
 # Limits between the colours, as shares of the scale.
 _SHARES = (-0.6, -0.2, 0.2, 0.6)
+# What stands in place of a statement while there is a doubt.
+NOT_STATED = "No accuracy is stated before the difference in height is settled."
 # Most names in a sentence.
 _MOST_NAMES = 30
 # Why a checkpoint is not counted, and what it means.
@@ -153,6 +155,24 @@ class Check:
         figures = None if self.hold_out is None else self.hold_out.all
         return None if figures is None else figures.rmse
 
+    @property
+    def verdict(self) -> str:
+        """What was found, compared with the class, in a sentence; empty without checkpoints."""
+        if not self.checkpoint_count:
+            return ""
+        if self.doubt:
+            return f"{NOT_STATED} {self.doubt}"
+        if self.nva is None:
+            return "No accuracy is stated: no checkpoint without vegetation is counted."
+        if self.meets_class is None:
+            return ""
+        does = "meet" if self.meets_class else "do not meet"
+        few = self.nva.count < self.needed
+        by = f", by {self.nva.count:,} of the {self.needed} checkpoints that the standard asks for"
+        return (
+            f"The ground points {does} the class of {self.accuracy_class:g} m{by if few else ''}."
+        )
+
     def as_dict(self) -> dict[str, Any]:
         """Return all figures for JSON."""
         return asdict(self)
@@ -175,6 +195,7 @@ class Check:
             rows.append(
                 f"held out          {left.left_out:>6,} ground points, {left.no_height:,} in voids"
             )
+            rows.append(f"what this tells   {AGREEMENT}")
             named |= {
                 "held out, all": left.all, "open land": left.open,
                 "under trees": left.under_trees, "steep": left.steep,

@@ -22,14 +22,13 @@ from ..survey.files import Survey
 from ..survey.ground_classes import GroundClasses
 from .accuracy import Accuracy, Figures, statement
 from .checkpoint_outputs import CheckOutputs
-from .checkpoint_results import COUNTED, REASONS, Check, Residuals, listed
+from .checkpoint_results import COUNTED, NOT_STATED, REASONS, Check, Residuals, listed
 from .height_offsets import offset_in_words
 from .hold_out import HoldOut, hold_out
 from .land_covers import CONTROL, VVA, LandCovers, kinds_of
 from .page import round_length
 from .survey_ground import SurveyGround
 
-_NOT_STATED = "No accuracy is stated before the difference in height is settled."
 # How many of the largest errors are named.
 _LARGEST = 5
 
@@ -167,7 +166,7 @@ def check_files(
         held = hold_out(ground, share, request.options.max_edge, part)
     check = _check_of(found, request.accuracy, held)
     if check.doubt:
-        progress.warning(f"{check.doubt} No accuracy is stated before this is settled.")
+        progress.warning(f"{check.doubt} {NOT_STATED}")
     request.outputs.write(check, found, ground.survey, progress)
     return check
 
@@ -301,7 +300,7 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, held: HoldOut | None)
     doubt, dtm_doubt = (_doubt_of(found, errors) for errors in (found.errors, found.dtm_errors))
     worst = np.argsort(np.where(counted, -np.abs(found.errors), 0.0), kind="stable")[:_LARGEST]
     goal = accuracy.accuracy_class
-    of_dtm = _NOT_STATED if dtm_doubt else statement(dtm_nva, dtm_vva, goal)
+    of_dtm = NOT_STATED if dtm_doubt else statement(dtm_nva, dtm_vva, goal)
     return Check(
         checkpoint_count=len(names),
         counted=int(np.count_nonzero(counted)),
@@ -318,7 +317,7 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, held: HoldOut | None)
         accuracy_class=goal,
         meets_class=None if goal is None or nva is None or doubt else nva.total_rmse <= goal,
         scale=_scale_of(found),
-        statement=_NOT_STATED if doubt else statement(nva, vva, goal),
+        statement=NOT_STATED if doubt else statement(nva, vva, goal),
         dtm_statement=of_dtm if dtm_nva is not None or dtm_vva is not None else "",
         hold_out=held,
     )  # fmt: skip

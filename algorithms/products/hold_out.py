@@ -14,6 +14,11 @@ from .survey_ground import SurveyGround
 MOST = 10_000
 # Side of the cells by which points are left out, in metres: the points of one place go together.
 _CELL = 0.01
+# What the errors do not tell, beside the figures.
+AGREEMENT = (
+    "how well ground points agree with each other, not how right the terrain is: objects and dense"
+    " plants that were taken for ground do not show"
+)
 _STEEP = 20.0
 # Numbers that mix the bits of the coordinates (Steele, Lea & Flood 2014, SplitMix64).
 _MIX = tuple(
@@ -37,6 +42,8 @@ class HoldOut:
         Errors (the TIN minus the point), of all and by land: where the slope is more than 20
         degrees; elsewhere where the pulse of the point had several returns; and the rest. At most
         10,000 points are measured.
+    single : bool
+        Whether no point that was left out is of a pulse with several returns.
     """
 
     share: float
@@ -46,6 +53,29 @@ class HoldOut:
     open: Figures | None
     under_trees: Figures | None
     steep: Figures | None
+    single: bool = False
+
+    def limits(self, void_share: float | None = None, distance: float = 0.0) -> str:
+        """Return what the errors do not tell, in sentences.
+
+        Parameters
+        ----------
+        void_share : float, optional
+            Share of the area that is farther than `distance` metres from a ground point.
+        distance : float
+        """
+        said = [f"This tells {AGREEMENT}."]
+        if void_share:
+            said.append(
+                f"{100.0 * void_share:.1f} % of the area is farther than {distance:g} m from a"
+                " ground point: the terrain is interpolated there, and not measured."
+            )
+        if self.single:
+            said.append(
+                "No pulse has several returns, as in clouds of images: below plants nothing was"
+                " measured."
+            )
+        return " ".join(said)
 
 
 def hold_out(
@@ -97,10 +127,11 @@ def hold_out(
         kept[:2].T, max_edge, progress.part(0.4, 1.0), lambda x, y: _codes(x, y) >= limit
     )
     errors, known = found.heights - kept[2], np.isfinite(found.heights)
-    steep, trees = found.slopes > _STEEP, kept[3] > 0.0
-    lands = (known, known & ~steep & ~trees, known & ~steep & trees, known & steep)
-    figures = [Figures.of(errors[each]) for each in lands]
-    return HoldOut(share, count, int(np.count_nonzero(~known)), *figures)
+    rises, several = found.slopes > _STEEP, kept[3] > 0.0
+    lands = (known, known & ~rises & ~several, known & ~rises & several, known & rises)
+    every, level, trees, steep = (Figures.of(errors[each]) for each in lands)
+    no_height, single = int(np.count_nonzero(~known)), not kept[3].any()
+    return HoldOut(share, count, no_height, every, level, trees, steep, single)
 
 
 def _codes(x: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -146,6 +146,7 @@ def make_delivery(
     request = DeliveryRequest.of(sets, delivery=name, checkpoints=points, **limits)
     done = deliver(algorithm.inputs, folder, request, progress)
     progress.share(done.ground_count, done.point_count, bool(request.area))
+    progress.info("\n".join(f"{title}: {value}" for title, value in done.accuracy()))
     _show(algorithm, done, request.content.pictures[0], context)
     terrain = dataclasses.replace(request.terrain, dtm_cell_size=done.cell_size)
     request = dataclasses.replace(request, terrain=terrain)

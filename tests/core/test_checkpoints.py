@@ -200,11 +200,19 @@ def test_held_out_points_are_the_same_in_each_run_and_tell_the_noise(tmp_path):
     assert one == other
     assert one.left_out == pytest.approx(1500, rel=0.1)
     assert one.all.count + one.no_height == one.left_out and one.no_height < 15
+    assert not one.single and "objects and dense plants that were taken for ground" in one.limits()
     # The noise of the point, and the mean of three weights: 1 + 1/2 times the variance or less.
     assert 0.05 < one.open.rmse < 0.07
     # Along the edge at y = 30 the slope changes.
     shares = [each.count / one.all.count for each in (one.steep, one.open, one.under_trees)]
     assert shares == pytest.approx([0.3, 0.5, 0.2], abs=0.04)
+
+
+def test_held_out_points_of_single_returns_and_of_a_terrain_with_gaps_say_so(tmp_path):
+    path = write(tmp_path / "in.laz", *cloud())
+    left = check([path], None, CheckOptions(hold_out=0.05)).hold_out
+    assert left.single and "below plants nothing was measured" in left.limits()
+    assert "12.3 % of the area is farther than 3 m from a ground point" in left.limits(0.123, 3.0)
 
 
 def test_more_held_out_points_than_are_measured(survey, monkeypatch):

@@ -687,10 +687,17 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     first, *rows = capsys.readouterr().out.splitlines()
     assert first.startswith(f"{target}: {summary.ground_count:,} of {summary.point_count:,} points")
     told = {each[:11].rstrip(): each[12:] for each in rows}
-    assert list(told) == ["classes", "water", "held out", "comparisons", "cell size", "page"]
+    titles = ["classes", "water", "accuracy", "held out", "comparisons", "cell size", "page"]
+    assert list(told) == titles and told["accuracy"].startswith("not measured")
     counts = (f"{value}: {count:,}" for value, count in summary.class_counts.items())
     assert told["classes"] == ", ".join(counts) and told["cell size"] == "1 m"
-    assert told["held out"] == summary.check.hold_out.all.text and told["water"]
+    figures, _, limits = told["held out"].partition("; ")
+    assert figures == summary.check.hold_out.all.text and told["water"]
+    assert "not how right the terrain is" in limits
+    page = (target / "index.html").read_text(encoding="utf-8")
+    assert "Accuracy of the terrain" in page and "What held-out points tell" in page
+    share = summary.quality.ground_void_share
+    assert (f"{100 * share:.1f} % of the area is farther than 3 m" in page) == (share > 0)
     # The scene is sparse, and the specification asks for 2 points in a square metre.
     assert told["page"] == str(target / "index.html") and Path(told["page"]).exists()
     states = {each.name: each.state for each in summary.quality.lines}
@@ -706,10 +713,14 @@ def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
     table = "\n".join(["x,y,z", *(",".join(map(str, each)) for each in rows)])
     (tmp_path / "points.csv").write_text(table)
     words = ["--checkpoints", str(tmp_path / "points.csv"), "--hold-out-share", "none"]
+    words += ["--accuracy-class", "0.1"]
     assert main(["deliver", "drone-site", str(scene[1]), str(tmp_path / "out"), *words]) == 0
     rows = capsys.readouterr().out.splitlines()[1:]
     titles = [each[:11].rstrip() for each in rows]
-    assert titles == ["classes", "checkpoints", "cell size", "page"]
+    assert titles == ["classes", "checkpoints", "verdict", "cell size", "page"]
+    assert rows[2].endswith(
+        "meet the class of 0.1 m, by 3 of the 30 checkpoints that the standard asks for."
+    )
     assert re.search(r"^checkpoints RMSE 0\.\d{3} m, mean [+-]0\.\d{3} m, of 3$", rows[1])
 
 

@@ -118,6 +118,7 @@ def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
     layers = QgsProject.instance().mapLayers().values()
     assert {type(each) for each in layers} >= {QgsRasterLayer, QgsVectorLayer}
     assert f"{scene.ground_count:,} of {scene.count:,} points are ground" in log.text
+    assert "accuracy: not measured" in log.text and "held out: RMSE" in log.text
 
 
 def test_the_command_in_the_log_does_the_same(deliver, tmp_path):
