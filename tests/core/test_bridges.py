@@ -80,7 +80,7 @@ def test_a_deck_is_found_again_after_a_classification_took_it_out_of_the_ground(
     points, deck = over_a_river(density=density)
     # Some pulses meet the railings, and some the water right below them.
     random = np.random.default_rng(5)
-    x, y, across, _ = turned(20.0, density)
+    across = turned(20.0, density)[2]
     side = deck & (np.abs(np.abs(across) - 3.5) < 0.5)
     rail, low = (side & (random.random(len(deck)) < share) for share in (0.3, 0.15))
     points.z[rail], points.z[low] = 101.2, 94.0
