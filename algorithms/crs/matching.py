@@ -70,13 +70,13 @@ def described(crs: Crs) -> str:
     """Return name and units of a CRS, for messages."""
     if crs == Crs():
         return "none stated"
-    name = named(crs.name, crs.datum)
+    name = named_with_heights(crs.name, crs.datum)
     if crs.is_geographic:
         return f"{name} in degrees"
     return f"{name} in {unit_name(crs.horizontal_unit)}, height {unit_name(crs.vertical_unit)}"
 
 
-def named(crs: str, datum: VerticalDatum | None) -> str:
+def named_with_heights(crs: str, datum: VerticalDatum | None) -> str:
     """Return the name of a CRS with that of its heights, if it lacks this."""
     if datum is None or _bare(datum.crs) in _bare(crs):
         return crs

@@ -7,7 +7,7 @@ from typing import NamedTuple, Sequence
 
 from ..core.progress import Progress
 from .geokeys import GeoKeys
-from .matching import is_other_datum, named
+from .matching import is_other_datum, named_with_heights
 from .provider import wkt_of_epsg
 from .stated import HOW
 from .system import Crs, crs_of_facts, same_unit, unit_name
@@ -107,7 +107,7 @@ def _contradicts_heights(one: WktFacts, other: WktFacts) -> bool:
 def _shown(statement: _Statement) -> str:
     """Return what a statement says of name and units, without what would be assumed."""
     facts = statement.facts
-    words = [named(facts.name, facts.datum) or "without a name"]
+    words = [named_with_heights(facts.name, facts.datum) or "without a name"]
     if facts.is_geographic:
         words.append("in degrees")
     elif facts.horizontal_unit:

@@ -11,6 +11,7 @@ import numpy as np
 from ..core.errors import printable
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
+from ..crs.matching import named_with_heights
 from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.system import Crs, unit_name
 from .backends import require
@@ -238,7 +239,7 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
         scale=layout.scale,
         offset=layout.offset,
         density=_density(cloud, scale, *corners),
-        crs=cloud.crs.name,
+        crs=named_with_heights(cloud.crs.name, cloud.crs.datum),
         epsg=cloud.crs.epsg,
         is_geographic=cloud.crs.is_geographic,
         horizontal_unit=cloud.crs.horizontal_unit,

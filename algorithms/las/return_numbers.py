@@ -10,29 +10,45 @@ FROM_ZERO = (
     "The return numbers begin at 0, not at 1 as in the LAS specification: each counts as one"
     " higher."
 )
-# Of pulses with several returns, the last one has the number of returns if they count from 1. In
-# files that count from 0, at most so many are wrong for each first return.
+# In files that count from 0, at most this share of pulses seems to count from 1.
 _MOST_WRONG = 0.02
+# First and last returns may differ by this share, as pulses lie partly outside of what is read.
+_CUT_OFF = 0.2
 
 
 def count_from_one(cloud: PointCloud) -> PointCloud:
     """Return points whose return numbers begin at 1, also if those of the file begin at 0.
 
     They do if pulses with several returns have a return 0, others above it, and none with the
-    number of returns. Files whose return numbers are all 0 do not count returns at all.
+    number of returns; or if numbers of returns begin at 0, too, so that all returns 0 are as many
+    as those that have the number of returns. Files whose return numbers are all 0 do not count
+    returns at all.
 
     Parameters
     ----------
     cloud : PointCloud
         Points that were just read; those that count from 0 get other return numbers.
     """
-    number, several = cloud.return_number, cloud.number_of_returns > 1
-    first = several & (number == 0)
-    firsts = int(np.count_nonzero(first))
-    if not firsts:
+    number, total = cloud.return_number, cloud.number_of_returns
+    if number.all():
         return cloud
-    lasts = int(np.count_nonzero(several & (number >= cloud.number_of_returns)))
-    if lasts <= _MOST_WRONG * firsts and np.any(several & (number > 0)):
+    zero, last = number == 0, number >= total
+    if _is_first_of_several(zero, last, total > 1):
         number += 1
         cloud.from_zero = True
+    elif _are_both_from_zero(zero, last, total):
+        number += 1
+        total += 1
+        cloud.from_zero = True
     return cloud
+
+
+def _is_first_of_several(zero: np.ndarray, last: np.ndarray, several: np.ndarray) -> bool:
+    firsts, lasts = (int(np.count_nonzero(several & each)) for each in (zero, last))
+    return firsts > 0 and lasts <= _MOST_WRONG * firsts and bool(np.any(several & ~zero))
+
+
+def _are_both_from_zero(zero: np.ndarray, last: np.ndarray, total: np.ndarray) -> bool:
+    several = total > 0
+    firsts, lasts = (int(np.count_nonzero(several & each)) for each in (zero, last))
+    return firsts > 0 and abs(firsts - lasts) <= _CUT_OFF * firsts and not several.all()

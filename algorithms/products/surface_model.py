@@ -52,9 +52,9 @@ class SurfaceModel(ParameterSet):
         advanced=True,
         empty="all but noise",
         help="Only points of these classes make the surface, such as 41 for a water surface, or 2"
-        " and 6 for terrain with buildings. Empty: all classes but low and high noise (7 and 18) and"
-        " what lies in water (43 to 45); if the bottom of waters (40) is ground, their surfaces (41"
-        " and 42) are left out, too.",
+        " and 6 for terrain with buildings. Empty: all classes but low and high noise (7 and 18)"
+        " and what lies in water (43 to 45); if the bottom of waters (40) is ground, their surfaces"
+        " (41 and 42) are left out, too.",
     )
     max_edge: float | None = parameter_of(Gaps, "max_edge", advanced=False)
     pit_free: bool = parameter(

@@ -252,11 +252,7 @@ def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) 
         )
         horizontal = 1.0
     of_band, of_crs = stated_units(content)
-    if of_band and of_crs and not same_unit(of_band, of_crs):
-        progress.warning(
-            f"The heights of {source} are in {unit_name(of_band)} by its band, which is used, and"
-            f" in {unit_name(of_crs)} by its CRS."
-        )
+    tell_of_units(source, of_band, of_crs, progress)
     vertical = of_band or of_crs
     if vertical is None:
         vertical = horizontal
@@ -266,6 +262,17 @@ def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) 
                 f" {unit_name(horizontal)}."
             )
     return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
+
+
+def tell_of_units(
+    source: str | Path, used: float | None, of_crs: float | None, progress: Progress
+) -> None:
+    """Warn if the CRS states another unit of heights than the one that is used."""
+    if used and of_crs and not same_unit(used, of_crs):
+        progress.warning(
+            f"The heights of {source} are in {unit_name(used)} by its band, which is used, and in"
+            f" {unit_name(of_crs)} by its CRS."
+        )
 
 
 def stated_units(content: Content) -> tuple[float | None, float | None]:

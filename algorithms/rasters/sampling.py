@@ -13,7 +13,8 @@ from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..crs.matching import described, is_other_datum, is_same_map
 from ..crs.system import Crs, crs_of_wkt, same_unit, unit_name
-from .geotiff import read_raster
+from ..crs.wkt import read_wkt
+from .geotiff import read_raster, tell_of_units
 
 # Cells along a side of the squares that are read, and how many of these stay in memory.
 _SIDE, _MOST_KEPT = 512, 16
@@ -93,6 +94,8 @@ class HeightRaster:
 
     def tell(self, crs: Crs, progress: Progress) -> None:
         """Warn if heights of points in a CRS may not fit to those of the raster."""
+        facts = read_wkt(self.crs.wkt) if self.crs and self.crs.wkt else None
+        tell_of_units(self.path, self.unit, facts and facts.vertical_unit, progress)
         if self.unit and not self.states_unit and not same_unit(self.unit, crs.vertical_unit):
             progress.warning(
                 f"{self.path} does not state the unit of its heights: {unit_name(self.unit)} is"

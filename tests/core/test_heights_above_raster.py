@@ -225,6 +225,9 @@ def test_points_far_above_a_raster_or_above_another_datum_are_told(tmp_path):
     here, there = (crs_of_wkt(wkt_of_text(f"EPSG:25832+{code}")) for code in (7837, 5621))
     raster = dataclasses.replace(HeightRaster.of(far), crs=there)
     raster.tell(here, heard)
+    feet = crs_of_wkt(wkt_of_text("EPSG:25832+8228"))
+    dataclasses.replace(raster, crs=feet, states_unit=True).tell(feet, heard)
+    assert "metre by its band, which is used, and in foot by its CRS" in heard.warnings[2]
     assert "EVRF2007 height" in heard.warnings[1] and "DHHN2016 height" in heard.warnings[1]
 
 

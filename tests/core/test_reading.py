@@ -61,6 +61,9 @@ def test_with_its_records_a_cloud_is_the_same(las, point_format, name):
     [
         ([(0, 1), (0, 2), (1, 2)], True),
         ([(0, 3), (1, 3), (2, 3)], True),
+        ([(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)], True),
+        ([(0, 0), (0, 1), (1, 1)], True),
+        ([(0, 1), (0, 2), (1, 2), (1, 1), (1, 2), (2, 2)], False),
         ([(0, 6)], False),
         ([(0, 0)], False),
         ([(0, 1), (1, 1)], False),
@@ -74,6 +77,8 @@ def test_return_numbers_begin_at_1_whatever_the_file_says(las, pairs, is_from_ze
     cloud = read_cloud(las.make("in.laz", version=4, point_format=6, records=records))
     assert cloud.from_zero == is_from_zero
     np.testing.assert_array_equal(cloud.return_number, (records[:, 14] & 15) + is_from_zero)
+    both = is_from_zero and (0, 0) in pairs
+    np.testing.assert_array_equal(cloud.number_of_returns, (records[:, 14] >> 4) + both)
     (part,) = read_parts(cloud.file)
     np.testing.assert_array_equal(part.return_number, cloud.return_number)
     heard = las.Heard()
