@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Iterable
+from typing import Iterable, Sequence
 
 import numpy as np
 
 from ..core.points import Box
 from .cells import numbered
+from .descent import Network, descent
 
-# The water level at a station is taken from so many stations on each side of it.
-_STATIONS = 5
+# Stations this near in metres are one. A line joins another one if it ends so many times half the
+# width of the water from it, and so many metres more.
+_MEET, _WIDER, _JOINED = 0.1, 1.5, 10.0
 
 _SHIFT = 32
 # Number of nearest points of a place among which one on each side of the line is searched.
@@ -216,18 +218,18 @@ def inside_grid(box: Box, step: float) -> np.ndarray:
 
 
 def falling(
-    line: np.ndarray,
+    lines: Sequence[np.ndarray],
     border: np.ndarray,
     heights: np.ndarray,
     places: np.ndarray,
     percentile: float,
 ) -> np.ndarray:
-    """Return the water level at places along a river; downstream it never rises.
+    """Return the water level at places along a river and its branches; downstream it never rises.
 
     Parameters
     ----------
-    line : numpy.ndarray of float64, shape (n, 2)
-        Stations along the river, in order, up or down.
+    lines : sequence of numpy.ndarray of float64, shape (n, 2)
+        Stations along each branch, in order, up or down. At least two stations.
     border : numpy.ndarray of float64, shape (m, 2)
         Places on its banks.
     heights : numpy.ndarray of float64, shape (m,)
@@ -243,24 +245,55 @@ def falling(
     """
     from scipy.spatial import cKDTree
 
-    tree, known = cKDTree(line), ~np.isnan(heights)
-    station, heights = tree.query(border[known])[1], heights[known]
-    order = np.argsort(station, kind="stable")
-    station, heights = station[order], heights[order]
-    every = np.arange(len(line))
-    # Remove the mean fall first. Otherwise the lowest bank near a station is the one downstream.
-    slope = np.polyfit(station, heights, 1)[0] if np.ptp(station) else 0.0
-    heights = heights - slope * station
-    firsts = np.searchsorted(station, every - _STATIONS)
-    lasts = np.searchsorted(station, every + _STATIONS, side="right")
-    filled = np.flatnonzero(lasts > firsts)
-    levels = np.array(
-        [np.percentile(heights[firsts[each] : lasts[each]], percentile) for each in filled]
-    )
-    levels = np.interp(every, filled, levels) + slope * every
-    half = max(len(line) // 2, 1)
-    if levels[:half].mean() >= levels[-half:].mean():
-        levels = np.minimum.accumulate(levels)
-    else:
-        levels = np.minimum.accumulate(levels[::-1])[::-1]
+    stations, network = joined(lines, border)
+    tree, known = cKDTree(stations), ~np.isnan(heights)
+    beside = tree.query(border[known])[1]
+    levels = descent(network, beside, heights[known], percentile).levels
     return levels[tree.query(places)[1]]
+
+
+def joined(lines: Sequence[np.ndarray], border: np.ndarray) -> tuple[np.ndarray, Network]:
+    """Return the stations of lines as one network: lines that end near another one join it.
+
+    Parameters
+    ----------
+    lines : sequence of numpy.ndarray of float64, shape (n, 2)
+        Stations along each line.
+    border : numpy.ndarray of float64, shape (m, 2)
+        Places on the banks, which tell how far a line ends from the middle of another one.
+
+    Returns
+    -------
+    stations : numpy.ndarray of float64, shape (k, 2)
+    network : Network
+
+    Examples
+    --------
+    >>> main, branch = np.array([[0.0, 0], [9, 0], [18, 0]]), np.array([[9.0, 40], [9, 4]])
+    >>> joined([main, branch], np.array([[9.0, -4]]))[1].edges.tolist()
+    [[0, 1], [1, 2], [1, 4], [2, 3]]
+    """
+    from scipy.spatial import cKDTree
+
+    together = np.concatenate(lines)
+    # Ends that meet are one station.
+    _, first, name = np.unique(
+        np.round(together / _MEET), axis=0, return_index=True, return_inverse=True
+    )
+    name, stations = name.reshape(-1), together[first]
+    banks, edges, start = cKDTree(border), [], 0
+    for line in lines:
+        own = name[start : start + len(line)]
+        start += len(line)
+        edges.append(np.column_stack((own[:-1], own[1:])))
+        others = np.setdiff1d(name, own)
+        if len(others):
+            far, which = cKDTree(stations[others]).query(stations[own[[0, -1]]])
+            half = banks.query(stations[others[which]])[0]
+            near = far <= _WIDER * half + _JOINED
+            # The head of a short branch is near another line, too.
+            near &= far <= np.hypot(*(line[-1] - line[0])) / 2.0
+            edges.append(np.column_stack((own[[0, -1]], others[which]))[near])
+    pairs = np.sort(np.concatenate(edges), axis=1)
+    pairs = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
+    return stations, Network(len(stations), pairs)

@@ -219,13 +219,13 @@ def _with_level(
     heights = shore.at(places)
     if np.isnan(heights).all():
         return LevelWater(rings)
-    line = np.concatenate([np.zeros((0, 3)), *parts])[:, :2]
+    stations = [part[:, :2] for part in parts]
     level = float(np.nanpercentile(heights, _LEVEL))
 
     def raised(some: np.ndarray) -> np.ndarray:
         z = np.full(len(some), level)
-        if len(line) > 1:
-            z = falling(line, places, heights, some[:, :2], _LEVEL)
+        if stations:
+            z = falling(stations, places, heights, some[:, :2], _LEVEL)
         return np.column_stack((some[:, :2], z))
 
     downstream = (each if each[0, 2] >= each[-1, 2] else each[::-1] for each in map(raised, parts))

@@ -188,6 +188,40 @@ def test_an_island_stays(lake, tmp_path):
     assert np.ptp(found[island]) > 0.5
 
 
+def test_each_branch_of_a_river_falls_along_its_own_line(tmp_path):
+    x, y = scatter(SIZE, 1.0, seed=5)
+    main, branch = np.abs(y - 30.0) - 10.0, np.maximum(np.abs(x - 60.0) - 8.0, 30.0 - y)
+    away = np.minimum(main, branch)
+    level = np.where(branch < main, 19.0 + 0.03 * (y - 30.0), 20.0 - 0.016 * x)
+    level = np.where(np.abs(y - 30.0) < 25.0, 20.0 - 0.016 * x, level)
+    wet = away < 0.0
+    source = _write(tmp_path / "fork.laz", *(each[~wet] for each in (x, y, level + 0.2 * away)))
+    ring = [(1, 20), (119, 20), (119, 40), (68, 40), (68, 119), (52, 119), (52, 40), (1, 40)]
+    rivers = [(1.0, 30.0, 0.0), (119.0, 30.0, 0.0)], [(60.0, 118.0, 0.0), (60.0, 38.0, 0.0)]
+    bed = (np.add(ring, (EAST, NORTH)),)
+    found, x, y = _raster(
+        source, tmp_path / "dtm.tif", water=(bed,), rivers=tuple(_line(*each) for each in rivers)
+    )
+    head = (np.abs(x - 60.0) < 3.0) & (np.abs(y - 110.0) < 3.0)
+    assert np.abs(found[head] - 21.4).max() < 0.2
+    for place in (10.0, 110.0):
+        there = (np.abs(x - place) < 3.0) & (np.abs(y - 30.0) < 5.0)
+        assert np.abs(found[there] - (20.0 - 0.016 * place)).max() < 0.2
+
+
+def test_the_level_of_a_river_steps_at_a_weir(tmp_path):
+    x, y = scatter(SIZE, 1.0, seed=5)
+    across = np.abs(y - 60.0)
+    z = np.where(x < 64.0, 22.0, 20.0) + 0.2 * np.maximum(across - 10.0, 0.0)
+    source = _write(tmp_path / "weir.laz", *(each[across > 10.0] for each in (x, y, z)))
+    river = _line((1.0, 60.0, 0.0), (SIZE - 1.0, 60.0, 0.0))
+    bed = _square(1.0, 50.0, SIZE - 1.0, 70.0)
+    found, x, y = _raster(source, tmp_path / "dtm.tif", water=(bed,), rivers=(river,))
+    wet = np.abs(y - 60.0) < 8.0
+    assert np.abs(found[wet & (x > 5.0) & (x < 54.0)] - 22.0).max() < 0.15
+    assert np.abs(found[wet & (x > 74.0) & (x < 115.0)] - 20.0).max() < 0.15
+
+
 @pytest.mark.parametrize("down", [True, False])
 def test_a_river_falls_along_its_line_and_is_level_across(tmp_path, down):
     x, y = scatter(SIZE, 1.0, seed=5)
