@@ -12,7 +12,8 @@ from ..core.errors import BareEarthError
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..crs.stated import stated_wkt
-from .column_names import FOOT, US_FOOT, columns_in
+from ..crs.unit_names import FOOT, US_FOOT
+from .column_names import columns_in
 from .point_tables import SUFFIXES, places_without_names, read_table
 from .shapes import Geometry, Place, Shapes, located
 from .surveyed_points import OtherHeights, Record, SurveyedPoints

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Mapping, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
+from ..crs.unit_names import FOOT, UNITS, US_FOOT
 
 _LETTERS = str.maketrans({"ø": "o", "Ø": "O", "ł": "l", "Ł": "L", "ß": "ss", "æ": "a"})
 _PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
@@ -78,14 +79,6 @@ _PREFIX = re.compile(
     r"(orthom?[a-z]*?|ortom?[a-z]*?|normal|ellip[a-z]*?|elip[a-z]*?|ell)"
     r"(?:elevation|elev|heights?|hgt|hts?|altitude|alt|hohen?|hoehen?|z|h)?"
 )
-# Metres in a unit that the name of a column states; a foot of unknown kind is the international.
-FOOT, US_FOOT = 0.3048, 1200.0 / 3937.0
-_UNITS = {
-    "m": 1.0, "meter": 1.0, "meters": 1.0, "metre": 1.0, "metres": 1.0, "metros": 1.0,
-    "metri": 1.0, "mtr": 1.0, "cm": 0.01, "mm": 0.001, "ft": FOOT, "feet": FOOT, "foot": FOOT,
-    "ift": FOOT, "pies": FOOT, "pieds": FOOT, "fuss": FOOT, "ftus": US_FOOT, "usft": US_FOOT,
-    "sft": US_FOOT, "usfeet": US_FOOT, "ussft": US_FOOT, "sfeet": US_FOOT,
-}  # fmt: skip
 _OF_FEET = {"us", "survey", "usa", "intl", "international", "int", "s"}
 _ANGLES = {"deg", "degree", "degrees", "dd", "decimal", "grad"}
 _PAIR = re.compile(r"\s*(\w+)\s*=\s*(.+?)\s*$")
@@ -115,13 +108,13 @@ class ColumnName(NamedTuple):
         text = without_accents(str(name).replace("U.S.", "US"))
         words: list[str] = []
         for chunk in re.findall(r"[A-Za-z0-9]+", text):
-            is_unit = chunk.lower() in _UNITS
+            is_unit = chunk.lower() in UNITS
             words += [chunk] if is_unit else _PARTS.findall(chunk)
-        found = [each for each in words if each.lower() in _UNITS]
+        found = [each for each in words if each.lower() in UNITS]
         if not found or len(words) == 1:
             unit = None
         else:
-            unit = _UNITS[found[0].lower()]
+            unit = UNITS[found[0].lower()]
             feet = {each.lower() for each in words} & _OF_FEET if unit == FOOT else set()
             unit = US_FOOT if feet & {"us", "survey", "usa", "s"} else unit
             words = [each for each in words if each not in found and each.lower() not in feet]
