@@ -321,8 +321,8 @@ class TileJob:
                 result.add(where, part)
             for found in values:
                 found.check()
-            steps[0].tell_of_tile(counts, las.path, progress)
-            result.check()
+            if steps[0].tell_of_tile(counts, las.path, progress):
+                result.check()
             if result.is_empty:
                 return None
             result.write(self.target, progress.part(0.4, 1.0))

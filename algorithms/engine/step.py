@@ -156,8 +156,12 @@ class PointStep(Step):
     def count(self, part: PointCloud, counts: Any) -> None:
         """Count points of one of many files for `tell_of_tile`."""
 
-    def tell_of_tile(self, counts: Any, path: Path, progress: Progress) -> None:
-        """Report what was counted in one of many files, or refuse the file."""
+    def tell_of_tile(self, counts: Any, path: Path, progress: Progress) -> bool:
+        """Report what was counted in one of many files, or refuse the file.
+
+        Return whether any of its points can get a result. Otherwise it is written as it is.
+        """
+        return True
 
     def tell_of_survey(self, done: Sequence[Any], progress: Progress) -> None:
         """Report on all files together, given their summaries."""

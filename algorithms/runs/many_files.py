@@ -22,7 +22,7 @@ from ..crs.measurable import require_measurable
 from ..engine.blocks import Blocks
 from ..engine.job_queue import JobQueue
 from ..engine.jobs import Taken
-from ..engine.manifest import folders_of
+from ..engine.manifest import folders_of, remove_record
 from ..engine.plan import Plan
 from ..engine.step import PointStep, located
 from ..engine.unpacking import Unpacking
@@ -273,12 +273,22 @@ class _SurveyRun:
         for path, reason in {**plan.failures, **queue.failures}.items():
             self._failures[path.name] = path, reason
         if self._done or self._empty_count:
-            self._steps[0].tell_of_survey(self._done, progress)
+            self._tell(queue.done, progress)
         if self._done and self._rasters is not None:
             paths = [self._folder / each.name for each in self._done]
             made = open_survey(paths, progress=progress.quiet(), stated=self._survey.stated)
             results, part = plan.results(made), progress.part(end, 1.0)
             make_rasters(made, waiting, self._rasters, workers, part, results, unpacking)
+
+    def _tell(self, done: Sequence[Any], progress: Progress) -> None:
+        """Report on all files; remove the outputs of this run if they are refused together."""
+        try:
+            self._steps[0].tell_of_survey(self._done, progress)
+        except BareEarthError:
+            for each in done:
+                (self._folder / each.name).unlink(missing_ok=True)
+                remove_record(self._folder / each.name)
+            raise
 
     def _clear(self, results: bool) -> None:
         """Remove what killed runs left, and the results of blocks if `results`."""

@@ -50,6 +50,8 @@ class ClassifiedSummary:
         Number of points of overlap.
     input_class_counts, class_counts : dict of int to int
         Points of each class in the input, and in the output.
+    found_ground : bool
+        Whether any ground was found.
     """
 
     name: str
@@ -60,6 +62,7 @@ class ClassifiedSummary:
     overlap_count: int = 0
     input_class_counts: dict[int, int] = field(default_factory=dict)
     class_counts: dict[int, int] = field(default_factory=dict)
+    found_ground: bool = True
 
     def __post_init__(self) -> None:
         # The keys of the JSON record are strings.
@@ -156,13 +159,22 @@ class LabelGround(PointStep):
         """Count which points take part."""
         self.chooser.choose(part, counts)
 
-    def tell_of_tile(self, counts: PointCounts, path: Path, progress: Progress) -> None:
-        """Report how many points took part; refuse a file without any.
+    def tell_of_tile(self, counts: PointCounts, path: Path, progress: Progress) -> bool:
+        """Report how many points took part; refuse a file none of whose returns does.
 
-        If an area is given, a file need not have points in it.
+        If an area is given, a file need not have points in it. Others need not have points that can
+        be ground, such as a file of water only.
         """
+        if self.area is None and not (counts.eligible or self.output.ground_only):
+            classes = np.flatnonzero(counts.classes).tolist()
+            words = "class" if len(classes) == 1 else "classes"
+            all_are = f"all are of {words} {', '.join(map(str, classes))}"
+            why = all_are if counts.free else "all are withheld"
+            progress.warning(f"No point can be ground: {why}. The file is written unchanged.")
+            return False
         if self.area is None or counts.of_returns:
             self.selection.tell(counts, path, progress)
+        return True
 
     def check_survey(self, box: Box) -> None:
         """Refuse the survey if the area lies outside its extent."""
@@ -176,7 +188,15 @@ class LabelGround(PointStep):
         return not self.area.may_touch(tile.outer_box)
 
     def tell_of_survey(self, done: Sequence[ClassifiedSummary], progress: Progress) -> None:
-        """Tell which classes stay; warn if no point lies in the area or in the corrections."""
+        """Tell which classes stay; warn if no point lies in the area or in the corrections.
+
+        Files without points that can be ground are refused if there are no others.
+        """
+        if self.area is None and done and not any(each.found_ground for each in done):
+            raise BareEarthError(
+                f"None of the {len(done):,} files could be done: no point of them can be"
+                " classified. Choose other classes to classify."
+            )
         counts = PointCounts(overlap=sum(each.overlap_count for each in done))
         for summary in done:
             for value, count in summary.input_class_counts.items():
@@ -310,7 +330,9 @@ class ClassifiedPoints(PointResult):
             count, ground = self.area_count, self.area_ground_count
             words = "point outside of the area is", "points outside of the area are"
             progress.info(f"{counted(self._count - count, *words)} left out of the output.")
-        if output.needs_ground and not ground:
+        # Without an area, only files come here without ground whose points are written as they are.
+        is_needed = output.ground_only or self._step.area is not None
+        if output.needs_ground and is_needed and not ground:
             raise BareEarthError(
                 f"{cloud.path} has no ground points, so there are no ground points to write,"
                 " and no heights above ground. Check the parameters and the selection of"
@@ -333,4 +355,5 @@ class ClassifiedPoints(PointResult):
             self._overlap_count,
             by_class(self._counts_before),
             class_counts,
+            self._has_ground,
         )

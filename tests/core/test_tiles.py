@@ -385,12 +385,10 @@ def test_runs_with_heights_go_on_and_repeat_only_what_changed(tmp_path, out):
     (folder / "new.laz").write_bytes(b"no cloud")
     summary = classify_tiles([folder], out, other, output=RESUME, **made)
     assert summary.kept_count == 2 and summary.done_count == 3 and len(summary.failures) == 1
-    # What is not classified has no heights.
+    # What is not classified is written as well.
     write(folder / "new.laz", strip(400, 60.0, 60.0) - [60_000_000, 0, 0], classes=7)
     summary = classify_tiles([folder], out, other, output=RESUME, **made)
-    assert summary.kept_count == summary.done_count == 3
-    (reason,) = summary.failures.values()
-    assert "can be classified" in reason
+    assert summary.kept_count == 3 and summary.done_count == 4 and not summary.failures
 
 
 # The command, which sends itself a signal when the first tile is done.
@@ -461,13 +459,16 @@ def test_broken_tiles_are_told_at_the_end_and_the_others_done(
     assert summary.done_count == 6 and not summary.failures
 
 
-def test_tiles_without_ground_or_points_to_classify_are_told(six, out):
+def test_a_tile_without_points_that_can_be_ground_is_written_unchanged(six, out, las):
     high = np.array([[900_000 + 7 * n, 900_000 + 5 * n, 900] for n in range(30)])
-    write(six / "noise.laz", high, classes=7)
-    summary = classify_tiles([six], out, FAST)
-    (reason,) = summary.failures.values()
-    assert "No point of" in reason and "can be classified" in reason
-    assert summary.done_count == 6
+    write(six / "water.laz", high, classes=9)
+    heard = las.Heard()
+    summary = classify_tiles([six], out, FAST, progress=heard)
+    assert summary.done_count == 7 and not summary.failures
+    assert (out / "water.laz").read_bytes() == (six / "water.laz").read_bytes()
+    (told,) = [each for each in heard.warnings if "unchanged" in each]
+    assert "water.laz: No point can be ground: all are of class 9." in told
+    assert len(read_vpc(out / "classified.vpc")) == 7
 
 
 def test_a_survey_of_which_nothing_can_be_classified_fails(tmp_path, out):
@@ -475,7 +476,7 @@ def test_a_survey_of_which_nothing_can_be_classified_fails(tmp_path, out):
     write(tmp_path / "in" / "a.laz", strip(500), classes=18)
     with pytest.raises(BareEarthError, match="None of the 1 files"):
         classify_tiles([tmp_path / "in"], out, FAST)
-    assert not (out / "classified.vpc").exists()
+    assert not (out / "classified.vpc").exists() and not (out / "a.laz").exists()
 
 
 def test_points_outside_of_the_extent_in_the_header_are_not_lost_silently(six, out):
