@@ -264,12 +264,6 @@ def _of_table(path: Path, chosen: Mapping[str, str]) -> tuple[SurveyedPoints, st
         for number, row in zip(table.numbers, table.rows)
     ]
     found = SurveyedPoints.of(names, records, chosen, path, usual)
-    if table.is_control:
-        note = (
-            f"{path} lists ground control points for images: if the points were fitted to them,"
-            " they do not test these."
-        )
-        found = found._replace(notes=(note, *found.notes))
     return found, stated_wkt(table.crs)
 
 

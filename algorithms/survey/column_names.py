@@ -46,37 +46,37 @@ NAMES = {
     " geolange geolaenge",
     "y": "y n north northing northings nord nordwert hochwert hoch norte noord noording ycoord"
     " coordy pointy yutm ordonnee lat latitude latitud latitudine breite geobreite",
-    "z": "z elevation elev elv ele cota elevacion quota kote rzedna zcoord coordz pointz altitude"
-    " alt altura altezza height hgt ht hohe hoehe geohohe geohoehe hauteur hoogte hojde hoyde hojd"
-    " korkeus wysokosc vyska h",
+    "z": "z elevation elev elv ele cota elevacion quota kote rl rzedna zcoord coordz pointz"
+    " altitude alt altura altezza height hgt ht hohe hoehe geohohe geohoehe hauteur hoogte hojde"
+    " hoyde hojd korkeus wysokosc vyska h",
     "cover": "cover landcover landcoverclass landcovertype covertype groundcover vegetation"
-    " landuse lulc bodenbedeckung bedeckung landbedeckung nutzung landnutzung oberflache"
-    " untergrund occupation occupationsol couverture typesol sol cobertura coberturasuelo"
-    " usosuelo tiposuelo copertura bodembedekking bodemgebruik landgebruik grondgebruik begroeiing"
-    " surface surfacetype terraintype class klasse classe clase category kategorie categorie"
-    " categoria description desc featurecode codedescription code",
+    " landuse lulc vegetated vegetacion vegetatie bewuchs bodenbedeckung bedeckung landbedeckung"
+    " nutzung landnutzung oberflache untergrund occupation occupationsol couverture typesol sol"
+    " cobertura coberturasuelo usosuelo tiposuelo copertura bodembedekking bodemgebruik"
+    " landgebruik grondgebruik begroeiing surface surfacetype terraintype class klasse classe"
+    " clase category kategorie categorie categoria description desc featurecode codedescription"
+    " code",
     "type": "pointtype pttype ptype type gcptype checkpointtype pointclass pointusage usage"
     " purpose role nvavva typ punktart art typepoint naturepoint tipo tipopunto punttype soort",
-    "name": "name id pointid pointname ptid uniqueidentifier uniqueid point pt pnt nr no num number"
-    " nummer punkt punktnr punktnummer pkt station label nom nombre nome numero naam navn namn"
-    " p marker gcp gcpname checkpoint checkpointid gcpid",
+    "name": "name id pointid pointname ptid uniqueidentifier uniqueide uniqueid point pt pnt nr no"
+    " num number nummer punkt punktnr punktnummer pkt station label nom nombre nome numero naam"
+    " navn namn p marker gcp gcpname checkpoint checkpointid gcpid",
 }
 # Words that say nothing about what a column holds.
 _FILLERS = words_of(
-    "source grid coord coords coordinate coordinates koordinate utm map projected surveyed measured"
-    " known reference field gps gnss the of de du des del della di la le les el d l der die das von"
-    " van het in"
+    "source grid coord coords coordinate coordinates koordinate utm map projected surveyed"
+    " measured known reference field gps gnss survey check checkpoint control the of de du des del"
+    " della di la le les el der die das von van het in"
 )
 # Words by which a height is above the geoid, those that may go with them, and words by which it is
 # above the ellipsoid.
 _ORTHOMETRIC = words_of(
-    "nhn nn navd ngvd msl amsl asl nap ngf ign evrf odn aod ahd nzvd cgvd dhhn lhn ln taw egm sea"
-    " level normal"
+    "nhn nn navd ngvd msl amsl asl nap ngf ign evrf odn aod ahd nzvd cgvd dhhn lhn ln taw egm"
 )
-_ABOVE = words_of("mean uber ueber u above over sur sobre boven")
+_ABOVE = words_of("sea level normal mean uber ueber u above over sur sobre boven")
 _ELLIPSOIDAL = words_of("hae wgs etrs grs nad hell helli")
 _PREFIX = re.compile(
-    r"(orthom?[a-z]*?|ortom?[a-z]*?|normal|ellip[a-z]*?|elip[a-z]*?|ell)"
+    r"(orth[a-z]*?|ortom?[a-z]*?|normal|ellip[a-z]*?|elip[a-z]*?|ell)"
     r"(?:elevation|elev|heights?|hgt|hts?|altitude|alt|hohen?|hoehen?|z|h)?"
 )
 _OF_FEET = {"us", "survey", "usa", "intl", "international", "int", "s"}
@@ -133,7 +133,7 @@ class ColumnName(NamedTuple):
         ellipsoidal = any(each.startswith("el") for each in prefixes)
         if ellipsoidal or any(each.startswith("ellip") for each in words):
             return 2
-        if prefixes or not words.isdisjoint(_ORTHOMETRIC):
+        if prefixes or not words.isdisjoint(_ORTHOMETRIC) or words >= {"sea", "level"}:
             return 0
         return 1 if words.isdisjoint(_ELLIPSOIDAL) else 2
 
@@ -166,7 +166,8 @@ class ColumnName(NamedTuple):
 
     def _of_datum(self, words: list[str]) -> tuple[int, int] | None:
         """Return the rank of the name of a datum alone, such as NHN."""
-        return (0, 0) if len(words) == 1 and words[0] in ("nhn", "nn", "nap", "msl") else None
+        is_datum = len(words) == 1 and words[0] in _ORTHOMETRIC
+        return (0, 0) if is_datum else None
 
 
 def columns_in(text: str | None) -> dict[str, str]:

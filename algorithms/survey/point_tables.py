@@ -43,15 +43,12 @@ class Table(NamedTuple):
         The number of each row's line in the file, for messages.
     crs : str or None
         The CRS that it states.
-    is_control : bool
-        Whether it lists ground control points for images.
     """
 
     names: tuple[str, ...] | None
     rows: list[list[str]]
     numbers: list[int]
     crs: str | None = None
-    is_control: bool = False
 
 
 class _Line(NamedTuple):
@@ -161,7 +158,7 @@ def _control_points(table: Table) -> Table:
         for each in points
     ]
     names = ("x", "y", "z", "name", "point type")
-    return Table(names, rows, list(points.values()), table.crs, not has_checks)
+    return Table(names, rows, list(points.values()), table.crs)
 
 
 def places_without_names(rows: Sequence[Sequence[str]]) -> dict[str, int]:

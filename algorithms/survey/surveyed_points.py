@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from .column_names import ColumnName, columns_of
+from .column_names import ColumnName, columns_of, parts_of
 from .point_tables import number_of
 
 # Heights that stand for none.
 _NODATA = (-9999.0, -999.0, -32768.0, -32767.0)
 _LIMIT = 50_000.0
+# A column of such a name may say yes or no.
+_PLANTS = ("vegetation", "vegetated", "vegetacion", "vegetatie", "begroeiing", "bewuchs")
+_YES = ("yes", "y", "true", "1", "ja", "j", "oui", "si", "sí", "x")
+_NO = ("no", "n", "false", "0", "none", "nein", "non", "nee", "geen", "keine", "kein", "aucune")
 # Two columns of heights that differ by less, in metres, hold the same.
 _SAME = 0.002
 
@@ -101,9 +106,9 @@ class SurveyedPoints(NamedTuple):
             chosen = {role: name for role, name in chosen.items() if role not in "xy"}
         given = {role: found for role, found in columns_of(names, chosen, path).items() if found}
         columns = {**{role: [column] for role, column in (usual or {}).items()}, **given}
-        return _Reader(names, list(records), columns, "z" in chosen, str(path)).points(
-            usual is None or not {"x", "y"}.isdisjoint(chosen)
-        )
+        is_ordered = usual is None or not {"x", "y"}.isdisjoint(chosen)
+        reader = _Reader(names, list(records), columns, "z" in chosen, str(path))
+        return _with_kind_of_file(reader.points(is_ordered), str(path))
 
 
 class _Reader(NamedTuple):
@@ -287,8 +292,35 @@ class _Reader(NamedTuple):
         for column in self.columns.get(role, []):
             texts = tuple(_word(record.cells[column]) for record in self.records)
             if any(texts):
-                return texts
+                return tuple(map(_answer, texts)) if self._asks_for_plants(column) else texts
         return ("",) * len(self.records)
+
+    def _asks_for_plants(self, column: int) -> bool:
+        words = {each.lower() for each in ColumnName.of(self.names[column]).words}
+        return not words.isdisjoint(_PLANTS)
+
+
+def _with_kind_of_file(found: SurveyedPoints, path: str) -> SurveyedPoints:
+    """Return points with the kind that the name of their file or layer states, if none is known."""
+    words = {each.lower() for each in parts_of(re.split(r"[/\\]", path)[-1])}
+    kinds = sorted(words & {"nva", "vva"})
+    if len(kinds) == 1 and not any(found.types) and not any(found.covers):
+        kind = kinds[0].upper()
+        note = f"All points of {path} count as {kind}, as the name of the file says."
+        return found._replace(types=(kind,) * len(found.names), notes=(*found.notes, note))
+    if "gcp" in words and not any(found.types):
+        note = (
+            f"{path} lists ground control points, by its name: if the points were fitted to them,"
+            " they do not test these."
+        )
+        return found._replace(notes=(*found.notes, note))
+    return found
+
+
+def _answer(text: str) -> str:
+    """Return yes or no to plants as a land cover."""
+    answers = {**dict.fromkeys(_YES, "vegetated"), **dict.fromkeys(_NO, "not vegetated")}
+    return answers.get(text.lower(), text)
 
 
 def _is_height(values: np.ndarray) -> np.ndarray:

@@ -84,7 +84,9 @@ HEIGHTS = [  # the one that is taken comes first
     ("Höhe über NHN", "Höhe"), ("Elevation", "Ellipsoidal height"), ("NHN-Höhe", "ell. Höhe"),
     ("Elevation NAVD88", "Elevation"), ("altitude NGF", "hauteur ellipsoïdale"), ("H_ortho", "z"),
     ("Height", "HAE"), ("Elev", "Geoid height"), ("Elevation", "Elevation RMS"),
-    ("z", "Antenna height"), ("OrthoHeight", "EllHt"), ("MSL", "Height (WGS84)"),
+    ("z", "Antenna height"), ("RL", "Height"), ("AHD", "RL"), ("Known Z", "Laser Z"),
+    ("Survey elevation", "dZ"), ("Orth Ht", "Elev"), ("Height above mean sea level", "H"),
+    ("OrthoHeight", "EllHt"), ("MSL", "Height (WGS84)"),
 ]  # fmt: skip
 
 
@@ -159,6 +161,21 @@ def test_ground_control_points_are_told_and_checks_among_them_count(tmp_path):
     text = "EPSG:25832\n" + rows.format(X, Y, Z, "a") + rows.format(X, Y, Z, "CHK-b")
     found = read(tmp_path, text, name="gcp_list.txt")
     assert found.types == ("control", "check") and not found.notes
+
+
+@pytest.mark.parametrize("kind", ["NVA", "VVA"])
+def test_the_name_of_a_file_says_the_kind_if_nothing_else_does(tmp_path, kind):
+    found = read(tmp_path, f"id,x,y,z\nP,{X},{Y},{Z}\n", name=f"county_{kind}_2024.csv")
+    assert found.types == (kind,) and f"count as {kind}" in found.notes[0]
+    found = read(tmp_path, f"id,x,y,z,cover\nP,{X},{Y},{Z},sand\n", name=f"{kind}.csv")
+    assert found.types == ("",) and not found.notes
+
+
+def test_a_column_that_says_yes_or_no_to_plants(tmp_path):
+    rows = "".join(f"{X},{Y},{Z},{each}\n" for each in ("yes", "no", "1", "none", "forest"))
+    found = read(tmp_path, "x,y,z,Vegetation\n" + rows)
+    kinds = [LandCovers().kind("", each) for each in found.covers]
+    assert kinds == ["VVA", "NVA", "VVA", "NVA", "VVA"]
 
 
 def test_rows_without_coordinates_are_left_out_and_told(tmp_path):
