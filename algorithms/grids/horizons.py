@@ -11,12 +11,14 @@ Engineering & Remote Sensing 68(3), 257-265.
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import Callable, Iterator, NamedTuple
 
 import numpy as np
 
 from ..core.progress import SILENT
-from ..core.threads import over_parts
+from ..core.threads import over_parts, parts_of
+from .local_trend import TRUNCATE, trend_slopes
 
 # Sides of a cell in metres: along a row, and along a column.
 Cells = tuple[float, float]
@@ -38,7 +40,10 @@ class Neighbour(NamedTuple):
 
 
 class Surroundings:
-    """Heights with a border without heights, so that all cells have all neighbours.
+    """Heights and what lies round each cell, also beyond the border of the data.
+
+    There the land goes on as the plane that fits the surroundings of a cell best. If such places
+    were left out, directions would end one after the other towards a border, in visible steps.
 
     Parameters
     ----------
@@ -46,33 +51,83 @@ class Surroundings:
         Heights in metres; NaN where there is none.
     reach : tuple of int
         Rows and columns up to which neighbours lie.
-    missing : float
-        The height of places without one, such as -inf.
     """
 
-    def __init__(self, heights: np.ndarray, reach: tuple[int, int], missing: float) -> None:
+    def __init__(self, heights: np.ndarray, reach: tuple[int, int]) -> None:
         (rows, columns), (down, right) = heights.shape, reach
-        size = rows + 2 * down, columns + 2 * right
         self.shape, self._reach = heights.shape, reach
-        self._wide = np.full(size, missing, dtype=np.float32)
-        known = np.isfinite(heights)
-        inside = self._wide[down : down + rows, right : right + columns]
-        np.copyto(inside, heights, where=known, casting="same_kind")
-        self.own = np.where(known, heights, 0.0).astype(np.float32)
-        self.known = known
+        self._wide = np.full((rows + 2 * down, columns + 2 * right), np.nan, dtype=np.float32)
+        self._wide[down : down + rows, right : right + columns] = heights
 
-    def at(self, rows: slice, neighbour: Neighbour) -> np.ndarray:
-        """Return the heights of a neighbour of the cells of some rows."""
-        row, column = self._reach[0] + neighbour.row, self._reach[1] + neighbour.column
-        return self._wide[rows.start + row : rows.stop + row, column : column + self.shape[1]]
+    def over_pieces(self, work: Callable[[Piece], None]) -> None:
+        """Call a function for the pieces of the heights that hold any, in threads."""
+        side = math.isqrt(PIECE)
+        rows, columns = (parts_of(count, side) for count in self.shape)
+        places = [(one, other) for one in rows for other in columns]
 
-    def is_whole(self, rows: slice) -> bool:
-        """Return whether all neighbours of the cells of some rows have a height."""
-        return bool(np.isfinite(self._wide[rows.start : rows.stop + 2 * self._reach[0]]).all())
+        def work_at(part: slice) -> None:
+            piece = Piece(self._wide, self._reach, *places[part.start])
+            if piece.known.any():
+                work(piece)
 
-    def over_rows(self, work: Callable[[slice], None]) -> None:
-        """Call a function for some rows at a time, in threads."""
-        over_parts(work, self.shape[0], max(PIECE // max(self.shape[1], 1), 1), SILENT)
+        over_parts(work_at, len(places), 1, SILENT)
+
+
+class Piece:
+    """Cells whose neighbours are looked at together, so that they stay in the processor's cache.
+
+    Attributes
+    ----------
+    place : tuple of slice
+        Its rows and columns.
+    own : numpy.ndarray of float32, shape (rows, columns)
+        Its heights; 0 where there is none.
+    known : numpy.ndarray of bool, shape (rows, columns)
+        Which cells have a height.
+    """
+
+    def __init__(
+        self, wide: np.ndarray, reach: tuple[int, int], rows: slice, columns: slice
+    ) -> None:
+        self.place, self._reach = (rows, columns), reach
+        ends = (each.stop + 2 * by for each, by in zip(self.place, reach))
+        self._wide = wide[tuple(slice(each.start, end) for each, end in zip(self.place, ends))]
+        own = self._at(0, 0)
+        self.known = np.isfinite(own)
+        self.own = np.where(self.known, own, np.float32(0.0))
+
+    def _at(self, row: int, column: int) -> np.ndarray:
+        rows, columns = (each.stop - each.start for each in self.place)
+        row, column = row + self._reach[0], column + self._reach[1]
+        return self._wide[row : row + rows, column : column + columns]
+
+    def heights_of(self, neighbour: Neighbour) -> np.ndarray:
+        """Return the heights of a neighbour of each cell; beyond the border those of a plane."""
+        there = self._at(neighbour.row, neighbour.column)
+        if self._planes is None:
+            return there
+        beyond = np.isnan(there)
+        if beyond.any():
+            there, (own, down, right) = there.copy(), (each[beyond] for each in self._planes)
+            there[beyond] = (
+                own + down * np.float32(neighbour.row) + right * np.float32(neighbour.column)
+            )
+        return there
+
+    @cached_property
+    def _planes(self) -> list[np.ndarray] | None:
+        """Heights of the planes, and their rises to the next row and to the next column.
+
+        None if all neighbours have a height.
+        """
+        if np.isfinite(self._wide).all():
+            return None
+        sigma = self._reach[0] / TRUNCATE, self._reach[1] / TRUNCATE
+        inside = tuple(
+            slice(by, by + each.stop - each.start) for each, by in zip(self.place, self._reach)
+        )
+        slopes = trend_slopes(self._wide, sigma)
+        return [self.own, *(each[inside].astype(np.float32) for each in slopes)]
 
 
 def horizon_reach(radius: float, cells: Cells) -> tuple[int, int]:
@@ -101,8 +156,9 @@ def sky_view(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
     Returns
     -------
     numpy.ndarray of float32, shape (rows, columns)
-        1 on level land and on summits, less in hollows; NaN where there is no height. A direction
-        in which no height is known does not count. A cell depends on others up to `horizon_reach`.
+        1 on level land and on summits, less in hollows; NaN where there is no height. Beyond the
+        border of the data the land goes on as a plane. A cell depends on others up to
+        `horizon_reach`.
     """
     return _means(heights, cells, (0.0, radius), _sky)[0]
 
@@ -143,37 +199,29 @@ def _means(
     *functions: Callable[[np.ndarray], np.ndarray],
 ) -> list[np.ndarray]:
     """Return the means over all directions of functions of the tangent of the horizon."""
-    around = Surroundings(heights, horizon_reach(radii[1], cells), -np.inf)
+    around = Surroundings(heights, horizon_reach(radii[1], cells))
     lines = list(_lines(cells, radii))
     means = [np.full(heights.shape, np.nan, dtype=np.float32) for _ in functions]
 
-    def work(rows: slice) -> None:
-        own, known, is_whole = around.own[rows], around.known[rows], around.is_whole(rows)
-        sums = np.zeros((len(functions), *own.shape), dtype=np.float32)
-        count = np.zeros(own.shape, dtype=np.float32)
+    def work(piece: Piece) -> None:
+        sums = np.zeros((len(functions), *piece.own.shape), dtype=np.float32)
         for line in lines:
-            tangent = _horizon(around, rows, own, line)
-            seen = np.isfinite(tangent)
-            count += seen
+            tangent = _horizon(piece, line)
             for number, function in enumerate(functions):
-                value = function(tangent)
-                sums[number] += value if is_whole else np.where(seen, value, np.float32(0.0))
-        known = known & (count > 0)
+                sums[number] += function(tangent)
         for mean, total in zip(means, sums):
-            np.divide(total, count, out=mean[rows], where=known)
+            np.divide(total, np.float32(len(lines)), out=mean[piece.place], where=piece.known)
 
-    around.over_rows(work)
+    around.over_pieces(work)
     return means
 
 
-def _horizon(
-    around: Surroundings, rows: slice, own: np.ndarray, line: list[Neighbour]
-) -> np.ndarray:
-    """Return the tangent of the angle of the horizon along a line; -inf where nothing is known."""
-    tangent = np.full(own.shape, -np.inf, dtype=np.float32)
+def _horizon(piece: Piece, line: list[Neighbour]) -> np.ndarray:
+    """Return the tangent of the angle of the horizon along a line."""
+    tangent = np.full(piece.own.shape, -np.inf, dtype=np.float32)
     rise = np.empty_like(tangent)
     for each in line:
-        np.subtract(around.at(rows, each), own, out=rise)
+        np.subtract(piece.heights_of(each), piece.own, out=rise)
         rise *= np.float32(1.0 / each.distance)
         np.maximum(tangent, rise, out=tangent)
     return tangent

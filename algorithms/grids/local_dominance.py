@@ -14,7 +14,7 @@ from typing import Iterator
 
 import numpy as np
 
-from .horizons import Cells, Neighbour, Surroundings
+from .horizons import Cells, Neighbour, Piece, Surroundings
 
 # Height of the eyes above the terrain in metres, and directions in which they look.
 _EYES, _DIRECTIONS = 1.7, 24
@@ -45,29 +45,26 @@ def local_dominance(heights: np.ndarray, cells: Cells, radius: float) -> np.ndar
     Returns
     -------
     numpy.ndarray of float32, shape (rows, columns)
-        1 on level land, more on rises, less in hollows; NaN where there is no height. Places
-        without a height do not count. A cell depends on others up to `dominance_reach`.
+        1 on level land, more on rises, less in hollows; NaN where there is no height. Beyond the
+        border of the data the land goes on as a plane. A cell depends on others up to
+        `dominance_reach`.
     """
-    around = Surroundings(heights, dominance_reach(radius, cells), np.inf)
+    around = Surroundings(heights, dominance_reach(radius, cells))
     seen = list(_seen(radius, cells))
     level = np.float32(sum(weight * _EYES for _, weight in seen))
     dominance = np.full(heights.shape, np.nan, dtype=np.float32)
 
-    def work(rows: slice) -> None:
-        eyes, is_whole = around.own[rows] + np.float32(_EYES), around.is_whole(rows)
+    def work(piece: Piece) -> None:
+        eyes = piece.own + np.float32(_EYES)
         total, down = np.zeros_like(eyes), np.empty_like(eyes)
-        whole = np.full(eyes.shape, level) if is_whole else np.zeros_like(eyes)
         for neighbour, weight in seen:
-            there = around.at(rows, neighbour)
-            np.subtract(eyes, there, out=down)
+            np.subtract(eyes, piece.heights_of(neighbour), out=down)
             np.maximum(down, np.float32(0.0), out=down)
             down *= np.float32(weight)
             total += down
-            if not is_whole:
-                whole += np.isfinite(there) * np.float32(weight * _EYES)
-        np.divide(total, whole, out=dominance[rows], where=around.known[rows] & (whole > 0.0))
+        np.divide(total, level, out=dominance[piece.place], where=piece.known)
 
-    around.over_rows(work)
+    around.over_pieces(work)
     return dominance
 
 

@@ -61,10 +61,23 @@ def local_trend(heights: np.ndarray, sigma: Sigma) -> np.ndarray:
                 wide = np.s_[
                     first[0] : row + _PIECE + reach[0], first[1] : column + _PIECE + reach[1]
                 ]
-                fitted = _fitted(filled[wide], weights[wide], smooth)
+                fitted, _, _ = _fitted(filled[wide], weights[wide], smooth)
                 fitted = fitted[row - first[0] :, column - first[1] :][:_PIECE, :_PIECE]
                 trend[piece] = np.where(lacks[piece], fitted, trend[piece])
     return trend
+
+
+def trend_slopes(heights: np.ndarray, sigma: Sigma) -> tuple[np.ndarray, np.ndarray]:
+    """Return at each cell how the plane of `local_trend` rises along a column and along a row.
+
+    Arguments are as for it, and there must be a height. The results are rises from a cell to the
+    next, also where there is no height, of shape (rows, columns).
+    """
+    known = np.isfinite(heights)
+    # Less the mean, so that rounding does not matter.
+    filled = np.where(known, heights - np.mean(heights[known]), 0.0).astype(np.float64)
+    _, along_column, along_row = _fitted(filled, known.astype(np.float64), _weighted(sigma))
+    return along_column, along_row
 
 
 def _kernel(sigma: float, power: int = 0) -> np.ndarray:
@@ -96,8 +109,8 @@ def _weighted(sigma: Sigma) -> Callable[[np.ndarray, int, int], np.ndarray]:
 
 def _fitted(
     filled: np.ndarray, weights: np.ndarray, summed: Callable[[np.ndarray, int, int], np.ndarray]
-) -> np.ndarray:
-    """Return the heights of the planes, by the normal equations of least squares."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return heights and slopes of the planes, by the normal equations of least squares."""
     one, r, c = (summed(weights, *powers) for powers in ((0, 0), (1, 0), (0, 1)))
     rr, rc, cc = (summed(weights, *powers) for powers in ((2, 0), (1, 1), (0, 2)))
     z, zr, zc = (summed(filled, *powers) for powers in ((0, 0), (1, 0), (0, 1)))
@@ -109,4 +122,4 @@ def _fitted(
     zr, zc = zr / one - z * r, zc / one - z * c
     determinant = rr * cc - rc * rc
     slope_r, slope_c = (zr * cc - zc * rc) / determinant, (zc * rr - zr * rc) / determinant
-    return z - slope_r * r - slope_c * c
+    return z - slope_r * r - slope_c * c, slope_r, slope_c

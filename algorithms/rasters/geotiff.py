@@ -31,6 +31,8 @@ _STEP = 1 << 20
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 _PART = re.compile(r'[A-Z][A-Z0-9_]+:"?(?P<file>.+?)"?(:[^:\\/]*)?$')
 _DESCRIPTION = 1 << 20
+# What bands of pictures hold, in the words of GDAL.
+_COLOURS = "red", "green", "blue", "palette"
 
 
 @dataclass(frozen=True)
@@ -201,6 +203,11 @@ def read_raster(
     """
     content = read_content(source, band, window)
     values, valid = content.values, content.valid
+    if content.colour.lower() in _COLOURS:
+        raise BareEarthError(
+            f"{source} is a picture in colours, not a raster of heights. Give the terrain model"
+            " itself."
+        )
     if values.dtype.kind not in "iuf":
         raise BareEarthError(f"Cannot read {source}: its cells hold {values.dtype}, not heights.")
     heights = values.astype(np.float32)
@@ -214,7 +221,10 @@ def read_raster(
 
 
 class Content(NamedTuple):
-    """Cells of a band, and what the file says of them; `shape` is that of the whole file."""
+    """Cells of a band, and what the file says of them.
+
+    `shape` is that of the whole file, `colour` what the band holds in a picture of bytes.
+    """
 
     values: np.ndarray
     valid: np.ndarray
@@ -225,6 +235,7 @@ class Content(NamedTuple):
     offset: float
     shape: tuple[int, int]
     description: str
+    colour: str
 
 
 def read_content(source: str | Path, band: int = 1, window: Window | None = None) -> Content:
@@ -346,6 +357,9 @@ def _read_with_gdal(source: str, band: int, window: Window | None) -> Content:
             0.0 if offset is None else offset,
             shape,
             layer.GetDescription() or "",
+            gdal.GetColorInterpretationName(layer.GetColorInterpretation())
+            if layer.DataType == gdal.GDT_Byte
+            else "",
         )
 
 
@@ -372,6 +386,7 @@ def _read_with_rasterio(source: str, band: int, window: Window | None) -> Conten
                 dataset.offsets[band - 1],
                 dataset.shape,
                 dataset.descriptions[band - 1] or "",
+                dataset.colorinterp[band - 1].name if dataset.dtypes[band - 1] == "uint8" else "",
             )
     except RasterioError as error:
         raise BareEarthError(f"Cannot read {source}: {str(error).rstrip('.')}.") from error

@@ -2850,6 +2850,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>{} ist keine Punktwolke. Wählen Sie einen Punktwolken-Layer oder eine Datei .las oder .laz.</translation>
     </message>
     <message>
+        <source>{} is not a raster. Choose a GeoTIFF.</source>
+        <translation>{} ist kein Raster. Wählen Sie ein GeoTIFF.</translation>
+    </message>
+    <message>
         <source>{} is not a wheel, or is damaged. Download it again.</source>
         <translation>{} ist kein Wheel oder beschädigt. Laden Sie es erneut herunter.</translation>
     </message>

@@ -2850,6 +2850,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>{} n'est pas un nuage de points. Choisissez une couche de nuage de points, ou un fichier .las ou .laz.</translation>
     </message>
     <message>
+        <source>{} is not a raster. Choose a GeoTIFF.</source>
+        <translation>{} n'est pas un raster. Choisissez un GeoTIFF.</translation>
+    </message>
+    <message>
         <source>{} is not a wheel, or is damaged. Download it again.</source>
         <translation>{} n'est pas un wheel, ou il est endommagé. Téléchargez-le à nouveau.</translation>
     </message>

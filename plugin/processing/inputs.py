@@ -313,6 +313,12 @@ def raster_of(
 ) -> QgsRasterLayer:
     """Return the raster layer in a field; raise `refusal`, in `mark`, if it is not a file."""
     layer = algorithm.parameterAsRasterLayer(parameters, name, context)
+    value = parameters.get(name)
+    if layer is None and isinstance(value, (str, Path)) and value:
+        is_there = _file(str(value)) is not None
+        raise Refusal(
+            mark("{} is not a raster. Choose a GeoTIFF.") if is_there else _NOWHERE, value
+        )
     if layer is None or layer.providerType() != "gdal":
         raise Refusal(refusal)
     return layer

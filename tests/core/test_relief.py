@@ -117,7 +117,23 @@ def test_the_multi_scale_relief_shows_the_narrow_and_the_wide():
     assert np.abs(found[100:140, 180]).max() < 0.05
 
 
-def test_what_is_unknown_hides_nothing_and_does_not_count():
+@pytest.mark.parametrize("slope", [0.0, 0.2])
+@pytest.mark.parametrize("is_cut", [False, True])
+def test_there_are_no_steps_along_the_border_of_the_data(slope, is_cut):
+    """Directions that end at the border were left out, one after the other."""
+    row, column = np.mgrid[:90, :90]
+    heights = slope * column + 0.1 * slope * row
+    if is_cut:
+        heights[(row + column < 40) | (np.hypot(row - 60, column - 60) < 9.0)] = np.nan
+    known = np.isfinite(heights)
+    for make in (sky_view, openness, local_dominance):
+        assert np.ptp(make(heights, METRES, 10.0)[known]) < 1e-3, make.__name__
+    inside = np.s_[1:-1, 1:-1]  # the light of a hillshade has steps of one cell
+    picture = archaeological_topography(heights, METRES, 10.0)[inside]
+    assert np.ptp(picture[known[inside]].astype(int)) <= 1
+
+
+def test_what_is_unknown_hides_nothing():
     heights = plane(0.0)
     heights[:, 40:] = np.nan
     heights[5, 5] = np.nan
@@ -127,8 +143,7 @@ def test_what_is_unknown_hides_nothing_and_does_not_count():
         assert np.ptp(found[np.isfinite(heights)]) < 1e-4
     lone = np.full((9, 9), np.nan)
     lone[4, 4] = 3.0
-    assert np.isnan(sky_view(lone, METRES, 3.0)).all()
-    assert not red_relief(lone, METRES, 3.0).any()
+    assert np.nansum(sky_view(lone, METRES, 3.0)) == 1.0  # as level land
 
 
 @pytest.mark.parametrize("cells", [(1.0, 2.1), (3.0, 1.0), (0.3, 0.7)])
@@ -384,6 +399,20 @@ def test_feet_change_nothing_but_heights(tmp_path):
         assert np.abs(metres - in_feet).max() < 2e-3
     with rasterio.open(tmp_path / "feet.out.tif") as raster:
         assert raster.units == (None,)
+
+
+def test_a_picture_is_no_terrain(tmp_path, capsys):
+    values = np.random.default_rng(1).integers(0, 255, (3, 30, 30)).astype(np.uint8)
+    for name, driver in (("shot.png", "PNG"), ("shot.tif", "GTiff")):
+        more = {"photometric": "RGB"} if driver == "GTiff" else {}
+        with rasterio.open(
+            tmp_path / name, "w", driver=driver, width=30, height=30, count=3, dtype="uint8",
+            transform=rasterio.Affine(1, 0, 0, 0, -1, 30), **more,
+        ) as file:  # fmt: skip
+            file.write(values)
+        assert main(["relief", str(tmp_path / name), str(tmp_path / "vat.tif"), "--kind", "vat"])
+        assert "is a picture in colours, not a raster of heights" in capsys.readouterr().err
+        assert not (tmp_path / "vat.tif").exists()
 
 
 def test_an_unknown_kind_is_refused(tmp_path):

@@ -118,3 +118,12 @@ def test_no_kind_is_refused(registry, terrain, tmp_path, context):
     values = {"INPUT": terrain, "KINDS": [], "OUTPUT_FOLDER": str(tmp_path / "relief")}
     possible, text = algorithm.checkParameterValues(values, context)
     assert not possible and "choose at least one" in text
+
+
+@pytest.mark.parametrize("name", ["relief", "removeoffterrainobjects"])
+def test_a_point_cloud_is_no_raster(registry, scene, tmp_path, context, name):
+    algorithm = registry.createAlgorithmById(f"bareearth:{name}")
+    for path, words in ((scene.path, "is not a raster. Choose a GeoTIFF."),
+                        (tmp_path / "none.tif", "does not exist. Check the path.")):  # fmt: skip
+        fits, text = algorithm.checkParameterValues({"INPUT": str(path)}, context)
+        assert not fits and text == f"{path} {words}"
