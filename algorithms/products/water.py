@@ -19,6 +19,7 @@ from ..grids.morphology import closing, dilation, erosion
 from .constraints import STATION
 from .water_body import WaterBody, divided, rings_of
 from .water_bridges import below_decks, beside_decks
+from .water_extent import surveyed
 from .water_grid import WaterGrid
 from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
 from .water_steps import parts_of_step
@@ -34,24 +35,28 @@ _LEAST_ISLAND = 100.0
 # Spread in metres of a shore from its level, up to which it is water. In coarse cells, banks have
 # so many metres for each metre of a cell.
 _MOST_SPREAD, _SPREAD_A_METRE = 0.3, 0.12
+# Share of the shore from which the land rises if it is one of banks: in few points, twice that
+# spread is that of the places along the bank where these happen to lie.
+_RISING_FROM_BANKS = 0.8
 # A river falls by so many metres, is so many times as long as wide, and its shore fits a falling
 # level so much better than one level.
 _FALL, _ELONGATED, _BETTER = 0.15, 3.0, 0.8
 # Least share of the shore with ground, and of its segments from which the land rises by so much.
 _LEAST_KNOWN, _LEAST_RISING, _RISE = 0.2, 0.6, 0.05
+# The same share where a region goes on beyond the survey: its border on flat land is level, too.
+_LEAST_RISING_OUTSIDE = 0.75
 # Cells this near to the shore can hold its bank.
 _BANK = 2.0
 # Returns so many metres above the level are not water; most share of cells with such.
 _ABOVE, _MOST_ABOVE = 2.0, 0.05
-# Returns inside lie at most so far from the level, in metres, by their median.
+# Most returns inside lie at most so far from the level, in metres, unless they are as few.
 _MOST_OFF = 0.5
 # Share of class 9 among the points from which a region needs no rising shore.
 _CLASSIFIED = 0.5
 # A part of water beyond a step of its level has at least this share of the smallest area.
 _LEAST_PART = 0.1
-# Most certainty where a part of the shore is farther from the level than the spread of water, or
-# the whole shore has such a spread, in metres.
-_MOST_MISFITTING, _CERTAIN_SPREAD = 0.7, 0.25
+# Most certainty where a part of the shore is not explained by the level.
+_MOST_MISFITTING = 0.7
 
 
 @dataclass(frozen=True)
@@ -91,13 +96,15 @@ class Water(ParameterSet):
 
 
 class _Region(NamedTuple):
-    """Connected cells, with a margin; `below` are those of them below decks of bridges.
+    """Connected cells, with a margin.
 
-    `other` are the cells of water with another level, and those beside it.
+    `below` are those of them below decks of bridges, `outside` those beyond the points of the
+    survey. `other` are the cells of water with another level, and those beside it.
     """
 
     water: np.ndarray
     below: np.ndarray
+    outside: np.ndarray
     rows: slice
     columns: slice
     other: np.ndarray | None = None
@@ -143,9 +150,15 @@ def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list
     found: list[WaterBody] = []
     for region in _regions(grid, how, progress):
         bodies = list(_bodies_of(region, grid, usual, how))
-        if not bodies and region.below.any():
-            for part in _labelled(region.open, how.min_area / grid.cell**2):
-                alone = region._replace(water=part, below=np.zeros_like(part))
+        # What is no water as a whole can be so without what no point shows.
+        for unseen in (region.outside, region.below, region.outside | region.below):
+            if bodies or not unseen.any():
+                continue
+            seen = _without_links(region.water & ~unseen)
+            for part in _labelled(seen, how.min_area / grid.cell**2):
+                alone = region._replace(
+                    water=part, below=region.below & part, outside=region.outside & part
+                )
                 bodies += _bodies_of(alone, grid, usual, how)
         found += bodies
     return sorted(found, key=lambda each: (-each.rings[0][:, 1].max(), each.rings[0][:, 0].min()))
@@ -155,10 +168,8 @@ def _regions(grid: WaterGrid, how: Water, progress: Progress) -> Iterator[_Regio
     """Yield the connected regions that are large enough."""
     from scipy.ndimage import find_objects, label
 
-    cells = closing(grid.candidates(), _CLOSE)
-    # Cells beyond the survey must not eat its border away.
-    kept = erosion(cells.view(np.uint8), _OPEN).view(bool)
-    cells &= dilation(kept, _OPEN)
+    outside = ~surveyed(grid.counts > 0)
+    cells = _without_links(closing(grid.candidates(), _CLOSE))
     below = below_decks(cells, grid)
     cells |= below
     labels, _ = label(cells)
@@ -175,7 +186,15 @@ def _regions(grid: WaterGrid, how: Water, progress: Progress) -> Iterator[_Regio
         )
         water = labels[rows, columns] == number
         water = _with_small_islands(water, grid.cell)
-        yield _Region(water, water & below[rows, columns], rows, columns)
+        unseen = (water & each[rows, columns] for each in (below, outside))
+        yield _Region(water, *unseen, rows, columns)
+
+
+def _without_links(cells: np.ndarray) -> np.ndarray:
+    """Return cells without thin links."""
+    # Cells beyond the survey must not eat its border away.
+    kept = erosion(cells.view(np.uint8), _OPEN).view(bool)
+    return cells & dilation(kept, _OPEN)
 
 
 def _with_small_islands(water: np.ndarray, cell: float) -> np.ndarray:
@@ -211,10 +230,11 @@ def _by_shore(region: _Region, grid: WaterGrid) -> _Marks | None:
     window = region.rows, region.columns
     hidden = beside_decks(grid, *window)
     if region.other is not None:
-        hidden = region.other if hidden is None else hidden | region.other
+        hidden = hidden | region.other
     shore = shore_of(region.water, grid.ground[window], grid.cell, hidden)
     rising = _rising(shore)
-    if shore is None or shore.known < _LEAST_KNOWN or rising < _LEAST_RISING:
+    least = _LEAST_RISING_OUTSIDE if region.outside.any() else _LEAST_RISING
+    if shore is None or shore.known < _LEAST_KNOWN or rising < least:
         return None
     return _Marks(shore, _share_of_class(region, grid), rising)
 
@@ -240,7 +260,9 @@ def _parts_of(
     if marks is None or len(marks.shore.lowest) < _FEWEST:
         return []
     surface = _inner_returns(region.open, grid.lowest[region.rows, region.columns])
-    most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell) * (1.0 + (marks.share >= _CLASSIFIED))
+    banks = marks.rising >= _RISING_FROM_BANKS and not region.outside.any()
+    most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell)
+    most *= 1.0 + (marks.share >= _CLASSIFIED or banks)
     kind, levels = _levels_of(region.water, marks.shore, surface, most)
     if kind == "river":
         parts = parts_of_step(region.water, levels, grid.ground[region.rows, region.columns])
@@ -278,7 +300,7 @@ def _body_of(
         return []
     filled = _filled(region, grid, usual)
     certainty = _certainty(max(1.0 - filled, marks.share), levels.spread, marks.rising)
-    if levels.misfit > _MOST_SPREAD or levels.spread > _CERTAIN_SPREAD:
+    if levels.misfit > most:
         certainty = min(certainty, _MOST_MISFITTING)
     return [_made(kind, region, grid, levels, (certainty, marks.share, filled, width))]
 
@@ -327,8 +349,9 @@ def _is_free(inner: np.ndarray, levels: Levels) -> bool:
     if not len(known):
         return True
     off = known[:, 2] - levels.at(known[:, :2])
-    above = np.count_nonzero(off > _ABOVE) / len(inner)
-    return bool(above <= _MOST_ABOVE and np.median(np.abs(off)) <= _MOST_OFF)
+    few = _MOST_ABOVE * len(inner)
+    above, elsewhere = np.count_nonzero(off > _ABOVE), np.count_nonzero(np.abs(off) > _MOST_OFF)
+    return above <= few and elsewhere <= max(few, len(off) / 2.0)
 
 
 def _filled(region: _Region, grid: WaterGrid, usual: np.ndarray) -> float:

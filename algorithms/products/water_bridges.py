@@ -57,8 +57,8 @@ def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
     return below
 
 
-def beside_decks(grid: WaterGrid, rows: slice, columns: slice) -> np.ndarray | None:
-    """Return the cells of a window whose ground may be that of an abutment; None: no decks."""
+def beside_decks(grid: WaterGrid, rows: slice, columns: slice) -> np.ndarray:
+    """Return the cells of a window whose ground may be that of an abutment."""
     if grid.decks is None:
-        return None
+        return np.zeros(grid.shape, dtype=bool)[rows, columns]
     return dilation(grid.decks[rows, columns], max(_ABUTMENT / grid.cell, _ABUTMENT_CELLS))

@@ -8,15 +8,22 @@ from typing import NamedTuple
 import numpy as np
 
 from ..grids.descent import descent
+from ..grids.morphology import erosion
 from .water_reaches import Reaches, reaches_of
 
 # Cells round the water whose ground is its shore, and cells farther out that show whether the land
 # rises from it.
 _SHORE, _BEYOND = 2, 6
+# Rows of cells farther out whose lowest ground is compared with that of a segment.
+_ROWS = 2
+# Height in metres of an embankment.
+_EMBANKMENT = 0.5
 # Length of the segments of a shore in metres, and least in cells; fewest segments of a small shore.
 _SEGMENT, _SEGMENT_CELLS, _SEGMENTS = 20.0, 8.0, 12
 # Share of the shore that is below its level: banks are higher.
 LEVEL_PERCENTILE = 10.0
+# The lowest ground of a segment is so much lower than the level, in metres, because of noise.
+_NOISE = 0.1
 # Standard deviations in the distance between the 10th and the 90th percentile.
 _DEVIATIONS = 2.563
 # Segments that lie together, whose median must be near the level too.
@@ -35,13 +42,13 @@ class Shore(NamedTuple):
         Row and column of the middle of each segment that touches the water.
     lowest : numpy.ndarray of float64, shape (n,)
         Its lowest ground: the bank hardly counts in it.
-    rises : numpy.ndarray of float64, shape (k,)
-        How far the ground a few cells farther out is higher than the shore, in metres, for all
-        segments, also those of the bank alone; NaN where there is none.
+    rises : numpy.ndarray of float64, shape (n,)
+        How far the lowest ground a few cells farther out, or an embankment, is higher, in metres;
+        NaN where there is none.
     heights : numpy.ndarray of float64, shape (m,)
         The ground of all cells of the shore.
     known : float
-        Share of the cells of the shore that have ground.
+        Share of the squares along the shore that have ground.
     side : int
         Length of the segments in cells.
     percentile : float
@@ -122,8 +129,9 @@ def shore_of(
     """
     from scipy.ndimage import distance_transform_cdt
 
-    away = distance_transform_cdt(~water, metric="chessboard")
-    is_shore = (away > 0) & (away <= _SHORE)
+    # 0 is a cell of the water at its edge: in sparse points the bank begins in it.
+    away = distance_transform_cdt(~erosion(water, 1.0), metric="chessboard") - 1
+    is_shore = (away >= 0) & (away <= _SHORE)
     has_ground = np.isfinite(ground)
     if hidden is not None:
         is_shore &= ~hidden
@@ -133,14 +141,17 @@ def shore_of(
         return None
     side = _side(water, cell)
     heights = ground[rows, columns].astype(np.float64)
-    places, _, median = _segments(rows, columns, heights, side)
+    places, lowest, median = _segments(rows, columns, heights, side)
     outer = _beyond((away > _SHORE + 1) & (away <= _BEYOND) & has_ground, ground, places, side)
-    # The lowest ground of a square without cells right at the water is that of the bank.
+    # Land behind an embankment can be lower than the water.
+    outer = np.where(median - lowest > _EMBANKMENT, np.fmax(outer, median), outer)
+    rises = outer - lowest
     squares = _squares(rows, columns, side)
-    beside = np.isin(squares, squares[away[rows, columns] == 1])
-    places, lowest, _ = _segments(rows[beside], columns[beside], heights[beside], side)
-    known = len(rows) / int(is_shore.sum())
-    return Shore(places, lowest, outer - median, heights, known, side)
+    known = np.unique(squares)
+    share = len(known) / len(np.unique(_squares(*np.nonzero(is_shore), side)))
+    # The lowest ground of a square without cells right at the water is that of the bank.
+    near = np.isin(known, squares[away[rows, columns] <= 1])
+    return Shore(places[near], lowest[near], rises[near], heights, share, side)
 
 
 def surface_of(water: np.ndarray, heights: np.ndarray, cell: float) -> Shore:
@@ -191,20 +202,19 @@ def margin() -> int:
 
 
 def _beyond(which: np.ndarray, ground: np.ndarray, places: np.ndarray, side: int) -> np.ndarray:
-    """Return the median ground of the nearest cells among some; NaN where none is near."""
+    """Return the lowest ground of the nearest cells among some; NaN where none is near."""
     from scipy.spatial import cKDTree
 
     rows, columns = np.nonzero(which)
     found = np.full(len(places), np.nan)
     if len(rows):
-        count = min(side, len(rows))
+        count = min(_ROWS * side, len(rows))
         far, near = cKDTree(np.column_stack((rows, columns))).query(
             places, list(range(1, count + 1)), distance_upper_bound=side + _BEYOND
         )
         heights = ground[rows, columns][np.minimum(near, len(rows) - 1)]
-        heights = np.where(np.isfinite(far), heights, np.nan)
-        some = np.isfinite(far).any(axis=1)
-        found[some] = np.nanmedian(heights[some], axis=1)
+        lowest = np.where(np.isfinite(far), heights, np.inf).min(axis=1)
+        found = np.where(np.isfinite(lowest), lowest, np.nan)
     return found
 
 
@@ -214,6 +224,7 @@ def lake_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels:
     `surface` is row, column and height of returns inside, shape (k, 3).
     """
     level = float(np.percentile(shore.heights, shore.percentile))
+    level = min(level, float(np.median(shore.lowest)) + _NOISE)
     off = _off_surface(np.full(len(surface), level), surface[:, 2])
     if off is not None:
         level += float(np.median(off[~np.isnan(off)]))

@@ -127,6 +127,38 @@ def test_a_river_falls_by_a_metre_in_500_m():
     assert scene.water(min_width=60.0) == []
 
 
+def test_a_lake_that_is_open_to_an_empty_corner_of_the_survey_is_found():
+    scene = Scene()
+    scene.basin(lake)
+    scene.keep((scene.inside(lake) > 0) & (scene.y > 0.7 * scene.x + 40.0))
+    (body,) = scene.water()
+    assert overlap([body], lambda x, y: np.maximum(lake(x, y), 0.7 * x + 40.0 - y)) > 0.9
+    assert abs(body.level - LEVEL) < 0.2
+
+
+def reservoir(x, y):
+    """Return how far places are from a reservoir of 28 ha; negative inside."""
+    east, north = x - 450.0, y - 500.0
+    return np.hypot(east, north) - 300.0 * (1.0 + 0.2 * np.sin(3 * np.arctan2(north, east)))
+
+
+@pytest.mark.parametrize("slope", [0.05, 0.5])
+def test_a_reservoir_in_woods_is_found_in_few_points(slope):
+    """Few of the points in a wood are ground, and some crowns hang over the water."""
+    scene = Scene(1000.0, 1000.0, density=0.3, rolling=5.0)
+    # A dam holds the water in the north.
+    scene.z = np.where(scene.y > 700.0, scene.z, np.maximum(scene.z, LEVEL + 2.0))
+    scene.basin(reservoir, slope=slope)
+    away, chance = scene.inside(reservoir), scene.random.random(len(scene.x))
+    crowns = (chance > 0.1) | (away < 0)
+    scene.z[crowns] += 15.0
+    scene.classes[crowns] = 5
+    scene.keep((away > 0) | (chance < 0.01))
+    (body,) = scene.water(cell=4.0)
+    assert overlap([body], reservoir, (1000.0, 1000.0)) > 0.9
+    assert abs(body.level - LEVEL) < 0.5 and body.kind == "lake"
+
+
 def hall(scene):
     on = (np.abs(scene.x - 200) < 75) & (np.abs(scene.y - 200) < 60)
     scene.z[on], scene.classes[on] = LEVEL + 9.0, 6
