@@ -85,7 +85,7 @@ def read_table(path: Path) -> Table:
     cells = _cells([each.text for each in lines], _DELIMITERS[counts.index(max(counts))])
     is_row = [_numbers_in(row) >= 3 and not line.is_comment for row, line in zip(cells, lines)]
     first = is_row.index(True)
-    names = _header_of(cells[:first], lines[:first])
+    names, first = _header_of(cells[:first], lines[:first])
     rows, numbers = [], []
     for row, line in zip(cells[first:], lines[first:]):
         is_header = names is not None and tuple(each.strip() for each in row) == names
@@ -113,24 +113,30 @@ def _lines_of(path: Path) -> tuple[list[_Line], str | None]:
     return lines[markers:], crs
 
 
-def _header_of(cells: list[list[str]], lines: list[_Line]) -> tuple[str, ...] | None:
-    """Return the names of the columns from the lines before the first row; None for none."""
+def _header_of(cells: list[list[str]], lines: list[_Line]) -> tuple[tuple[str, ...] | None, int]:
+    """Return the names of the columns, None for none, and the number of lines before the rows.
+
+    The lines are those before the first that holds three numbers. If none of them has known names,
+    the last is the header.
+    """
     units: list[str] = []
-    found = None
-    for row, line in zip(reversed(cells), reversed(lines)):
-        if not line.is_comment and not units and found is None and _are_units(row):
-            units = row
-            continue
+    last, start = None, len(cells)
+    for number in reversed(range(len(cells))):
+        row, is_comment = cells[number], lines[number].is_comment
         roles = columns_of(row, {}, "") if len(row) >= 3 else {}
         if roles and roles["x"] and roles["y"]:
-            found = row
-            break
-        if found is None and len(row) >= 3 and not line.is_comment:
-            found = row
-    if found is None:
-        return None
-    units += [""] * (len(found) - len(units))
-    return tuple(f"{name.strip()} {unit.strip()}".strip() for name, unit in zip(found, units))
+            return _with_units(row, units), start if units else number + 1
+        if not is_comment and not units and last is None and _are_units(row):
+            units, start = row, number + 1
+        elif not is_comment and last is None and len(row) >= 3:
+            last = row
+    return (None if last is None else _with_units(last, units)), start
+
+
+def _with_units(names: list[str], units: list[str]) -> tuple[str, ...]:
+    """Return the names of the columns with the units that stand below them."""
+    units = [*units, *[""] * (len(names) - len(units))]
+    return tuple(f"{name.strip()} {unit.strip()}".strip() for name, unit in zip(names, units))
 
 
 def _are_units(row: list[str]) -> bool:
@@ -151,7 +157,8 @@ def _control_points(table: Table) -> Table:
         return table
     points: dict[tuple[str, ...], int] = {}
     for row, number in zip(table.rows, table.numbers):
-        points.setdefault((*row[:3], row[6] if len(row) > 6 else ""), number)
+        x, y, z, *others = [*row, "", "", ""]
+        points.setdefault((x, y, z, others[3] if len(row) > 6 else ""), number)
     has_checks = any(each[3].upper().startswith(_CHECK) for each in points)
     rows = [
         [*each, "check" if each[3].upper().startswith(_CHECK) else "control" * has_checks]
@@ -178,11 +185,12 @@ def places_without_names(rows: Sequence[Sequence[str]]) -> dict[str, int]:
     if named:
         places["name"] = 0
     # Codes may be missing in some rows.
-    behind = [row[axes[-1] + 1 :] for row in some]
+    first = max(axes, default=-1) + 1
+    behind = [row[first:] for row in some]
     for column in range(max(map(len, behind))):
         given = [row[column] for row in behind if len(row) > column and row[column].strip()]
         if given and not all(number_of(each) is not None for each in given):
-            return {**places, "cover": axes[-1] + 1 + column}
+            return {**places, "cover": first + column}
     return places
 
 

@@ -188,6 +188,16 @@ def test_rows_without_coordinates_are_left_out_and_told(tmp_path):
         read(tmp_path, f"name,x,y,z\nP1,{X},{Y},{Z}\nP2,{X},{Y},-9999\n")
 
 
+@pytest.mark.parametrize(
+    "text",
+    [f"EPSG:25832\n{X} {Y} {Z} 1 2 A.JPG P\n{X} {Y}\n", f"name,x,y,z\nP,{X},{Y},\nQ,{X},{Y},{Z}\n",
+     f"name,x,zP,{X},{Y},{Z}\nname\nP,{X},{Y},{Z}\n", f"x,y,z\n{X},{Y},{Z}\nend of file,\n"],
+)  # fmt: skip
+def test_damaged_tables_are_refused_with_a_sentence(tmp_path, text):
+    with pytest.raises(BareEarthError, match=r"has no number|no column|holds no"):
+        read(tmp_path, text)
+
+
 def test_columns_that_differ_by_capitals_alone(tmp_path):
     text = f"x,y,h,H\n{X},{Y},{Z + 47},{Z}\n"
     assert read(tmp_path, text, "z=H").xyz[0, 2] == Z
