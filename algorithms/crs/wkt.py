@@ -6,6 +6,7 @@ units.
 
 from __future__ import annotations
 
+import math
 import re
 from typing import NamedTuple, Sequence
 
@@ -23,6 +24,8 @@ _VERTICAL_DATUMS = {"VERT_DATUM", "VDATUM", "VERTICALDATUM", "VRF", "ENSEMBLE"}
 _ELLIPSOIDAL_HEIGHTS = "2002"
 _NO_NAME = re.compile(r"\s*(unknown|unnamed|undefined|not specified|$)", re.IGNORECASE)
 _UNITS = {"UNIT", "LENGTHUNIT"}
+_VERTICAL_UNIT = re.compile(r'(VERT_CS\[.*?\bUNIT\["[^"]*",([-+.0-9eE]+))(?=\])', re.DOTALL)
+_UNIT_CODES = {9001: 1.0, 9002: 0.3048, 9003: 1200 / 3937}
 _UPWARDS = {"up", "down"}
 # Metres in one unit. Other values are no useful units of length.
 _SMALLEST_UNIT, _LARGEST_UNIT = 1e-6, 1e6
@@ -138,6 +141,23 @@ def is_wkt2(text: str) -> bool:
     True
     """
     return text.lstrip().upper().startswith(_SECOND_VERSION)
+
+
+def with_unit_of_heights(text: str) -> str:
+    """Return WKT 1 whose vertical unit has its EPSG code, without which GeoTIFF cannot state it.
+
+    Examples
+    --------
+    >>> with_unit_of_heights('VERT_CS["v",VERT_DATUM["d",2005],UNIT["ft",0.3048]]')[-43:]
+    'UNIT["ft",0.3048,AUTHORITY["EPSG","9002"]]]'
+    """
+    vertical = _VERTICAL_UNIT.search(text)
+    metres = _number(vertical[2]) if vertical else None
+    for code, size in _UNIT_CODES.items():
+        if vertical and metres and math.isclose(metres, size, rel_tol=1e-8):
+            end = vertical.end()
+            return f'{text[:end]},AUTHORITY["EPSG","{code}"]{text[end:]}'
+    return text
 
 
 def _parse(text: str) -> list[str | Node]:

@@ -95,8 +95,6 @@ def write_relief(
     check_raster_output(target, (Path(source),))
     relief = KINDS[kind]
     raster = read_raster(source, progress=progress, window=NO_CELLS)
-    if not relief.is_height:
-        raster = raster._replace(unit="")  # that of the heights
     nodata = 0 if relief.kind == "uint8" else nodata
     strips = _strips(source, raster, relief, parameters.terrain, nodata, progress)
     rows = Rows(raster.whole, relief.kind, strips, relief.bands)

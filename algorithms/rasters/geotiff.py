@@ -89,11 +89,6 @@ class RasterGrid:
         return cls(west * cell, north * cell, cell, columns, rows, frame)
 
     @property
-    def unit(self) -> str:
-        """Unit of the band; empty, since the CRS states the unit."""
-        return ""
-
-    @property
     def geotransform(self) -> tuple[float, ...]:
         """Geotransform of GDAL."""
         return self.west, self.cell_size, 0.0, self.north, 0.0, -self.cell_size
@@ -289,8 +284,12 @@ def tell_of_units(
 def stated_units(content: Content) -> tuple[float | None, float | None]:
     """Return the units of heights that the band, or its description, and the CRS state."""
     facts = read_wkt(content.wkt) if content.wkt else None
-    of_band = unit_in(content.unit) or unit_in(content.description)
-    return of_band, facts.vertical_unit if facts is not None else None
+    of_crs = facts.vertical_unit if facts is not None else None
+    of_band, described = unit_in(content.unit), unit_in(content.description)
+    # GDAL gives the unit of the CRS to bands without one, and may take feet for metres there.
+    if described and (of_band is None or same_unit(of_band, of_crs)):
+        of_band = described
+    return of_band, of_crs
 
 
 def _require_measurable(source: str | Path, content: Content) -> None:

@@ -7,6 +7,7 @@ from html import escape
 from pathlib import Path
 from typing import Mapping
 
+from ..crs.wkt import with_unit_of_heights
 from .geotiff import RasterGrid
 from .writing import BLOCK_SIDE, Band
 
@@ -41,13 +42,14 @@ def write_virtual(
     transform = ", ".join(repr(float(each)) for each in grid.geotransform)
     lines = [
         f'<VRTDataset rasterXSize="{grid.columns}" rasterYSize="{grid.rows}">',
-        f"<SRS>{escape(grid.frame.wkt)}</SRS>" if grid.frame.wkt else "",
+        f"<SRS>{escape(with_unit_of_heights(grid.frame.wkt))}</SRS>" if grid.frame.wkt else "",
         f"<GeoTransform>{transform}</GeoTransform>",
     ]
     for number, colour in enumerate(band.colours, 1):
         lines += [
             f'<VRTRasterBand dataType="{_TYPES[kind]}" band="{number}">',
             f"<Description>{escape(band.description)}</Description>",
+            f"<UnitType>{escape(band.unit)}</UnitType>" if band.unit else "",
             f"<NoDataValue>{band.nodata}</NoDataValue>",
             f"<ColorInterp>{colour}</ColorInterp>" if len(band.colours) > 1 else "",
         ]

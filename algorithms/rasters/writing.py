@@ -16,7 +16,8 @@ from ..core.files import Outputs, check_output
 from ..core.progress import Progress
 from ..core.temporary import remove, shown
 from ..core.version import __version__
-from ..crs.system import unit_symbol
+from ..crs.system import unit_name, unit_symbol
+from ..crs.wkt import with_unit_of_heights
 from .geotiff import Raster, RasterGrid
 from .libraries import GdalErrors, library
 
@@ -63,16 +64,22 @@ class Rows(NamedTuple):
 
 
 class Band(NamedTuple):
-    """Properties of the bands: value for no data, description of the cells, number of bands."""
+    """Properties of the bands: value for no data, description and unit, number of bands."""
 
     nodata: float
     description: str
+    unit: str
     bands: int = 1
 
     @classmethod
     def of(cls, grid: RasterGrid | Raster, nodata: float, shows: str, bands: int = 1) -> Band:
         """Return the bands that `write_geotiff` writes; see there for `shows`."""
-        return cls(nodata, shows.format(unit=unit_symbol(grid.frame.vertical_unit)), bands)
+        metres, unit = grid.frame.vertical_unit, ""
+        if isinstance(grid, Raster) and not grid.states_unit:
+            shows = shows.replace(", {unit}", "")  # what is assumed is not stated
+        elif "{unit}" in shows:
+            unit = (grid.unit if isinstance(grid, Raster) else "") or unit_name(metres)
+        return cls(nodata, shows.format(unit=unit_symbol(metres)), unit, bands)
 
     @property
     def colours(self) -> tuple[str, ...]:
@@ -170,7 +177,7 @@ def _write_with_gdal(
             if grid.frame.wkt:
                 reference = osr.SpatialReference()
                 if reference.ImportFromWkt(grid.frame.wkt) == 0:
-                    dataset.SetProjection(reference.ExportToWkt())
+                    dataset.SetProjection(with_unit_of_heights(reference.ExportToWkt()))
                 else:
                     _warn_without_crs(progress)
                 errors.clear()
@@ -182,8 +189,8 @@ def _write_with_gdal(
                 band.SetDescription(about.description)
                 if len(about.colours) > 1:
                     band.SetColorInterpretation(getattr(gdal, f"GCI_{colour}Band"))
-                if grid.unit:
-                    band.SetUnitType(grid.unit)
+                if about.unit:
+                    band.SetUnitType(about.unit)
             for strip in rows.strips:
                 for number, part in enumerate(strip.reshape(rows.bands, *strip.shape[-2:]), 1):
                     dataset.GetRasterBand(number).WriteArray(part, 0, start)
@@ -245,8 +252,8 @@ def _write_with_rasterio(
                     start += strip.shape[-2]
                 dataset.descriptions = (about.description,) * rows.bands
                 dataset.update_tags(**_tags(about))
-                if grid.unit:
-                    dataset.units = (grid.unit,) * rows.bands
+                if about.unit:
+                    dataset.units = (about.unit,) * rows.bands
             # In memory first, since rasterio raises no error if the disk is full at the close.
             rasterio.shutil.copy(name, made.name, driver="COG", **_OPTIONS)
             with made.open() as dataset:
@@ -268,7 +275,12 @@ def _crs_of(grid: RasterGrid | Raster, progress: Progress) -> Any:
 
     try:
         with rasterio.Env():  # without it, GDAL prints its errors
-            return CRS.from_wkt(grid.frame.wkt) if grid.frame.wkt else None
+            if not grid.frame.wkt:
+                return None
+            crs = CRS.from_wkt(grid.frame.wkt)
+            text = crs.to_wkt()
+            changed = with_unit_of_heights(text)
+            return crs if changed == text else CRS.from_wkt(changed)
     except CRSError:
         _warn_without_crs(progress)
         return None

@@ -18,6 +18,7 @@ from bare_earth.algorithms.core.progress import SILENT, Notes
 from bare_earth.algorithms.crs.provider import wkt_of_epsg, wkt_of_text
 from bare_earth.algorithms.crs.system import crs_of_wkt
 from bare_earth.algorithms.crs.unit_names import unit_in
+from bare_earth.algorithms.crs.wkt import read_wkt
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.rasters import sampling
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
@@ -172,8 +173,9 @@ def test_heights_of_a_raster_in_its_stated_unit(tmp_path):
     unstated = HeightRaster.of(metres)
     assert unstated.unit == 1.0 and not unstated.states_unit
     raster, feet = read_raster(metres), tmp_path / "feet.tif"
-    grid = raster._replace(unit="ft")
-    write_geotiff(feet, raster.heights / np.float32(0.3048), grid, NODATA, SILENT, "heights")
+    grid = raster._replace(unit="ft", states_unit=True)
+    cells = raster.heights / np.float32(0.3048)
+    write_geotiff(feet, cells, grid, NODATA, SILENT, "Height, {unit}")
     known = HeightRaster.of(feet)
     assert known.unit == 0.3048 and known.shape == (SIDE, SIDE)
     heights(source, tmp_path / "out.las", HeightRequest(dtm=known))
@@ -268,6 +270,21 @@ def test_values_at_the_border_and_outside(tmp_path):
     expected = [first, first, terrain(EAST + 30.25, NORTH + 30.0), last]
     np.testing.assert_allclose(values[1:5], expected, atol=1e-4)
     assert not len(sampler.heights(np.zeros(0), np.zeros(0)))
+
+
+@pytest.mark.parametrize("kind", ["WKT1_GDAL", "WKT1_ESRI", "WKT2_2019"])
+@pytest.mark.parametrize("code", ["EPSG:2264+6360", "EPSG:25832+8228", "EPSG:25832"])
+def test_written_heights_keep_their_unit(tmp_path, code, kind):
+    # GDAL reads a vertical CRS without codes, such as ESRI's, from a GeoTIFF as metres.
+    wkt = pyproj.CRS(code).to_wkt(kind)
+    unit = crs_of_wkt(wkt).vertical_unit if "+" in code else 0.3048
+    frame = Frame((0.0, 0.0), crs_of_wkt(wkt).horizontal_unit, unit, wkt)
+    grid, cells = RasterGrid(EAST, NORTH, 1.0, 4, 4, frame), np.zeros((4, 4), np.float32)
+    write_geotiff(tmp_path / "dtm.tif", cells, grid, NODATA, SILENT, "Height, {unit}")
+    with rasterio.open(tmp_path / "dtm.tif") as raster:
+        assert unit_in(raster.units[0]) == pytest.approx(unit, rel=1e-8)
+        stated = read_wkt(raster.crs.to_wkt()).vertical_unit
+        assert stated == (pytest.approx(unit, rel=1e-8) if "+" in code else None)
 
 
 @pytest.mark.parametrize(
