@@ -52,7 +52,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         classes, northing = GROUND_CLASSES, _SCENE_NORTHING
         print(f"Generated a scene of {count:,} points: {cloud} (true classes: {truth})")
     results = [_OUTPUT / name for name in ("classified.laz", "dtm.tif", "hillshade.tif")]
-    for result in results:  # those of an earlier run must not pass for new ones
+    picture, errors = _OUTPUT / "picture.png", _OUTPUT / "errors.txt"
+    # Those of an earlier run must not pass for new ones.
+    for result in (*results, picture, errors):
         result.unlink(missing_ok=True)
 
     start = time.monotonic()
@@ -64,9 +66,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if truth is not None:
         assessment = assess_files(results[0], truth, AssessmentOptions(ground_classes=classes))
         lines = assessment.lines()
-        (_OUTPUT / "errors.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        errors.write_text("\n".join(lines) + "\n", encoding="utf-8")
         print("\nAgainst the truth:", *lines, sep="\n  ")
-    picture = _OUTPUT / "picture.png"
     title = "Generated scene" if options.cloud is None else cloud.name
     draw(*results, picture, truth, classes, northing, f"{title}: ground by {by}")
     print("\nTo look at:", picture, *results, sep="\n  ")

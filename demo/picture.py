@@ -17,6 +17,9 @@ from matplotlib import pyplot
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
+from bare_earth.algorithms.crs.system import unit_symbol
+from bare_earth.algorithms.rasters.geotiff import NO_CELLS, read_raster
+
 GROUND = 2
 _PIXELS = 700
 _STRIPS = 40
@@ -41,6 +44,8 @@ class View:
         Index of the colour of each point in `_COLOURS`.
     extent : tuple of float
         West, east, south, north, in units of the CRS.
+    units : tuple of str
+        Symbols of the units of the CRS and of the heights.
     """
 
     x: np.ndarray
@@ -51,6 +56,7 @@ class View:
     hillshade: np.ndarray
     transform: rasterio.Affine
     extent: tuple[float, float, float, float]
+    units: tuple[str, str]
 
 
 def draw(
@@ -115,9 +121,11 @@ def _view(
     with rasterio.open(hillshade) as raster:
         shade = raster.read(1)
     extent = bounds.left, bounds.right, bounds.bottom, bounds.top
+    frame = read_raster(dtm, window=NO_CELLS).frame
+    units = unit_symbol(frame.horizontal_unit), unit_symbol(frame.vertical_unit)
     # Plain arrays: each access to a column of laspy scales it anew.
     x, y, z = (np.asarray(column) for column in (las.x, las.y, las.z))
-    return View(x, y, z, kind, heights, shade, transform, extent)
+    return View(x, y, z, kind, heights, shade, transform, extent, units)
 
 
 def _draw_relief(panel: pyplot.Axes, view: View) -> None:
@@ -128,7 +136,9 @@ def _draw_relief(panel: pyplot.Axes, view: View) -> None:
     image = panel.imshow(
         view.dtm, cmap="gist_earth", extent=view.extent, alpha=0.35, vmin=low, vmax=high
     )
-    panel.figure.colorbar(image, ax=panel, shrink=0.6, pad=0.01).solids.set_alpha(1)
+    bar = panel.figure.colorbar(image, ax=panel, shrink=0.6, pad=0.01)
+    bar.solids.set_alpha(1)
+    bar.set_label(f"Height [{view.units[1]}]")
     panel.set_title("Terrain model", loc="left")
 
 
@@ -184,9 +194,9 @@ def _draw_profile(panel: pyplot.Axes, view: View, northing: float, with_errors: 
         np.percentile(view.z[cut], 99.9) + 0.1 * spread + 2,
     )
     panel.set_xlim(0, east - west)
-    panel.set_title(
-        f"Profile from west to east, {2 * half:.1f} wide, along the dashed line", loc="left"
-    )
+    across = f"{2 * half:.1f} {view.units[0]} wide"
+    panel.set_title(f"Profile from west to east, {across}, along the dashed line", loc="left")
+    panel.set(xlabel=f"From the west [{view.units[0]}]", ylabel=f"Height [{view.units[1]}]")
     shown = names[1:] if with_errors else names[1:3]
     handles = _handles({name: name for name in shown})
     handles += panel.plot([], [], color="black", label="terrain model")
@@ -196,10 +206,14 @@ def _draw_profile(panel: pyplot.Axes, view: View, northing: float, with_errors: 
 
 
 def _busiest_northing(view: View) -> float:
-    """Return where a cut from west to east meets most points that are not ground."""
+    """Return where a cut from west to east meets most points that are not ground.
+
+    Only in the middle: the border shows little of a tile.
+    """
     south, north = view.extent[2:]
     other = view.y[np.isin(view.kind, (2, 3))]
-    counts, edges = np.histogram(other, _STRIPS, (south, north))
+    quarter = (north - south) / 4
+    counts, edges = np.histogram(other, _STRIPS, (south + quarter, north - quarter))
     best = int(np.argmax(counts))
     return float(edges[best] + edges[best + 1]) / 2
 

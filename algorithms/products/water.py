@@ -55,8 +55,9 @@ _MOST_OFF = 0.5
 _CLASSIFIED = 0.5
 # A part of water beyond a step of its level has at least this share of the smallest area.
 _LEAST_PART = 0.1
-# Most certainty where a part of the shore is not explained by the level.
-_MOST_MISFITTING = 0.7
+# Most certainty where a part of the shore is farther from the level than the spread of water, or
+# the whole shore has such a spread, in metres.
+_MOST_MISFITTING, _CERTAIN_SPREAD = 0.7, 0.25
 
 
 @dataclass(frozen=True)
@@ -300,7 +301,7 @@ def _body_of(
         return []
     filled = _filled(region, grid, usual)
     certainty = _certainty(max(1.0 - filled, marks.share), levels.spread, marks.rising)
-    if levels.misfit > most:
+    if levels.misfit > _MOST_SPREAD or levels.spread > _CERTAIN_SPREAD:
         certainty = min(certainty, _MOST_MISFITTING)
     return [_made(kind, region, grid, levels, (certainty, marks.share, filled, width))]
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
+import threading
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence
 
@@ -25,6 +26,8 @@ MUST_RELEASE = sys.platform == "win32"
 _REPLACED: dict[Path, int] = {}
 # A filter that all points pass, followed by a number.
 _PASSED = "Classification >= -"
+# How long the main thread may be busy, in seconds, when another thread asks it for something.
+_PATIENCE = 5.0
 # Files of whose points QGIS keeps a copy.
 _KEPT_BY_QGIS = (".laz", ".vpc")
 
@@ -230,6 +233,28 @@ def later(work: Callable[[], None]) -> None:
     _WAITING.append(caller)
     caller.moveToThread(QCoreApplication.instance().thread())
     caller.asked.emit()
+
+
+def now(work: Callable[[], None]) -> None:
+    """Call a function in the main thread and wait for it, unless that thread is busy for long.
+
+    It may wait for the caller itself, as scripts do that run a task: then nothing is called.
+    """
+    if in_main_thread():
+        work()
+        return
+    lock, called, waits = threading.Lock(), threading.Event(), [True]
+
+    def call() -> None:
+        with lock:
+            if waits:
+                work()
+            called.set()
+
+    later(call)
+    if not called.wait(_PATIENCE):
+        with lock:
+            waits.clear()
 
 
 class _Caller(QObject):

@@ -59,8 +59,17 @@ class Stage:
             raise BareEarthError(text.format(title))
         self.is_old = bool(self._sources) and self._old_group() is not None
         self.group = name if self.is_old or not is_main else free_name(self._project, name)
-        if self._sources and (loaded.MUST_RELEASE or is_in_place):
-            loaded.release(self._project, self._sources)
+        self._released = self._sources
+        if loaded.MUST_RELEASE or is_in_place:
+            loaded.now(self._release)
+
+    def _release(self) -> None:
+        """Let layers of the files close these, unless they are being edited; in the main thread."""
+        if self._project is not None:
+            sources = loaded.sources_of(self._project, self._places)
+            if not loaded.edited(self._project, sources):
+                self._released = sources
+                loaded.release(self._project, sources)
 
     def shows(self, path: str) -> bool:
         """Return whether a layer of the project shows a file already."""
@@ -74,7 +83,7 @@ class Stage:
         dresses : mapping of str to callable
             What gives the layer of a file its style.
         """
-        project, places, released = self._project, self._places, self._sources
+        project, places, released = self._project, self._places, self._released
         styles = {Path(path): dress for path, dress in dresses.items()}
         if project is None:
             return

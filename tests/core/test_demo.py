@@ -92,7 +92,7 @@ def test_the_files_hold_the_same_points_and_only_the_truth_its_classes(scene, tm
     assert "25832" in cloud.header.vlrs.get("WktCoordinateSystemVlr")[0].string
 
 
-def test_the_picture_is_drawn_with_and_without_truth(demo, scene, tmp_path):
+def test_the_picture_is_drawn_with_and_without_truth(demo, scene, tmp_path, monkeypatch):
     rasterio = pytest.importorskip("rasterio")
     pytest.importorskip("matplotlib")
     cloud, truth = tmp_path / "a.las", tmp_path / "truth.las"
@@ -102,7 +102,32 @@ def test_the_picture_is_drawn_with_and_without_truth(demo, scene, tmp_path):
     for name, kind, value in (("dtm.tif", "float32", 120.0), ("shade.tif", "uint8", 180)):
         with rasterio.open(tmp_path / name, "w", dtype=kind, **profile) as raster:
             raster.write(np.full((1, 60, 60), value, dtype=kind))
+    figures, save = [], demo("picture").pyplot.Figure.savefig
+    monkeypatch.setattr(
+        demo("picture").pyplot.Figure, "savefig",
+        lambda figure, target: figures.append(figure) or save(figure, target),
+    )  # fmt: skip
     for number, known in enumerate((None, truth)):
         target = tmp_path / f"{number}.png"
         demo("picture").draw(truth, tmp_path / "dtm.tif", tmp_path / "shade.tif", target, known)
         assert target.read_bytes().startswith(b"\x89PNG") and target.stat().st_size > 20_000
+        labels = {axes.get_ylabel() for axes in figures[-1].axes}
+        assert "Height [m]" in labels and figures[-1].axes[-1].get_xlabel().endswith("[m]")
+
+
+def test_the_profile_keeps_away_from_the_border(demo):
+    picture = demo("picture")
+    y = np.concatenate([np.full(900, 1.0), np.linspace(0, 100, 400), np.full(90, 60.0)])
+    flat, image = np.zeros(len(y)), np.zeros((2, 2))
+    view = picture.View(
+        flat,
+        y,
+        flat,
+        np.full(len(y), 2, np.uint8),
+        image,
+        image,
+        None,
+        (0, 100, 0, 100),
+        ("m", "m"),
+    )
+    assert abs(picture._busiest_northing(view) - 60.0) < 2.0

@@ -113,6 +113,18 @@ def test_a_tutorial_runs_and_says_what_comes_out(
     assert errors[0] > (0.05 if job == "flood" else 0.2) and errors[1] < 0.6 * errors[0], errors
 
 
+@pytest.mark.long
+def test_the_first_steps_print_what_their_page_says(pages, tmp_path):
+    page, scene = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8"), "demo.scene"
+    importlib.import_module(scene).write_scene(tmp_path / "scene.laz", tmp_path / "truth.laz")
+    wrong, quotes = [], 0
+    for block, printed in pages.steps(page.partition("## 5. Many tiles")[0], tmp_path):
+        if not block.kind:
+            wrong += [line for line in block.text.splitlines() if not is_in(line, printed)]
+            quotes += 1
+    assert wrong == [] and quotes == 2
+
+
 def test_the_tutorials_are_those_of_all_deliveries():
     from bare_earth.algorithms.delivery.deliveries import DELIVERIES
 

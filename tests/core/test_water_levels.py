@@ -159,6 +159,17 @@ def test_water_that_one_level_does_not_explain_is_not_certain():
         assert body.grade != "certain" or channels.off(body).max() < 0.3
 
 
+def test_a_shore_that_its_level_does_not_explain_is_not_certain():
+    """A third of the shore is 0.7 m above the rest."""
+    lake = Channels((), [(150, 150, 80, 100.0)])
+    scene = lake.scene((300, 300))
+    (body,) = scene.water(CELL)
+    assert body.grade == "certain"
+    scene.z[np.abs(np.arctan2(scene.y - 150, scene.x - 150)) < 1.0] += 0.7
+    (body,) = scene.water(CELL)
+    assert body.grade == "likely" and abs(body.level - 100.0) < 0.2
+
+
 def test_levels_on_a_fork_are_those_of_each_branch():
     edges = [(i, i + 1) for i in range(59)] + [(30, 60)] + [(i, i + 1) for i in range(60, 89)]
     truth = np.concatenate((101.0 - 0.01 * np.arange(60), 100.7 + 0.02 * np.arange(1, 31)))

@@ -1,6 +1,7 @@
 """A run that writes the files of an earlier one: their layers in the project are reloaded."""
 
 import os
+import threading
 import time
 
 import laspy
@@ -27,6 +28,7 @@ from qgis.PyQt.QtCore import QSize, QVariant
 from support import ALGORITHM, Log, layer_of, write_scene
 
 from bare_earth.plugin.styles import loaded
+from bare_earth.plugin.styles.stage import Stage
 
 COPC = "copc" in QgsProviderRegistry.instance().providerList()
 needs_copc = pytest.mark.skipif(not COPC, reason="this QGIS shows no point clouds")
@@ -307,6 +309,29 @@ def test_files_are_released_where_open_files_cannot_be_replaced(
     lines = {each["ELEV"] for each in layers["Contour lines"].getFeatures()}
     assert lines == set(np.arange(100.5 + raised, 106 + raised, 0.5))
     assert layers["Contour lines"].renderer().type() == "RuleRenderer"
+
+
+@pytest.mark.parametrize("is_busy", [False, True])
+def test_a_step_of_a_model_in_another_thread_releases_layers_too(
+    run, scene, tmp_path, monkeypatch, is_busy
+):
+    """Unless the window is busy: it may wait for the model itself."""
+    (layer,) = run(ONE_STEP, {"INPUT": str(scene.path)}, {"DTM": tmp_path / "dtm.tif"}).values()
+    monkeypatch.setattr(loaded, "MUST_RELEASE", True)
+    monkeypatch.setattr(loaded, "_PATIENCE", 0.2 if is_busy else 60.0)
+    context, stages = QgsProcessingContext(), []
+    context.setProject(QgsProject.instance())
+    step = threading.Thread(
+        target=lambda: stages.append(Stage(context, "model", [tmp_path / "dtm.tif"]))
+    )
+    step.start()
+    while not is_busy and step.is_alive():
+        QgsApplication.processEvents()
+    step.join()
+    QgsApplication.processEvents()
+    assert bool(open_files([tmp_path / "dtm.tif"])) == is_busy
+    stages[0].reload({})
+    assert layer.isValid() and layer.source() == str(tmp_path / "dtm.tif")
 
 
 def open_files(paths):
