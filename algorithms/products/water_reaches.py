@@ -38,7 +38,7 @@ class Reaches(NamedTuple):
     group : int
         Side of a group in cells.
     width, length : float
-        Mean width, and length of all chains together, in cells.
+        Mean width, in which each chain counts by its area, and length of all chains, in cells.
     """
 
     network: Network
@@ -117,14 +117,13 @@ def reaches_of(water: np.ndarray, longest: float) -> Reaches:
     edges = np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], axis=1), axis=0)
     network, middles = Network(len(names), edges), middles[names]
     places = _middle_places(cells, reach, deep**4)
-    total = _length(network, places, side)
+    width, length = _width_and_length(network, places, np.bincount(reach), side)
     nearest = distance_transform_edt(~cells, return_distances=False, return_indices=True)
     numbers, along = np.zeros(cells.shape, np.int32), np.zeros(cells.shape)
     numbers[cells], along[cells] = reach, away
-    width = len(deep) / total * group
     places = (places + 0.5) * group - 0.5
     numbers, along = numbers[tuple(nearest)], along[tuple(nearest)]
-    return Reaches(network, places, numbers, along, middles, group, width, total * group)
+    return Reaches(network, places, numbers, along, middles, group, width * group, length * group)
 
 
 def _neighbours(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -206,8 +205,16 @@ def _middle_places(cells: np.ndarray, reach: np.ndarray, weights: np.ndarray) ->
     return np.column_stack(sums) / total[:, None]
 
 
-def _length(network: Network, places: np.ndarray, side: float) -> float:
-    """Return the length of all chains together."""
-    one, other = network.edges.reshape(-1, 2).T
-    ends = np.count_nonzero(np.bincount(network.edges.ravel(), minlength=network.size) <= 1)
-    return float(np.hypot(*(places[one] - places[other]).T).sum()) + ends * side / 2.0
+def _width_and_length(
+    network: Network, places: np.ndarray, sizes: np.ndarray, side: float
+) -> tuple[float, float]:
+    """Return the mean width, in which narrow branches count little, and the whole length."""
+    degree = np.bincount(network.edges.ravel(), minlength=network.size)
+    # A junction belongs to all its chains.
+    shares = sizes / np.where(degree > 2, degree, 1)
+    sums, total = 0.0, 0.0
+    for chain in network.chains():
+        length = float(np.hypot(*np.diff(places[chain], axis=0).T).sum())
+        length += np.count_nonzero(degree[chain[[0, -1]]] <= 1) * side / 2.0
+        sums, total = sums + float(shares[chain].sum()) ** 2 / max(length, 1.0), total + length
+    return sums / float(sizes.sum()), total

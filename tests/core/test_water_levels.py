@@ -132,6 +132,12 @@ def test_each_branch_of_a_river_has_its_own_level(name):
     assert np.percentile(channels.off(body), 95) < 0.2 and channels.off(body).max() < 0.3
 
 
+def test_a_narrow_tributary_does_not_make_a_river_too_narrow():
+    brook = [(300, 380, 101.5), (300, 150, 100.2)], 6
+    (body,) = Channels([(MAIN, 17), brook]).water((600, 400), left=0.01)
+    assert body.kind == "river" and len(body.lines) == 3 and body.width > 30
+
+
 def test_returns_from_the_surface_decide_the_level():
     channels, size, _ = SCENES["tributary"]
     (body,) = channels.water(size, left=0.02)
