@@ -26,7 +26,8 @@ _LEFT_IN = "lowest-points", "seeds", "tolerance-surface", "near-surface", "known
 # Rules that are left out together.
 GROUPS = {
     "low points": (
-        "dense-outliers", "low-groups", "narrow-pits", "isolated-low-points",
+        "dense-outliers", "below-water", "low-groups", "wide-low-groups", "narrow-pits",
+        "isolated-low-points",
 
     ),
     "all plateaus": ("plateaus", "cut-plateaus"),

@@ -20,9 +20,10 @@ from ..grids.cells import Cells
 from .method import Method, Toolbox
 from .pipeline import Pipeline
 from .stages.accept import NearSurface
+from .stages.below_water import BelowWater
 from .stages.breaks import LevelSeeds, Plants
 from .stages.landforms import BetweenDitches
-from .stages.low_groups import LowGroups
+from .stages.low_groups import LowGroups, WideLowGroups
 from .stages.objects import RaisedObjects, TallObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
@@ -239,7 +240,9 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
             LowestPoints(size=resolved.cell_size),
             Woods(),
             DenseOutliers(),
+            BelowWater(),
             LowGroups(),
+            WideLowGroups(),
             NarrowPits(),
             IsolatedLowPoints(),
             TallObjects(objects, min(heights)),

@@ -21,9 +21,10 @@ from ..grids.cells import spacing
 from .method import Method, Toolbox
 from .pipeline import Pipeline
 from .stages.accept import NearSurface
+from .stages.below_water import BelowWater
 from .stages.breaks import LevelSeeds, Plants
 from .stages.landforms import BetweenDitches
-from .stages.low_groups import LowGroups
+from .stages.low_groups import LowGroups, WideLowGroups
 from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening, SteepRises
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
@@ -276,7 +277,9 @@ def pipeline(points: Points, parameters: SlopeFilter, progress: Progress) -> Pip
             LowestPoints(size=resolved.cell_size),
             Woods(),
             DenseOutliers(),
+            BelowWater(),
             LowGroups(),
+            WideLowGroups(),
             NarrowPits(),
             IsolatedLowPoints(),
             RaisedObjects(size),

@@ -21,10 +21,11 @@ from ..grids.model_key_points import ModelKeyPoints
 from .method import Method, Toolbox
 from .pipeline import Pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
+from .stages.below_water import BelowWater
 from .stages.breaks import LevelSeeds, Plants
 from .stages.densify import Densification
 from .stages.landforms import BetweenDitches
-from .stages.low_groups import LowGroups
+from .stages.low_groups import LowGroups, WideLowGroups
 from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
@@ -264,7 +265,9 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
             LowestPoints(cell, grids=2),
             Woods(),
             DenseOutliers(),
+            BelowWater(),
             LowGroups(),
+            WideLowGroups(),
             NarrowPits(),
             IsolatedLowPoints(),
             RaisedObjects(size),

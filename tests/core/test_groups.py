@@ -8,7 +8,9 @@ from realdata import real
 from bare_earth.algorithms import ClassifyRequest, TerrainRequest, classify, terrain
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.stages.low_groups import LowGroups
+from bare_earth.algorithms.filters.stages.below_water import BelowWater
+from bare_earth.algorithms.filters.stages.low_groups import LowGroups, WideLowGroups
+from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.high_groups import HighGroups
 from bare_earth.algorithms.products.raster_files import RasterFiles
@@ -101,6 +103,77 @@ def test_low_groups_do_not_depend_on_the_order_of_points_or_on_the_place():
     assert np.array_equal(LowGroups().find(scene.points.take(order)), found[order])
     x, y, z = scene.points
     assert np.array_equal(LowGroups().find(Points(x + 32.0, y + 96.0, z)), found)
+
+
+def lake(returns, noise, behind_dam=False, seed=0):
+    """Return land of 1 point/m2 with a lake, and which points are noise 1 to 5 m below it.
+
+    Behind a dam east of the lake, the land is 3 m lower than the water.
+    """
+    random = np.random.default_rng(seed)
+    x, y = random.uniform(0.0, 120.0, (2, 14_400))
+    out = np.hypot(x - 60.0, y - 60.0) - 35.0
+    z = 50.0 + np.clip(out, 0.0, 4.0) + random.normal(0.0, 0.02, len(x))
+    if behind_dam:
+        z = np.where(x > 100.0, 47.0 + random.normal(0.0, 0.02, len(x)), z)
+        z = np.where((x > 92.0) & (x <= 100.0) & (out > 0.0), 51.0 - (x - 92.0) / 2.0, z)
+    kept = (out > 0.0) | (random.random(len(x)) < returns)
+    below_x, below_y = random.uniform(0.0, 120.0, (2, round(14_400 * noise)))
+    wet = np.hypot(below_x - 60.0, below_y - 60.0) < 33.0
+    below = below_x[wet], below_y[wet], random.uniform(45.0, 49.0, np.count_nonzero(wet))
+    points = joined(Points(x[kept], y[kept], z[kept]), np.transpose(below))
+    return points, np.arange(points.count) >= np.count_nonzero(kept)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(("returns", "noise"), [(0.1, 0.03), (0.05, 0.05), (0.3, 0.02)])
+def test_returns_below_a_lake_are_low_noise(method, returns, noise):
+    points, below = lake(returns, noise)
+    found = METHODS[method].ground(points, METHODS[method].parameters())
+    # One of a hundred, close to the shore, may stay.
+    assert found.low[below].mean() > 0.97 and found.ground[below].mean() < 0.01
+    assert not found.low[~below].any() and found.ground[~below].mean() > 0.999
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_returns_below_a_lake_that_someone_reported_are_low_noise(method):
+    path = real("field2/water-noise-below.laz")
+    below = np.asarray(laspy.read(path).user_data) == 1
+    parameters = METHODS[method].parameters()
+    found, _ = classify_cloud(read_cloud(path), parameters, Selection(low_noise_class=True))
+    assert (found[below] == 7).all()
+    assert (found[~below] == 2).mean() > 0.999
+
+
+def test_land_behind_a_dam_is_not_below_water():
+    points, _ = lake(0.1, 0.0, behind_dam=True)
+    lowest = Cells.over(points, 1.0).lowest_points(points)
+    for size in BelowWater().sizes:
+        assert not BelowWater().find(points, lowest, 1.0, size).any()
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_wide_groups_below_streets_are_low_noise(method):
+    land, random = even(side=90.0), np.random.default_rng(4)
+    middles = [(east, north) for east in (15.0, 45.0, 75.0) for north in (15.0, 45.0, 75.0)]
+    groups = [
+        np.column_stack((random.uniform(-2.5, 2.5, (40, 2)) + middle, random.normal(42.0, 0.2, 40)))
+        for middle in middles
+    ]
+    points = joined(land, *groups)
+    found = METHODS[method].ground(points, METHODS[method].parameters())
+    low = np.arange(points.count) >= land.count
+    assert found.low[low].all() and not found.low[~low].any()
+    assert found.ground[~low].mean() > 0.999
+
+
+def test_a_shaft_and_a_pond_are_no_wide_groups():
+    x, y, z = even()
+    for width, depth in ((5.0, 6.0), (3.0, 4.0)):
+        inside = np.maximum(np.abs(x - 20.0), np.abs(y - 20.0)) < width / 2.0
+        points = Points(x, y, np.where(inside, z - depth, z))
+        cells = Cells.over(points, 3.0)
+        assert not WideLowGroups().find(points, (cells, cells.lowest_points(points))).any()
 
 
 def test_known_ground_is_never_left_out():

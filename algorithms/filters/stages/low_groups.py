@@ -13,13 +13,15 @@ from ...grids.cells import Cells, spacing
 from ...grids.morphology import within_square
 from ..pipeline import PointRule, Stage
 from ..state import State
-from .surroundings import SIDES, LowestOfCells, Surroundings
+from .surroundings import LowestOfCells, Surroundings
 
 # Least side of a cell in metres; wider where points are farther apart, so that few cells are empty.
 _CELL = 1.0
 # Distances from the lowest point of a group, as multiples of its width: up to the first, points
 # below the plane are of the group; beyond the second, others as low show that it is none.
 _OF_GROUP, _BESIDE_GROUP = 1.5, 1.25
+# Of the members of a group, this share that is nearest to its middle says how wide it is.
+_MOST_MEMBERS = 0.8
 # The deviation of a normal distribution as a multiple of the median of its absolute values.
 _DEVIATION = 1.48
 
@@ -47,6 +49,8 @@ class LowGroups(PointRule):
         A height belongs to the plane up to so many metres from it.
     sides : int
         On so many of eight sides, half of the heights must belong to the plane.
+    most_beside : float
+        Most heights beyond the group that are as low, as a share of those on the plane.
     """
 
     stage: ClassVar = Stage.LOW_NOISE
@@ -60,6 +64,7 @@ class LowGroups(PointRule):
     ring_cells: int = 4
     level: float = 0.25
     sides: int = 5
+    most_beside: float = 0.0
 
     def apply(self, state: State) -> None:
         """Add the groups to the low noise."""
@@ -99,7 +104,7 @@ class LowGroups(PointRule):
         ]
         return self._members(points, cells, groups)
 
-    def _groups(self, around: Surroundings) -> Iterator[_Group]:
+    def _groups(self, around: Surroundings) -> Iterator[Group]:
         """Yield the places that are groups, with the planes above them."""
         plane, misfit = around.plane()
         depth = plane[:, 2]
@@ -108,23 +113,16 @@ class LowGroups(PointRule):
         as_low = around.known & (misfit < -0.5 * depth[:, None])
         as_low &= around.distance > _BESIDE_GROUP * self.width
         deep = depth > np.maximum(self.depth, self.deviations * deviation)
-        alone = ~as_low.any(axis=1)
-        for number in np.flatnonzero(deep & alone & self._enclosed(around, on_plane)):
+        others, level = (np.count_nonzero(which, axis=1) for which in (as_low, on_plane))
+        alone = others <= self.most_beside * level
+        is_enclosed = around.sides_with(on_plane) >= self.sides
+        for number in np.flatnonzero(deep & alone & is_enclosed):
             east, north, height = plane[number].tolist()
             x, y, z = (float(column[number]) for column in around.centre)
             margin = max(self.level, 3.0 * float(deviation[number]))
-            yield _Group(x, y, z + height - margin, east, north)
+            yield Group(x, y, z + height - margin, east, north, margin)
 
-    def _enclosed(self, around: Surroundings, on_plane: np.ndarray) -> np.ndarray:
-        """Return round which places the surroundings lie on the plane on most sides."""
-        sides = np.zeros(len(on_plane), dtype=np.int8)
-        for side in range(SIDES):
-            here = around.known & (around.side == side)
-            known = np.count_nonzero(here, axis=1)
-            sides += (2 * np.count_nonzero(here & on_plane, axis=1) >= known) & (known > 0)
-        return sides >= self.sides
-
-    def _members(self, points: Points, cells: Cells, groups: list[_Group]) -> np.ndarray:
+    def _members(self, points: Points, cells: Cells, groups: list[Group]) -> np.ndarray:
         """Return which points lie below the limit of a group and within its width."""
         members = np.zeros(points.count, dtype=bool)
         if not groups:
@@ -143,26 +141,100 @@ class LowGroups(PointRule):
         for group, row, column in zip(groups, rows.tolist(), columns.tolist()):
             first = max(column - reach, 0)
             last = min(column + reach, cells.columns - 1)
-            for line in range(max(row - reach, 0), min(row + reach, cells.rows - 1) + 1):
-                start, end = np.searchsorted(
-                    index, (line * cells.columns + first, line * cells.columns + last + 1)
-                )
-                some = which[start:end]
-                members[some[group.holds(points.take(some), self.width)]] = True
+            lines = np.arange(max(row - reach, 0), min(row + reach, cells.rows - 1) + 1)
+            ends = lines[:, None] * cells.columns + (first, last + 1)
+            some = np.concatenate([which[slice(*each)] for each in np.searchsorted(index, ends)])
+            beside = points.take(some)
+            held = group.holds(beside, self.width)
+            if self.is_group(group, beside, held):
+                members[some[held]] = True
         return members
 
+    def is_group(self, group: Group, points: Points, members: np.ndarray) -> bool:
+        """Return whether points beside a group, of which some are its members, confirm it."""
+        return True
 
-class _Group(NamedTuple):
-    """A low group: its lowest point, and the plane below which its points lie."""
+
+@dataclass(frozen=True)
+class WideLowGroups(LowGroups):
+    """A wider group below ground is low noise if there are points of the ground among its own.
+
+    In a real pit there are none. Reflections in streets, and below roofs, are such groups.
+
+    Attributes
+    ----------
+    cell : float
+        Least side in metres of the cells of which the lowest points are compared.
+    spacings : float
+        The same as a multiple of the usual distance between points.
+    on_ground : float
+        Least number of points of the ground among those of the group, as a share of these.
+    least : int
+        So many points nearest to the middle of the group are looked at if it has fewer.
+    """
+
+    width: float = 6.0
+    depth: float = 3.0
+    ring: float = 18.0
+    most_beside: float = 0.1
+    cell: float = 3.0
+    spacings: float = 3.0
+    on_ground: float = 0.3
+    least: int = 8
+
+    def apply(self, state: State) -> None:
+        """Add the groups to the low noise."""
+        known = np.flatnonzero(np.isfinite(state.points.z))
+        if not len(known):
+            return
+        points = state.points.take(known)
+        cells = Cells.over(points, max(self.cell, self.spacings * state.spacing))
+        found = np.zeros(state.points.count, dtype=bool)
+        found[known] = self.find(points, (cells, cells.lowest_points(points)))
+        state.add_low_noise(found)
+
+    def is_group(self, group: Group, points: Points, members: np.ndarray) -> bool:
+        """Return whether points beside a group, of which some are its members, confirm it."""
+        x, y = (np.median(axis[members]) for axis in points[:2])
+        distance = np.hypot(points.x - x, points.y - y)
+        reach = np.quantile(distance[members], _MOST_MEMBERS)
+        last = min(self.least, points.count) - 1
+        inside = distance <= max(reach, np.partition(distance, last)[last])
+        ground = np.count_nonzero(inside & group.is_on_ground(points))
+        return bool(ground >= self.on_ground * np.count_nonzero(inside & members))
+
+
+class Group(NamedTuple):
+    """A low group: its lowest point, and the plane below which its points lie.
+
+    Attributes
+    ----------
+    x, y : float
+        Place of the lowest point.
+    limit, east, north : float
+        Height of the plane in metres there, and its rise over run towards east and north.
+    margin : float
+        Metres from this plane up to that of the ground.
+    """
 
     x: float
     y: float
     limit: float
     east: float
     north: float
+    margin: float
+
+    def _above(self, points: Points) -> np.ndarray:
+        """Return how many metres above the plane points lie."""
+        x, y = points.x - self.x, points.y - self.y
+        return points.z - (self.limit + self.east * x + self.north * y)
+
+    def is_on_ground(self, points: Points) -> np.ndarray:
+        """Return which points lie on the plane of the ground."""
+        above = self._above(points)
+        return (above >= 0.0) & (above <= 2.0 * self.margin)
 
     def holds(self, points: Points, width: float) -> np.ndarray:
         """Return which points belong to the group."""
-        x, y = points.x - self.x, points.y - self.y
-        low = points.z < self.limit + self.east * x + self.north * y
-        return low & (np.hypot(x, y) <= _OF_GROUP * width)
+        distance = np.hypot(points.x - self.x, points.y - self.y)
+        return (self._above(points) < 0.0) & (distance <= _OF_GROUP * width)

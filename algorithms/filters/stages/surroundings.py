@@ -85,6 +85,15 @@ class Surroundings(NamedTuple):
         """
         return self._quantile(values, 0.5, which)
 
+    def sides_with(self, which: np.ndarray) -> np.ndarray:
+        """Return on how many sides of each place at least half of the heights are of `which`."""
+        sides = np.zeros(len(which), dtype=np.int8)
+        for side in range(SIDES):
+            here = self.known & (self.side == side)
+            known = np.count_nonzero(here, axis=1)
+            sides += (2 * np.count_nonzero(here & which, axis=1) >= known) & (known > 0)
+        return sides
+
     def _above(self, plane: np.ndarray) -> np.ndarray:
         east, north, height = plane.T[:, :, None]
         return self.z - (self.x * east + self.y * north + height)
