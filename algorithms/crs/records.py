@@ -43,6 +43,7 @@ def crs_of_records(
         Receives warnings of contradictions and of units that are not known.
     """
     found = [_Statement(_TEXT, text, facts) for text in texts if (facts := read_wkt(text))]
+    found[1:] = [each._replace(kind=f"other {_TEXT}") for each in found[1:]]
     if keys is not None:
         stated = _statement_of(keys, progress)
         found = [*found, stated] if prefers_text else [stated, *found]

@@ -261,6 +261,20 @@ def test_a_text_behind_the_points_adds_to_keys_before_them(las, encoding):
     assert read_crs(open_las(source)).vertical_unit == pytest.approx(SURVEY)
 
 
+def test_two_texts_add_to_each_other_and_contradictions_are_told(las):
+    before = las.vlr(b"LASF_Projection", 2112, projcs(METRE_1).encode())
+    for behind, contradicts in ((COMPOUND_1, False), (projcs(SURVEY_1), True), ("", False)):
+        record, heard = las.evlr(b"LASF_Projection", 2112, behind.encode()), las.Heard()
+        source = las.make(
+            "in.laz", version=4, point_format=6, encoding=0x10, vlrs=[before], evlrs=[record]
+        )
+        crs = read_crs(open_las(source), heard)
+        assert crs.horizontal_unit == 1.0
+        assert crs.vertical_unit == pytest.approx(SURVEY if behind == COMPOUND_1 else 1.0)
+        told = [each for each in heard.warnings if "by the other well-known text" in each]
+        assert len(told) == contradicts
+
+
 @pytest.mark.parametrize(
     ("values", "told"),
     [
