@@ -46,9 +46,11 @@ def water() -> None:
         panels[1].fill(*body.rings[0][:, :2].T, color="#7db4e6", ec="#1565d8", lw=1.5)
         text = f"{body.level:.1f} m"
         if body.kind == "river":
-            panels[1].plot(*body.line[:, :2].T, color="#1565d8", lw=1, ls="--")
+            for line in body.lines:
+                panels[1].plot(*line[:, :2].T, color="#1565d8", lw=1, ls="--")
             text = f"{body.level:.1f} to {body.lowest:.1f} m"
-        middle = body.rings[0][:, :2].mean(axis=0)
+        corners = np.concatenate(body.lines) if body.kind == "river" else body.rings[0]
+        middle = corners[len(corners) // 2, :2] if body.kind == "river" else corners[:, :2].mean(0)
         panels[1].annotate(f"{body.kind}\n{text}", middle, ha="center", va="center", fontsize=8)
     titles = "last returns in each cell", "ground, and the water that is found"
     for panel, title in zip(panels, titles):
