@@ -15,7 +15,7 @@ from .terminal import Terminal
 def add_columns(parser: argparse.ArgumentParser) -> None:
     """Add the options that say how checkpoints are read."""
     parser.add_argument(
-        "--columns", metavar="x=E,y=N,z=H,cover=Class,name=ID",
+        "--columns", metavar="x=E,y=N,z=H,cover=Class,type=Use,name=ID",
         help="the columns or attributes of the checkpoints, by name or by number from 1 on; those"
         " that are not given are recognised by their names",
     )  # fmt: skip

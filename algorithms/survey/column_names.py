@@ -171,7 +171,7 @@ class ColumnName(NamedTuple):
 
 
 def columns_in(text: str | None) -> dict[str, str]:
-    """Return the columns that a user chooses, such as ``x=E,y=N,z=H,cover=Class,name=ID``.
+    """Return the columns that a user chooses, such as ``x=E,y=N,z=H,cover=Class,type=Use,name=ID``.
 
     Raises
     ------
@@ -183,7 +183,8 @@ def columns_in(text: str | None) -> dict[str, str]:
         pair = _PAIR.match(part)
         if pair is None or pair[1].lower() not in NAMES:
             raise BareEarthError(
-                f"The columns must be written like x=E,y=N,z=H,cover=Class,name=ID, not {part!r}."
+                "The columns must be written like x=E,y=N,z=H,cover=Class,type=Use,name=ID, not"
+                f" {part!r}."
             )
         chosen[pair[1].lower()] = pair[2]
     return chosen
