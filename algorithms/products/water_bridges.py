@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 from ..grids.morphology import closing, dilation
+from ..survey.area import Area, Polygon
 from .water_grid import WaterGrid
 
 # Cells this near to a deck, in metres and at least in cells, have few returns from the water.
@@ -12,6 +15,10 @@ _EDGE, _EDGE_CELLS = 2.0, 1.5
 # Pieces of water are joined by a disc whose radius is so many times half the width of the deck: it
 # hardly reaches between them from the land. Half the width in metres up to which decks join.
 _RADIUS, _MOST_HALF = 3.0, 25.0
+# Cells this near to a deck, in cells, are those of water at its side. The ends of two pieces of
+# water are their cells that are at most so many times as far apart as the nearest ones.
+_BESIDE, _STRAIGHT = 1.5, 1.5
+_CORNERS = np.array([(-0.5, -0.5), (-0.5, 0.5), (0.5, -0.5), (0.5, 0.5)])
 # The ground this near to a deck, in metres and at least in cells, may be that of an abutment.
 _ABUTMENT, _ABUTMENT_CELLS = 4.0, 3.0
 
@@ -53,8 +60,52 @@ def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
         hiding = dilation(deck, edge) & ~land & ~seen
         half = float(distance_transform_edt(np.pad(hiding, 1)).max())
         if half <= most:
-            below[window] |= closing(seen, _RADIUS * half) & hiding
+            joined = closing(seen, _RADIUS * half) & hiding
+            below[window] |= joined | _across(seen, joined, hiding, 2.0 * most)
     return below
+
+
+def _across(seen: np.ndarray, joined: np.ndarray, hiding: np.ndarray, most: float) -> np.ndarray:
+    """Return cells below a deck straight between pieces of water that are not joined yet.
+
+    A disc reaches between the pieces of a stream that is narrower than the deck. Pieces are joined
+    up to `most` cells apart.
+    """
+    from scipy.ndimage import label
+    from scipy.spatial import Delaunay, cKDTree
+
+    found = np.zeros_like(hiding)
+    labels, _ = label(seen | joined, np.ones((3, 3)))
+    beside = np.where(seen & dilation(hiding, _BESIDE), labels, 0)
+    pieces = [np.argwhere(beside == name) for name in np.unique(beside[beside > 0])]
+    cells = np.argwhere(hiding)
+    for one, other in itertools.combinations(pieces, 2):
+        far = cKDTree(other).query(one)[0]
+        back = cKDTree(one).query(other)[0]
+        if far.min() > most:
+            continue
+        ends = np.concatenate(
+            [each[away <= _STRAIGHT * far.min()] for each, away in ((one, far), (other, back))]
+        )
+        corners = (ends[:, None] + _CORNERS).reshape(-1, 2)
+        inside = cells[Delaunay(corners).find_simplex(cells) >= 0]
+        found[inside[:, 0], inside[:, 1]] = True
+    return found
+
+
+def decks_without_water(grid: WaterGrid, polygons: tuple[Polygon, ...]) -> int:
+    """Return how many decks have no cell in any polygon of water, in the frame of the grid."""
+    from scipy.ndimage import label
+
+    if grid.decks is None:
+        return 0
+    labels, count = label(dilation(grid.decks, max(_EDGE / grid.cell, _EDGE_CELLS)))
+    if not polygons:
+        return int(count)
+    rows, columns = np.nonzero(labels)
+    x, y = ((at + 0.5) * grid.cell for at in (columns + grid.column, rows + grid.row))
+    wet = Area(None, polygons).contains(x, y)
+    return int(count) - len(np.unique(labels[rows[wet], columns[wet]]))
 
 
 def beside_decks(grid: WaterGrid, rows: slice, columns: slice) -> np.ndarray:

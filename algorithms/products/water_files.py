@@ -11,6 +11,7 @@ import numpy as np
 from ..core.files import Outputs, check_distinct
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
+from ..core.words import counted
 from ..crs.system import Crs
 from ..las.cloud import PointCloud
 from ..survey.ground_classes import GroundClasses
@@ -20,6 +21,7 @@ from .line_files import Feature, Layer, check_features, feature_writer, files_be
 from .survey_ground import SurveyGround
 from .water import Water, find_water
 from .water_body import GRADES, WaterBody
+from .water_bridges import decks_without_water
 from .water_grid import WaterGrid, cell_for
 
 # The classes of water and of the decks of bridges in the LAS specification.
@@ -156,6 +158,8 @@ class SurveyWater:
             _add(grid, cloud, survey, (ground, used & is_water, used & last, used & is_deck))
         survey.check()
         found = find_water(grid, request.water, progress.part(0.9, 1.0))
+        outlines = tuple(tuple(ring[:, :2] for ring in each.rings) for each in found)
+        _tell_of_decks(decks_without_water(grid, outlines), progress)
         return cls(found, survey.survey.crs, cell, request.water)
 
     @property
@@ -249,6 +253,16 @@ def write_features(
             write = feature_writer(output)
             write(outputs.files(output, files_beside(output)), features, layer, progress)
         progress(1.0)  # the last moment to cancel
+
+
+def _tell_of_decks(count: int, progress: Progress) -> None:
+    """Warn of bridges below which the terrain may be a dam."""
+    if count:
+        words = "bridge has no water below it", "bridges have no water below them"
+        progress.warning(
+            f"{counted(count, *words)} that was found: there the terrain follows from the ground"
+            " beside the deck, and can dam a stream. Where one flows, give its water as a polygon."
+        )
 
 
 def _add(

@@ -74,6 +74,20 @@ def test_a_river_goes_on_below_a_bridge(kind, bridge):
     assert (true & found).sum() > 0.85 * (true | found).sum()
 
 
+@pytest.mark.parametrize(("half", "kind"), [(12.0, "empty"), (20.0, "class 9")])
+def test_a_stream_narrower_than_its_bridge_goes_on_below_it(half, kind):
+    def stream(x, y):
+        return river(x, y) + 16.0
+
+    scene = Scene(LONG, HIGH)
+    scene.basin(stream, level)
+    build(scene, stream, half)
+    flood(scene, stream, kind)
+    (body,) = scene.water(min_area=1000.0, min_width=5.0)
+    assert body.kind == "river" and body.grade == "certain"
+    assert overlap([body], stream, (LONG, HIGH)) > 0.9
+
+
 def test_points_of_other_classes_are_no_deck():
     scene = bridged()
     scene.classes[scene.classes == 17] = 1
@@ -170,6 +184,22 @@ def test_the_terrain_has_no_dam_below_a_bridge(tmp_path):
         below = (np.abs(x - MIDDLE) < 12.0) & (river(x, y) < -3.0)
         errors[name] = np.abs(heights - level(x, y))[below].max()
     assert errors["with"] < 0.3 and errors["without"] > 4.0
+
+
+def test_bridges_without_water_below_them_are_told(tmp_path, capsys):
+    told = []
+    for name, is_wet in (("dry", False), ("wet", True)):
+        scene = Scene(LONG, HIGH, density=1.0)
+        scene.basin(river, level)
+        build(scene, river, 8.0)
+        if is_wet:
+            flood(scene, river)
+        columns = (np.round(each, 3) for each in (scene.x, scene.y, scene.z))
+        write(tmp_path / f"{name}.laz", *columns, scene.classes)
+        run("water", tmp_path / f"{name}.laz", tmp_path / f"{name}.geojson")
+        told.append(capsys.readouterr().err)
+    assert "1 bridge has no water below it that was found" in told[0]
+    assert "bridge has no water" not in told[1]
 
 
 def test_a_short_reach_that_falls_is_a_river():
