@@ -2522,6 +2522,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Boden,Oberfläche,Gebäude,Bäume,Vegetation,Objekte,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
+        <source>below water</source>
+        <translation>unter Wasser</translation>
+    </message>
+    <message>
         <source>between ditches</source>
         <translation>zwischen Gräben</translation>
     </message>
@@ -2788,6 +2792,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>vpc,tiles,batch,survey,folder,many files</source>
         <translation>vpc,Kacheln,Stapel,Befliegung,Ordner,viele Dateien</translation>
+    </message>
+    <message>
+        <source>wide low groups</source>
+        <translation>breite tiefe Gruppen</translation>
     </message>
     <message>
         <source>you have no permission to write into the folder of the profile.</source>

@@ -2522,6 +2522,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>sol nu,surface,bâtiments,arbres,végétation,sursol,objets,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
+        <source>below water</source>
+        <translation>sous l'eau</translation>
+    </message>
+    <message>
         <source>between ditches</source>
         <translation>entre des fossés</translation>
     </message>
@@ -2788,6 +2792,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>vpc,tiles,batch,survey,folder,many files</source>
         <translation>vpc,dalles,lot,levé,dossier,nombreux fichiers</translation>
+    </message>
+    <message>
+        <source>wide low groups</source>
+        <translation>larges groupes bas</translation>
     </message>
     <message>
         <source>you have no permission to write into the folder of the profile.</source>

@@ -45,6 +45,8 @@ OTHER = {
     "block-pits": Verdict(mark("pits in blocks"), "#1b3f8a"),
     "isolated-low-points": Verdict(mark("single low points"), "#49c0d6"),
     "low-groups": Verdict(mark("groups of low points"), "#1a2455"),
+    "wide-low-groups": Verdict(mark("wide low groups"), "#5b5fd6"),
+    "below-water": Verdict(mark("below water"), "#0fa3b1"),
     "dense-outliers": Verdict(mark("low outliers"), "#127a86"),
 }
 # Rules that change no cell, but what other rules see.
