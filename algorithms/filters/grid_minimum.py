@@ -29,7 +29,7 @@ from .stages.opening import CutPlateaus, ProgressiveOpening
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
 from .stages.rims import BlockPits, FineSeeds, PaperSurface, Rims, density
 from .stages.seeds import LowestPoints, Seeds
-from .stages.terrain import GentleRegions
+from .stages.terrain import SITE, GentleRegions
 from .stages.tolerance import ToleranceSurface
 from .stages.woods import Woods
 
@@ -249,7 +249,7 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
             ProgressiveOpening(size / 2.0),
             Rims(objects, resolved.final_height),
             CutPlateaus(),
-            GentleRegions(),
+            SITE if parameters.preset == "site" else GentleRegions(),
             BetweenDitches(),
             Seeds(objects_wait=True),
             FineSeeds(resolved.final_height),
@@ -264,9 +264,7 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
 def _classic(resolved: GridMinimum) -> Pipeline:
     """Return the rules of the paper's preset."""
     heights = resolved.height_thresholds
-    objects = RaisedObjects(
-        resolved.max_object_size, heights, whole_share=0.4, cliff_faces=None, plateaus=None
-    )
+    objects = RaisedObjects(resolved.max_object_size, heights, whole_share=0.4, plateaus=None)
     return Pipeline(
         (
             LowestPoints(size=resolved.cell_size),

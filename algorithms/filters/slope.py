@@ -29,7 +29,7 @@ from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening, SteepRises
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
 from .stages.seeds import LowestPoints, Seeds
-from .stages.terrain import GentleRegions
+from .stages.terrain import SITE, GentleRegions
 from .stages.tolerance import ToleranceSurface
 from .stages.woods import Woods
 from .whitebox import StandsAbove
@@ -291,7 +291,7 @@ def pipeline(points: Points, parameters: SlopeFilter, progress: Progress) -> Pip
                 resolved.slope_norm,
             ),
             CutPlateaus(),
-            GentleRegions(),
+            SITE if parameters.preset == "site" else GentleRegions(),
             BetweenDitches(),
             Seeds(hint="Check the thresholds and the selection of points."),
             Plants(where_dense=False),

@@ -15,6 +15,8 @@ from ..grids.height_grid import HeightGrid
 
 # Least spacing of points in metres; a smaller one counts as this.
 _LEAST_SPACING = 0.01
+# Clouds from images have points at most so many metres apart, and pulses with one return only.
+_IMAGE_SPACING = 0.22
 # Gaps up to twice this width, in cells, count as surveyed.
 _GAP = 4
 
@@ -58,9 +60,11 @@ class GridState:
         Cells under trees.
     raised : numpy.ndarray of bool, shape (rows, columns)
         Cells that stand out of the ground, so far.
-    objects, plateaus, large_buildings : numpy.ndarray of bool, shape (rows, columns)
-        Cells of objects with drops all round; of regions that are too low for their width to be
-        objects for certain; and those of the objects that are large buildings.
+    objects, plateaus : numpy.ndarray of bool, shape (rows, columns)
+        Cells of objects with drops all round; and of regions that are too low for their width to be
+        objects for certain.
+    from_images : bool
+        As in `State`.
     """
 
     points: Points
@@ -73,7 +77,7 @@ class GridState:
     raised: np.ndarray
     objects: np.ndarray
     plateaus: np.ndarray
-    large_buildings: np.ndarray
+    from_images: bool = False
 
     @classmethod
     def of(cls, points: Points, spacing: float, size: float, shift: float = 0.0) -> GridState:
@@ -83,7 +87,7 @@ class GridState:
         heights = np.full(cells.rows * cells.columns, np.nan)
         heights[cells.index[lowest]] = points.z[lowest]
         grid = HeightGrid(heights.reshape(cells.shape), cells.size, cells.first)
-        none = (np.zeros(cells.shape, dtype=bool) for _ in range(5))
+        none = (np.zeros(cells.shape, dtype=bool) for _ in range(4))
         return cls(points, spacing, cells, shift, lowest, grid, *none)
 
     @property
@@ -195,6 +199,13 @@ class State:
     def spacing(self) -> float:
         """Usual distance between points in metres, at least 0.01."""
         return spacing(self.points, _LEAST_SPACING)
+
+    @property
+    def from_images(self) -> bool:
+        """Whether the points come from images: they are dense, and no pulse has several returns."""
+        if self.multi_return is None or self.spacing > _IMAGE_SPACING:
+            return False
+        return not self.multi_return.any()
 
     @property
     def seed_spacing(self) -> float:

@@ -30,7 +30,7 @@ from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
 from .stages.seeds import KnownGround, LowestPoints, Seeds
-from .stages.terrain import GentleBorder, GentleRegions
+from .stages.terrain import SITE, GentleBorder, GentleRegions
 from .stages.tolerance import NOISE_SPACING, PlainSurface, ToleranceSurface
 from .stages.woods import Woods
 
@@ -273,7 +273,7 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
             RaisedObjects(size),
             ProgressiveOpening(size / 2.0),
             CutPlateaus(),
-            GentleRegions(),
+            SITE if parameters.preset == "site" else GentleRegions(),
             BetweenDitches(),
             Seeds(),
             Plants(),
@@ -299,7 +299,6 @@ def _classic(resolved: TinDensification) -> Pipeline:
         heights=(5.0, 4.5, 2.0),
         whole_share=0.4,
         wide=None,
-        cliff_faces=None,
         plateaus=None,
         narrow_pits=pits,
     )
@@ -313,10 +312,10 @@ def _classic(resolved: TinDensification) -> Pipeline:
             GentleRegions(
                 judges_gaps=False,
                 on_slope=None,
-                gentle_border=GentleBorder(0.5),
+                in_images=True,
+                gentle_border=GentleBorder(0.5, 0.0),
                 level_border=None,
                 rocks=None,
-                ramps=None,
             ),
             Seeds(objects_wait=True),
             KnownGround(),

@@ -22,10 +22,6 @@ _CELLS_A_STRIP = 1 << 15
 _JOINING_PASSES = 2
 # Passes in which cells that are level with the ground grow back.
 _GROWING_PASSES = 4
-# A drop is the face of a cliff if none of five steps across it is more than this share of their
-# sum, and none leads back by more than so many metres. At the wall of a building, one step is
-# nearly all of the drop.
-_LARGEST_STEP, _STEP_BACK = 0.7, 0.3
 # Relaxations of the surface across gaps. Few are enough, because rims bound objects, not the
 # filling.
 _RELAXATIONS = 2
@@ -49,9 +45,8 @@ class HeightSteps:
         # A frame without heights round the grid, so that each neighbour is at a fixed offset.
         self._inside = np.pad(inside, self._step)
         self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
-        self._known = np.pad(grid.known, self._step).ravel()
 
-    def regions(self, threshold: float, neck: int = 1) -> Regions:
+    def regions(self, threshold: float) -> Regions:
         """Return the regions between the rims of a threshold.
 
         Rim cells belong to the region that they are level with, like the edge of a roof. Rim cells
@@ -62,11 +57,9 @@ class HeightSteps:
         threshold : float
             A cell is a rim if it is higher than one of its eight neighbours by more than so many
             metres, plus the rise of the terrain between the two and its usual unevenness.
-        neck : int
-            Regions are cut where fewer cells than this odd number join their parts.
         """
         (steps,) = self._steps(threshold)
-        return self._regions(steps, neck)
+        return self._regions(steps)
 
     def regions_and_rims(
         self, threshold: float, roughness_factor: float
@@ -78,12 +71,10 @@ class HeightSteps:
         steps, large = self._steps(threshold, (1.0, roughness_factor))
         return self._regions(steps), self._unframed(self._rims(large))
 
-    def _regions(self, steps: list[_Steps], neck: int = 1) -> Regions:
+    def _regions(self, steps: list[_Steps]) -> Regions:
         from scipy import ndimage
 
         rim = self._rims(steps)
-        if neck > 1:
-            rim = self._inside & ~ndimage.binary_opening(~rim, np.ones((neck, neck)))
         regions, count = ndimage.label(self._inside & ~rim)
         flat = regions.ravel()
         cells = np.flatnonzero(rim)
@@ -259,32 +250,15 @@ class HeightSteps:
                 joined[which] = regions[neighbour[which]]
         regions[cells] = joined
 
-    def _face_slopes(self, cells: np.ndarray, offset: int) -> np.ndarray:
-        """Return the slope of the face that the steps from cells to neighbours are part of.
-
-        As `Border.face`: NaN beside cells without a point.
-        """
-        last = self._heights.size - 1
-        across = [np.clip(cells + k * offset, 0, last) for k in range(-2, 4)]
-        # The filling of cells without a point would make a slope of any wall.
-        z = np.stack([np.where(self._known[at], self._heights[at], np.nan) for at in across])
-        rises = np.diff(z, axis=0)
-        one_way = (rises.min(axis=0) > -_STEP_BACK) | (rises.max(axis=0) < _STEP_BACK)
-        second, largest = np.sort(np.abs(rises), axis=0)[-2:]
-        is_face = one_way & (largest <= _LARGEST_STEP * np.abs(z[-1] - z[0]))
-        slope = np.where(is_face, second / (self._step * self._size), 0.0)
-        return np.where(np.isfinite(z).all(axis=0), slope, np.nan)
-
     def _border(self, regions: np.ndarray, count: int, steps: list[_Steps]) -> Border:
         parts = []
         for each in steps:
             cells = np.flatnonzero(regions[: -each.offset] != regions[each.offset :])
             sign = each.sign[cells]
-            rise, face = np.zeros((2, len(cells)), dtype=np.float32)
+            rise = np.zeros(len(cells), dtype=np.float32)
             stepped = np.flatnonzero(sign)
             rise[stepped] = self._rise(cells[stepped], each)
-            face[stepped] = self._face_slopes(cells[stepped], each.offset)
-            parts.append((regions[cells], regions[cells + each.offset], sign, rise, face))
+            parts.append((regions[cells], regions[cells + each.offset], sign, rise))
         return Border(count, *(np.concatenate(each) for each in zip(*parts)))
 
 

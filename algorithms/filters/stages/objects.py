@@ -34,107 +34,10 @@ class Objects(NamedTuple):
     plateaus : numpy.ndarray of bool
         Cells of regions that are too low for their width to be objects for certain: a roof, or a
         mound.
-    large_buildings : numpy.ndarray of bool
-        Cells of objects that are large buildings.
     """
 
     raised: np.ndarray
     plateaus: np.ndarray
-    large_buildings: np.ndarray
-
-
-@dataclass(frozen=True)
-class CliffFaces(Rule):
-    """An exception: regions with faces of cliffs round them are no objects.
-
-    At the wall of a building, one step is nearly all of the drop; on the face of a cliff there are
-    points between. No real tile needs it so far; without it a tenth of a generated mesa is lost.
-
-    Attributes
-    ----------
-    widths, shares : tuple of float
-        A region of at least the first width in metres is terrain if at least the first share of its
-        drops is on a face; from the second width on the second share, in between a share in
-        between. Few plants hide the walls of a large building.
-    """
-
-    stage: ClassVar = Stage.OBJECTS
-
-    widths: tuple[float, float] = (10.0, 25.0)
-    shares: tuple[float, float] = (0.4, 0.25)
-
-    def spared(self, regions: Regions) -> np.ndarray:
-        """Return which regions have faces of cliffs round them."""
-        least = np.interp(regions.width, self.widths, self.shares)
-        return (regions.width >= self.widths[0]) & (regions.face_share() >= least)
-
-
-@dataclass(frozen=True)
-class LargeBuildings(Rule):
-    """Large buildings that are low on one side: on a slope their roofs meet the ground uphill.
-
-    Where a roof is level with the ground, no drop bounds it. Such places are mostly short, so
-    regions are cut at their necks. No real tile needs it so far; without it a fifth of generated
-    groups of halls on slopes stays.
-
-    Attributes
-    ----------
-    drop : float
-        Least height in metres of the drops that bound a roof. Where a roof is only so high above
-        the ground, higher ones would leave a gap in its rim.
-    neck : int
-        A roof is cut off from the ground or from another roof where fewer cells than this join
-        them.
-    least_width : float
-        Least width (shorter side) of a roof in metres; the treads of terraces are narrower.
-    areas, heights : tuple of float
-        A group of roofs with the first area, in square metres, stands at least the first height
-        above the ground on average, in metres; with the second area or more, the second height; in
-        between, a height in between. Smaller groups are no large buildings. Raised squares are
-        lower, and few of them are as large.
-    walls : int
-        Cells round a building that are not taken for ground, because their lowest points may lie on
-        its walls.
-    """
-
-    stage: ClassVar = Stage.OBJECTS
-
-    drop: float = 0.2
-    neck: int = 3
-    least_width: float = 25.0
-    areas: tuple[float, float] = (2000.0, 8000.0)
-    heights: tuple[float, float] = (6.5, 3.5)
-    walls: int = 2
-
-    def find(
-        self,
-        steps: HeightSteps,
-        grid: HeightGrid,
-        raised: np.ndarray,
-        objects: RaisedObjects,
-    ) -> np.ndarray:
-        """Return the cells of large buildings; objects and plateaus that touch them are included.
-
-        `steps` are those of the heights without the known objects, and `raised` marks the cells of
-        known objects and plateaus.
-        """
-        from scipy import ndimage
-
-        regions = steps.regions(self.drop, self.neck)
-        raised = raised | objects.plateaus_of(regions, self.least_width)
-        number, _ = ndimage.label(raised)
-        area = np.bincount(number.ravel()) * grid.size**2
-        is_large = area >= self.areas[0]
-        is_large[0] = False
-        if not is_large.any():
-            return np.zeros(raised.shape, dtype=bool)
-        walls = ndimage.binary_dilation(raised, np.ones((3, 3)), self.walls)
-        ground = grid.where(~walls).filled()
-        inside = grid.known & raised
-        above = np.bincount(number[inside], (grid.values - ground)[inside], len(area))
-        count = np.bincount(number[inside], minlength=len(area))
-        is_large &= above >= np.interp(area, self.areas, self.heights) * count
-        return is_large[number]
 
 
 @dataclass(frozen=True)
@@ -152,7 +55,6 @@ class Plateaus(Rule):
     stage: ClassVar = Stage.OBJECTS
 
     height: float = 1.2
-    large_buildings: LargeBuildings | None = LargeBuildings()
 
 
 @dataclass(frozen=True)
@@ -183,7 +85,7 @@ class RaisedObjects(GridRule):
 
     stage: ClassVar = Stage.OBJECTS
     reads: ClassVar = ("points", "heights")
-    writes: ClassVar = ("objects", "plateaus", "large_buildings", "raised")
+    writes: ClassVar = ("objects", "plateaus", "raised")
 
     max_size: float
     heights: tuple[float, ...] = (5.0, 2.0)
@@ -192,7 +94,6 @@ class RaisedObjects(GridRule):
     steepness: float = 0.15
     wide: float | None = 2.0
     dense: float = 0.8
-    cliff_faces: CliffFaces | None = CliffFaces()
     plateaus: Plateaus | None = Plateaus()
     narrow_pits: NarrowPits | None = NarrowPits()
 
@@ -208,7 +109,7 @@ class RaisedObjects(GridRule):
             found = self.find(blocks.grid(heights), progress)
             found = Objects(*(blocks.repeated(mask, heights.values.shape) for mask in found))
         found = Objects(*(cells.resampled(mask, grid.cells) for mask in found))
-        grid.objects, grid.plateaus, grid.large_buildings = found
+        grid.objects, grid.plateaus = found
         grid.raised = grid.objects.copy()
 
     def _without_gaps(self, grid: GridState) -> tuple[Cells, HeightGrid]:
@@ -226,7 +127,7 @@ class RaisedObjects(GridRule):
         """Return the cells of objects on a grid of lowest heights without low outliers."""
         inside = covered(grid.known)
         rest = grid._replace(values=grid.values.copy())
-        objects, plateaus, large = np.zeros((3, *grid.values.shape), dtype=bool)
+        objects, plateaus = np.zeros((2, *grid.values.shape), dtype=bool)
         for done, height in enumerate(self.heights, start=1):
             regions = HeightSteps(rest, inside).regions(height)
             found = self.bounded(regions)
@@ -238,26 +139,15 @@ class RaisedObjects(GridRule):
         if self.plateaus:
             steps = HeightSteps(rest, inside)
             plateaus |= self.plateaus_of(steps.regions(self.plateaus.height))
-            if self.plateaus.large_buildings:
-                known = objects | plateaus
-                large = self.plateaus.large_buildings.find(steps, grid, known, self)
-                objects |= large
-        return Objects(objects, plateaus & ~objects, large)
+        return Objects(objects, plateaus & ~objects)
 
     def bounded(self, regions: Regions) -> np.ndarray:
         """Return the cells of the regions that are objects."""
-        return self._bounded(regions, self.steepness)
+        return regions.bounded(self.max_size, self.share, self.whole_share, self.steepness)
 
-    def plateaus_of(self, regions: Regions, least_width: float = 0.0) -> np.ndarray:
+    def plateaus_of(self, regions: Regions) -> np.ndarray:
         """Return the cells of the regions that drop all round, also of those that drop little."""
-        return self._bounded(regions, 0.0, regions.width >= least_width)
-
-    def _bounded(
-        self, regions: Regions, steepness: float, fits: np.ndarray | bool = True
-    ) -> np.ndarray:
-        if self.cliff_faces:
-            fits = fits & ~self.cliff_faces.spared(regions)
-        return regions.bounded(self.max_size, self.share, self.whole_share, steepness, fits)
+        return regions.bounded(self.max_size, self.share, self.whole_share)
 
 
 @dataclass(frozen=True)
@@ -281,7 +171,7 @@ class TallObjects(GridRule):
 
     stage: ClassVar = Stage.OBJECTS
     reads: ClassVar = ("heights",)
-    writes: ClassVar = ("objects", "plateaus", "large_buildings", "raised")
+    writes: ClassVar = ("objects", "plateaus", "raised")
 
     objects: RaisedObjects
     above: float
@@ -295,12 +185,12 @@ class TallObjects(GridRule):
         if self.objects:
             found = self.objects.find(lowest, progress)
         else:
-            found = Objects(*np.zeros((3, *lowest.values.shape), dtype=bool))
+            found = Objects(*np.zeros((2, *lowest.values.shape), dtype=bool))
         surface = lowest.where(~found.raised).filled(2)
         rise = lowest.size * np.minimum(steepness(surface, lowest.size), self.steepest)
         highest = surface + self.above + rise
         above = grid.heights.values > blocks.interpolated(highest, shape)
         found = Objects(*(blocks.repeated(mask, shape) for mask in found))
         grid.objects = above | found.raised
-        grid.plateaus, grid.large_buildings = found.plateaus, found.large_buildings
+        grid.plateaus = found.plateaus
         grid.raised = grid.objects.copy()

@@ -248,10 +248,11 @@ class IsolatedLowPoints(GridRule):
 
 @dataclass(frozen=True)
 class DenseOutliers(PointRule):
-    """In a dense cloud, points far below all others round them are low noise.
+    """In a dense cloud of a laser, points far below all others round them are low noise.
 
     Most cells of half a metre or a metre may have such a point. Here cells are so narrow that few
-    have one.
+    have one. In clouds from images such points are parts of the ground beside crowns and roofs,
+    where the surface sags.
 
     Attributes
     ----------
@@ -269,7 +270,7 @@ class DenseOutliers(PointRule):
     """
 
     stage: ClassVar = Stage.LOW_NOISE
-    reads: ClassVar = ("points", "grids", "known_ground")
+    reads: ClassVar = ("points", "grids", "known_ground", "multi_return")
     writes: ClassVar = ("points", "grids", "low_noise")
 
     spacings: float = 3.0
@@ -281,6 +282,8 @@ class DenseOutliers(PointRule):
 
     def apply(self, state: State) -> None:
         """Add the outliers to the low noise."""
+        if state.from_images:
+            return
         found = self.find(state.points)
         if np.count_nonzero(found) > self.many * state.points.count:
             state.progress.info(

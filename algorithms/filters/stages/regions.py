@@ -33,10 +33,6 @@ class Border(NamedTuple):
         1 where the second is higher by more than is allowed, -1 where it is lower, else 0.
     rise : numpy.ndarray of float32, shape (pairs,)
         Height of the second above the first in metres, beyond the trend; 0 where `sign` is 0.
-    face : numpy.ndarray of float32, shape (pairs,)
-        Slope (rise over run) of the face that the step between them is part of. It is the slope of
-        the face's second step, because the first may be a wall below a roof. 0 where there is no
-        face, NaN where this is unknown.
     """
 
     regions: int
@@ -44,20 +40,12 @@ class Border(NamedTuple):
     second: np.ndarray
     sign: np.ndarray
     rise: np.ndarray
-    face: np.ndarray
 
     def length(self) -> np.ndarray:
         """Return the length of each region's border in cells, if neighbours are one apart."""
         all_ = np.ones(len(self.sign), dtype=bool)
         # Each cell of a straight border has three neighbours beyond it.
         return self._total(all_, all_) / 3.0
-
-    def faces(self) -> np.ndarray:
-        """Return the share of each region's drops that are part of a face, where this is known."""
-        first, second = (self.sign == sign for sign in (-1, 1))
-        known = self._total(first & ~np.isnan(self.face), second & ~np.isnan(self.face))
-        on_face = self._total(first & (self.face > 0.0), second & (self.face > 0.0))
-        return on_face / np.maximum(known, 1)
 
     def drops(
         self, removed: np.ndarray, sign: int
@@ -110,7 +98,6 @@ class Regions:
         share: float,
         whole_share: float,
         steepness: float = 0.0,
-        fits: np.ndarray | bool = True,
     ) -> np.ndarray:
         """Return the cells of the regions whose border is mostly a drop.
 
@@ -123,22 +110,16 @@ class Regions:
             must be a drop.
         steepness : float
             Least mean height of the drop over the width of the region.
-        fits : numpy.ndarray of bool, shape (count,)
-            Which regions are considered.
 
         Returns
         -------
         numpy.ndarray of bool, shape (rows, columns)
         """
-        return self._bounded(max_size, 1, share, whole_share, steepness, fits)
-
-    def face_share(self) -> np.ndarray:
-        """Return the share of each region's drops that is part of a face, where this is known."""
-        return self._border.faces()
+        return self._bounded(max_size, 1, share, whole_share, steepness)
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of pits: regions whose border is a rise nearly all round."""
-        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0, True)
+        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0)
 
     def _bounded(
         self,
@@ -147,14 +128,13 @@ class Regions:
         share: float,
         least_share: float,
         least_steepness: float,
-        fits: np.ndarray | bool,
     ) -> np.ndarray:
         """Return the cells of regions bounded by drops (1) or rises (-1).
 
         Regions that one round finds are unknown in the next, which finds regions that they hid: a
         roof below a tower, a pit within a pit.
         """
-        fits = fits & (self.width <= max_size)
+        fits = self.width <= max_size
         fits[0] = False
         found = np.zeros(len(fits), dtype=bool)
         for _ in range(_ROUNDS):
@@ -197,6 +177,8 @@ class RaisedRegions(NamedTuple):
         Heights of all cells in metres, without NaN.
     borders : list
         Pairs of regions between which there are level steps, drops and rises, for two directions.
+    cut : numpy.ndarray of float64, shape (regions,)
+        Sides of cells along the border of the survey.
     """
 
     size: float
@@ -210,6 +192,7 @@ class RaisedRegions(NamedTuple):
     feet: np.ndarray
     filled: np.ndarray
     borders: list[list[_Pairs]]
+    cut: np.ndarray
 
     @property
     def even(self) -> np.ndarray:
@@ -263,7 +246,14 @@ def raised_regions(
         region[feet[seen[feet]]],
         grid.filled,
         _borders(region, up, steps, seen),
+        np.bincount(number, _sides_outside(grid.surveyed).ravel()[cells], count),
     )
+
+
+def _sides_outside(surveyed: np.ndarray) -> np.ndarray:
+    """Return how many of the four neighbours of each cell were not surveyed."""
+    outside = np.pad(~surveyed, 1, constant_values=True).astype(np.int8)
+    return outside[2:, 1:-1] + outside[:-2, 1:-1] + outside[1:-1, 2:] + outside[1:-1, :-2]
 
 
 def even_cells(filled: np.ndarray) -> np.ndarray:

@@ -36,7 +36,7 @@ class LowestPoints(PointRule):
     """
 
     stage: ClassVar = Stage.LOWEST
-    reads: ClassVar = ("points", "spacing")
+    reads: ClassVar = ("points", "spacing", "multi_return")
     writes: ClassVar = ("grids",)
 
     size: float
@@ -48,6 +48,8 @@ class LowestPoints(PointRule):
         state.grids = in_threads(
             lambda shift: GridState.of(state.points, state.spacing, self.size, shift), shifts
         )
+        for grid in state.grids:
+            grid.from_images = state.from_images
 
 
 @dataclass(frozen=True)
@@ -102,9 +104,6 @@ class Seeds(PointRule):
             ground, is_open = self._judged(grid)
             kind[grid.lowest] = np.where(ground, _GROUND, np.where(is_open, _OPEN, _OBJECT))
         either = np.flatnonzero(kinds[0] | kinds[1])
-        # A large building that one grid finds is one on both.
-        for grid in state.grids:
-            either = either[~grid.large_buildings.ravel()[grid.cells.index[either]]]
         one, other = kinds[:, either]
         ground = (one == _GROUND) & ((other == _GROUND) | (other == _HIDDEN))
         ground |= (other == _GROUND) & (one == _HIDDEN)

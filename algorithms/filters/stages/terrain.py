@@ -14,7 +14,7 @@ import numpy as np
 from ...core.progress import SILENT, Progress
 from ..pipeline import GridRule, Rule, Stage
 from ..state import GridState
-from .landforms import LowBanks, OnSlope, Ramps, Rocks
+from .landforms import LowBanks, OnSlope, Rocks
 from .regions import RaisedRegions, raised_regions
 
 
@@ -42,16 +42,20 @@ class GentleBorder(Rule):
     ----------
     share : float
         Least share of the border, without what rises to the ground, that is level with it.
+    area : float
+        Least area of the region in square metres: crowns and sheds are smaller.
     """
 
     stage: ClassVar = Stage.TERRAIN
 
     share: float = 0.3
+    area: float = 100.0
 
     def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
         """Return which regions are terrain by this rule; boolean, shape (regions,)."""
         level = borders.level
-        return (level > 0) & (level >= self.share * (level + borders.sharp))
+        is_level = (level > 0) & (level >= self.share * (level + borders.sharp))
+        return is_level & (regions.area >= self.area)
 
 
 @dataclass(frozen=True)
@@ -65,18 +69,23 @@ class LevelBorder(Rule):
     areas, shares : tuple of float
         A region of the first area (m2) needs the first share of its border; one of the second area
         the second share. In between the share falls with the logarithm of the area.
+    most_cut : float
+        Largest share of the border along which the survey ends: the rest of a roof or of a closed
+        canopy may lie beyond it.
     """
 
     stage: ClassVar = Stage.TERRAIN
 
     areas: tuple[float, float] = (400.0, 3000.0)
     shares: tuple[float, float] = (0.3, 0.05)
+    most_cut: float = 0.1
 
     def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
         """Return which regions are terrain by this rule; boolean, shape (regions,)."""
         share = np.interp(np.log(regions.area), np.log(self.areas), self.shares)
         bounded = borders.level + borders.rising + borders.sharp
         is_level = (borders.level > 0) & (borders.level >= share * bounded)
+        is_level &= regions.cut <= self.most_cut * (bounded + regions.cut)
         return is_level & (regions.area >= self.areas[0])
 
 
@@ -101,6 +110,9 @@ class GentleRegions(GridRule):
     judges_gaps : bool
         Whether cells without a point are judged as well. They are raised if their filled height is,
         and outside the survey they are no border.
+    in_images : bool
+        Whether borders show that a region is terrain in clouds from images as well, in which walls
+        are slopes.
     """
 
     stage: ClassVar = Stage.TERRAIN
@@ -112,21 +124,23 @@ class GentleRegions(GridRule):
     area: float = 20.0
     passes: int = 4
     judges_gaps: bool = True
+    in_images: bool = False
     on_slope: OnSlope | None = OnSlope()
     gentle_border: GentleBorder | None = GentleBorder()
     level_border: LevelBorder | None = LevelBorder()
     rocks: Rocks | None = Rocks()
-    ramps: Ramps | None = Ramps()
     low_banks: LowBanks | None = LowBanks()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Let regions be ground that are terrain; objects only where they are landforms."""
         regions = self.regions(grid)
         landforms = np.zeros(len(regions.area), dtype=bool)
-        for rule in (self.rocks, self.ramps, self.low_banks):
+        for rule in (self.rocks, self.low_banks):
             if rule:
                 landforms |= rule.fits(regions)
-        terrain = self._joined(regions, landforms)
+        terrain = landforms
+        if self.in_images or not grid.from_images:
+            terrain = self._joined(regions, landforms)
         found, special = (regions.spread(which) for which in (terrain, landforms))
         grid.raised &= ~special & (grid.objects | ~found)
 
@@ -197,6 +211,12 @@ class GentleRegions(GridRule):
                 break
             joined |= new
         return joined
+
+
+# Where earth is moved, also low berms and stockpiles without a sharp edge are wanted.
+SITE = GentleRegions(
+    in_images=True, gentle_border=GentleBorder(area=0.0), level_border=LevelBorder(most_cut=1.0)
+)
 
 
 def smoothed(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:

@@ -11,7 +11,6 @@ from ...core.points import Points
 from ...grids.cells import Cells, lower_at
 from ...grids.gradient import gradient, length, steepness
 from ...grids.inpaint import inpaint
-from ...grids.morphology import within_square
 from ..pipeline import PointRule, Rule, Stage
 from ..state import State
 from .noise import below_middle, from_middle, middle_of_noise, noise_of_squares
@@ -89,55 +88,22 @@ class MeasuredNoise(Rule):
         surface: np.ndarray,
         slopes: tuple[np.ndarray, np.ndarray],
         above: float,
-        on_even: float,
-    ) -> tuple[np.ndarray, float, float]:
-        """Return the rise of the surface to the middle of the noise, and the tolerances above."""
+    ) -> tuple[np.ndarray, float]:
+        """Return the rise of the surface to the middle of the noise, and the tolerance above."""
         level = np.zeros(surface.shape)
         points, cells, spacing = state.points, state.grids[0].cells, state.spacing
         if spacing <= NOISE_SPACING:
             level, noise = middle_of_noise(points, cells, surface, slopes)
             level = level.reshape(surface.shape)
-            on_even = max(on_even, self.least + self.factor * noise)
-            above = on_even if spacing <= DENSE_SPACING else max(above, on_even)
+            of_noise = self.least + self.factor * noise
+            above = of_noise if spacing <= DENSE_SPACING else max(above, of_noise)
         elif spacing <= _SPARSE:
             noise = noise_of_squares(points, cells, surface, slopes)
             # The surface goes through the lowest point of a cell, which has about so many.
             number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
             least = (self.sparse_factor + float(below_middle(number))) * noise - self.usual
-            above, on_even = max(above, least), max(on_even, least)
-        return level, above, on_even
-
-
-@dataclass(frozen=True)
-class EvenGround(Rule):
-    """On even ground, level or sloping, low plants stand out, so the tolerance above is smaller.
-
-    Attributes
-    ----------
-    less, share : float
-        The tolerance above is smaller by so many metres, but at most by this share.
-    curvature : float
-        Ground is even if its curvature over a cell is at most so many metres.
-    known : float
-        At least this share of the cells round about has vertices.
-    """
-
-    stage: ClassVar = Stage.ACCEPTED
-
-    less: float = 0.07
-    share: float = 0.4
-    curvature: float = 0.45
-    known: float = 0.6
-
-    def unevenness(self, curvature: np.ndarray, known: np.ndarray) -> np.ndarray:
-        """Return the unevenness of the ground round each cell in metres; infinity if too large."""
-        from scipy import ndimage
-
-        between = ndimage.binary_erosion(known, border_value=1)
-        most = within_square(np.maximum, np.where(between, curvature, 0.0), 1)
-        share = ndimage.uniform_filter(between.astype(np.float32), 3, mode="nearest")
-        is_even = (share >= self.known) & (most <= self.curvature)
-        return np.where(is_even, most, np.inf)
+            above = max(above, least)
+        return level, above
 
 
 @dataclass(frozen=True)
@@ -202,7 +168,6 @@ class ToleranceSurface(PointRule):
     on_slopes: float
     below: float = 0.6
     measured_noise: MeasuredNoise | None = MeasuredNoise()
-    even_ground: EvenGround | None = EvenGround()
     breaks: Breaks | None = Breaks()
     low_plants: LowPlants | None = LowPlants()
 
@@ -211,15 +176,10 @@ class ToleranceSurface(PointRule):
         points, grid, spacing = state.points, state.grids[0], state.spacing
         cells, plants = grid.cells, self.low_plants
         woods = grid.woods if plants else np.zeros(cells.shape, dtype=bool)
-        surface, slopes, known = _centred(points, state.seeds, cells, woods)
-        above, on_even = self.above, self.above
-        if self.even_ground:
-            on_even -= min(self.even_ground.less, self.even_ground.share * above)
-        of_plants = above, on_even
+        surface, slopes = _centred(points, state.seeds, cells, woods)
+        above = self.above
         if self.measured_noise:
-            level, above, on_even = self.measured_noise.applied(
-                state, surface, slopes, above, on_even
-            )
+            level, above = self.measured_noise.applied(state, surface, slopes, above)
             surface = surface + np.where(woods, 0.0, level)
         slope, curvature = _smooth_steepness(surface, cells), _curvature(surface)
         rise = self.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE * slope
@@ -227,13 +187,7 @@ class ToleranceSurface(PointRule):
         if self.breaks and spacing < _SPARSE:
             at_break = self.breaks.factor * np.maximum(curvature - self.breaks.curvature, 0.0)
             rise, rise_above = rise + at_break, rise_above + at_break
-        highest = np.where(woods, of_plants[0], above) + rise_above
-        if self.even_ground:
-            # On slopes too steep to move vertices along, the middle of a cell is not known well
-            # enough.
-            uneven = self.even_ground.unevenness(curvature, known)
-            uneven = np.where(slope <= _STEEPEST, uneven, np.inf)
-            highest = np.minimum(highest, np.where(woods, of_plants[1], on_even) + uneven)
+        highest = np.where(woods, self.above, above) + rise_above
         state.limits = np.stack((surface - self.below - rise, surface + highest), axis=-1)
 
 
@@ -258,8 +212,8 @@ def _curvature(surface: np.ndarray) -> np.ndarray:
 
 def _centred(
     points: Points, vertices: np.ndarray, cells: Cells, woods: np.ndarray
-) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray], np.ndarray]:
-    """Return the surface at the middles of cells, its slopes, and which cells have vertices.
+) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    """Return the surface at the middles of cells, and its slopes.
 
     It is the mean of the vertices of a cell, and under trees the lowest.
     """
@@ -274,7 +228,7 @@ def _centred(
         surface = inpaint(heights.reshape(cells.shape), first=cells.first)
         slopes = _slopes(surface, cells)
         moved = z - slopes[0].ravel()[cell] * north - slopes[1].ravel()[cell] * east
-    return surface, slopes, (count > 0).reshape(cells.shape)
+    return surface, slopes
 
 
 def _slopes(surface: np.ndarray, cells: Cells) -> tuple[np.ndarray, np.ndarray]:
