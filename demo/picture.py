@@ -92,7 +92,7 @@ def draw(
     figure.suptitle(title, **_SUPTITLE)
     upper, lower = figure.subfigures(2, 1, height_ratios=(6.2, 4.0))
     panels = upper.subplots(1, count)
-    northing = _busiest_northing(view) if northing is None else northing
+    northing = busiest_northing(view) if northing is None else northing
     _draw_relief(panels[0], view)
     _draw_plan(panels[1], view)
     if truth is not None:
@@ -205,7 +205,7 @@ def _draw_profile(panel: pyplot.Axes, view: View, northing: float, with_errors: 
     panel.set_axisbelow(True)
 
 
-def _busiest_northing(view: View) -> float:
+def busiest_northing(view: View) -> float:
     """Return where a cut from west to east meets most points that are not ground.
 
     Only in the middle: the border shows little of a tile.

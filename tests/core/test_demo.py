@@ -130,4 +130,4 @@ def test_the_profile_keeps_away_from_the_border(demo):
         (0, 100, 0, 100),
         ("m", "m"),
     )
-    assert abs(picture._busiest_northing(view) - 60.0) < 2.0
+    assert abs(picture.busiest_northing(view) - 60.0) < 2.0
