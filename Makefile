@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-core test-long lint test-qgis coverage docs translations package mutants clean
+.PHONY: help demo test test-core test-long test-systems lint test-qgis coverage docs translations package mutants clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -15,6 +15,9 @@ test-core:  ## test the classifier, without QGIS
 
 test-long:  ## run the tests that test-core leaves out, for they take long
 	@tools/test long
+
+test-systems:  ## test what touches files once more as on Windows, and all in Python 3.9 if there is one
+	@tools/test windows oldest
 
 lint:  ## check the style, the types, and what plugins.qgis.org checks
 	@tools/test lint

@@ -775,7 +775,8 @@ def features(path):
     assert known["crs"] == "EPSG:25832"
     is_water = Path(path).stem == "water"
     shapes = [each[0] for each in read_boundary(path)] if is_water else read_lines(path)
-    return [(row, at) for row, at in zip(rows, shapes, strict=True)]
+    assert len(rows) == len(shapes)
+    return list(zip(rows, shapes))
 
 
 def line(*corners):

@@ -17,6 +17,11 @@ from bare_earth.algorithms.engine.workers import Processes
 
 _NARROW = re.compile(r"np\.arange\([^=]*\) \* len\(.*\)|np\.cumsum\(\[[^=]*\]\)")
 
+_NEW = re.compile(
+    r".*\.write_text\(.*newline=.*|zip\(.*strict=.*|.*pairwise\(.*|.*\.bit_count\(.*|.*hardlink_to.*"
+    r"|dataclass\(.*(slots|kw_only)=.*|.*\.is_junction\(.*|datetime\.UTC|.*\bStrEnum\b.*"
+)
+
 
 def test_a_mac_counts_free_pages_and_those_that_were_not_used_lately(monkeypatch):
     class System:
@@ -64,10 +69,19 @@ def test_words_of_commands_are_quoted_for_windows(monkeypatch, word, shown):
 
 def test_products_and_sums_of_many_have_64_bits():
     # Before numpy 2, integers have 32 bits on Windows where nothing else is said.
-    wrong = [
+    assert not found(_NARROW)
+
+
+def test_nothing_is_used_that_python_3_9_lacks():
+    # `make test-systems` runs all in it where there is one.
+    assert not found(_NEW)
+
+
+def found(pattern):
+    """Return the places in the shipped code where an expression is as a pattern."""
+    return [
         f"{path}:{node.lineno}"
         for path in SHIPPED
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.expr) and _NARROW.fullmatch(ast.unparse(node))
+        if isinstance(node, ast.expr) and pattern.fullmatch(ast.unparse(node))
     ]
-    assert not wrong
