@@ -97,7 +97,7 @@ def without_wrong_heights(
     known, none, zero, far = (int(each.sum()) for each in (~np.isnan(z), is_none, is_zero, is_far))
     farthest = float(np.nanmax(away)) if np.isfinite(away).any() else 0.0
     mended = np.column_stack((corners[:, :2], np.where(wrong, np.nan, z)))
-    ends = np.cumsum([len(line) for line in lines])[:-1]
+    ends = np.cumsum([len(line) for line in lines], dtype=np.int64)[:-1]
     return np.split(mended, ends), WrongHeights(known, none, zero, far, farthest)
 
 

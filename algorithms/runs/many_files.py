@@ -286,7 +286,7 @@ class _SurveyRun:
             self._steps[0].tell_of_survey(self._done, progress)
         except BareEarthError:
             for each in done:
-                (self._folder / each.name).unlink(missing_ok=True)
+                remove(self._folder / each.name)
                 remove_record(self._folder / each.name)
             raise
 

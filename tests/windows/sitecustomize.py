@@ -87,8 +87,10 @@ def _held(path: str, inside: bool = False, mapped_only: bool = False) -> bool:
     return False
 
 
-def _full(path: object) -> str:
-    return os.path.abspath(os.fsdecode(path))  # type: ignore[arg-type]
+def _full(path: str | bytes | os.PathLike, folder: int = -1) -> str:
+    """Return the whole path of a file, which may be given in an open folder."""
+    inside = os.readlink(f"/proc/self/fd/{folder}") if folder >= 0 else ""
+    return os.path.abspath(os.path.join(inside, os.fsdecode(path)))
 
 
 def _hook(event: str, arguments: tuple) -> None:
@@ -97,9 +99,12 @@ def _hook(event: str, arguments: tuple) -> None:
         return
     _is_busy = True
     try:
-        path = _full(arguments[0])
+        # Behind the paths stand the numbers of open folders.
+        folders = {"os.rename": 2, "os.remove": 1, "os.rmdir": 1}
+        path = _full(arguments[0], arguments[folders[event]] if event in folders else -1)
         if not path.startswith(("/proc/", "/dev/", "/sys/")):
-            _delete_closed()
+            if event != "open":
+                _delete_closed()
             _CHECKS[event](path, arguments)
     finally:
         _is_busy = False
@@ -139,7 +144,7 @@ def _check_removal(path: str, arguments: tuple) -> None:
 
 
 def _check_rename(source: str, arguments: tuple) -> None:
-    target = _full(arguments[1])
+    target = _full(arguments[1], arguments[3])
     is_folder = os.path.isdir(source)
     if target != source:
         _check_new(target, _LONGEST_FOLDER if is_folder else _LONGEST)
@@ -178,9 +183,6 @@ def _rename(source, target, *, rename=os.rename, **more):
 
 
 if "WINDOWS_FILES_LOG" in os.environ and os.path.isdir("/proc/self/fd"):
-    import shutil
-
-    shutil._use_fd_functions = False  # else paths are relative to folders that are open
     tempfile.TemporaryFile = _temporary_file
     os.rename = _rename
     sys.addaudithook(_hook)
