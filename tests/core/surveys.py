@@ -91,7 +91,8 @@ def finished(folder):
 def states_of(folder):
     """Return what tells that files were written anew, of a folder that a run works in meanwhile."""
     found = {}
-    for name in os.listdir(folder) if folder.exists() else ():
+    names = os.listdir(folder) if folder.exists() else ()
+    for name in (each for each in names if each[0] != "."):  # those are being written
         with contextlib.suppress(FileNotFoundError):  # removed or renamed since
             state = os.stat(folder / name)
             found[name] = state.st_ino, state.st_mtime_ns
