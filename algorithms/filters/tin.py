@@ -24,7 +24,7 @@ from .stages.accept import NearSurface, OnlyKeyPoints
 from .stages.below_water import BelowWater
 from .stages.breaks import LevelSeeds, Plants
 from .stages.densify import Densification
-from .stages.landforms import BetweenDitches
+from .stages.landforms import BetweenDitches, LowBanks
 from .stages.low_groups import LowGroups, WideLowGroups
 from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
@@ -316,6 +316,7 @@ def _classic(resolved: TinDensification) -> Pipeline:
                 gentle_border=GentleBorder(0.5, 0.0),
                 level_border=None,
                 rocks=None,
+                low_banks=LowBanks(most_in_row=1.0),
             ),
             Seeds(objects_wait=True),
             KnownGround(),

@@ -2,8 +2,10 @@
 
 import functools
 
+import laspy
 import numpy as np
 import pytest
+from realdata import real
 from runs import CancelAt
 
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
@@ -12,6 +14,7 @@ from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
+from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.comparison import compare
 from bare_earth.algorithms.runs.one_file import classify_cloud
 from benchmarks import data
@@ -253,3 +256,13 @@ def test_the_isprs_samples_come_out_as_measured(method, samples, most_error, lea
         found.append(compare(ground, reference))
     assert np.mean([each.total_error for each in found]) <= most_error
     assert np.mean([each.kappa for each in found]) >= least_kappa
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("name", ["solar-tilted", "rows-planters"])
+def test_rows_of_panels_and_planters_go(method, name):
+    """The ground between them goes on at their ends, which that of ditches does not."""
+    path = real(f"field2/{name}.laz")
+    is_row = np.asarray(laspy.read(path).user_data) == 0
+    found, _ = classify_cloud(read_cloud(path), METHODS[method].parameters())
+    assert (found[is_row] == 2).mean() < 0.15 and (found[~is_row] == 2).mean() > 0.999

@@ -16,6 +16,31 @@ from ..state import GridState
 from .regions import RaisedRegions, even_cells
 
 
+def into_ditches(
+    number: np.ndarray,
+    count: int,
+    closed: np.ndarray,
+    filled: np.ndarray,
+    raised: np.ndarray,
+    beyond: float,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return how many sides of each region's border drop into a ditch, and how many it has.
+
+    `number` are the regions of cells from 1 on, 0 for none. Of a ditch, the closing fills all but a
+    share `beyond` of the drop: there is land about as high on its other side.
+    """
+    into, border = np.zeros((2, count))
+    for ahead, behind in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
+        for here, there in ((ahead, behind), (behind, ahead)):
+            beside = (number[here] > 0) & (number[here] != number[there])
+            of, drop = number[here][beside], (filled[here] - filled[there])[beside]
+            is_ditch = ~raised[there][beside] & (drop > 0.0)
+            is_ditch &= closed[there][beside] >= filled[here][beside] - beyond * drop
+            border += np.bincount(of, minlength=count)
+            into += np.bincount(of, is_ditch, count)
+    return into, border
+
+
 @dataclass(frozen=True)
 class OnSlope(Rule):
     """An exception: a step with two more alike steps before or after it is part of a slope.
@@ -176,6 +201,11 @@ class LowBanks(Rule):
         Largest mean width in metres.
     even_share : float
         Least share of the cells that are even.
+    most_in_row : float
+        On a larger share of its border than this, another strip as high is beside it: it is one of
+        a row, as of panels or planters, or land between ditches. 1 if that does not matter.
+    beyond : float
+        The strip beside it may be lower by this share of the drop between them.
     """
 
     stage: ClassVar = Stage.TERRAIN
@@ -184,6 +214,8 @@ class LowBanks(Rule):
     height: float = 1.2
     width: float = 6.0
     even_share: float = 0.7
+    most_in_row: float = 0.8
+    beyond: float = 0.35
 
     def fits(self, regions: RaisedRegions) -> np.ndarray:
         """Return which regions are banks; boolean, shape (regions,)."""
@@ -196,7 +228,20 @@ class LowBanks(Rule):
         region = regions.number
         share = np.bincount(region, regions.even, count) / np.bincount(region, minlength=count)
         is_bank = (regions.area >= self.area) & (width <= self.width)
+        if self.most_in_row < 1.0:
+            is_bank &= ~self._in_rows(regions)
         return is_bank & (regions.above <= self.height) & (share >= self.even_share)
+
+    def _in_rows(self, regions: RaisedRegions) -> np.ndarray:
+        """Return which regions have another as high beside them on most of their border."""
+        number = np.zeros(regions.shape, dtype=np.int32)
+        number.ravel()[regions.cells] = regions.number + 1
+        filled, reach = regions.filled, max(round(self.width / regions.size / 2.0), 1)
+        closed = within_square(np.minimum, within_square(np.maximum, filled, reach), reach)
+        into, border = into_ditches(
+            number, len(regions.area) + 1, closed, filled, number > 0, self.beyond
+        )
+        return (into > self.most_in_row * border)[1:]
 
 
 @dataclass(frozen=True)
@@ -218,10 +263,15 @@ class BetweenDitches(GridRule):
         The land beyond the ditch may be lower by this share of the drop.
     even_share : float
         Least share of its cells that are even; plants are not even.
+    level : float
+        At the border of the land and its ditches, ground that is lower than land by more than so
+        many metres, or that is not higher than a ditch, is open.
+    most_open : float
+        Most of this border that is open, as a share.
     """
 
     stage: ClassVar = Stage.TERRAIN
-    reads: ClassVar = ("filled", "surface", "raised")
+    reads: ClassVar = ("filled", "surface", "surveyed", "raised")
     writes: ClassVar = ("raised",)
 
     width: float = 6.0
@@ -231,6 +281,8 @@ class BetweenDitches(GridRule):
     share: float = 0.5
     beyond: float = 0.35
     even_share: float = 0.6
+    level: float = 0.3
+    most_open: float = 0.3
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Let even land between ditches be ground."""
@@ -245,18 +297,35 @@ class BetweenDitches(GridRule):
             return
         reach = max(round(self.width / size / 2.0), 1)
         closed = within_square(np.minimum, within_square(np.maximum, filled, reach), reach)
-        into_ditch, border = np.zeros((2, count + 1))
-        for ahead, behind in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
-            for here, there in ((ahead, behind), (behind, ahead)):
-                beside = fits[number[here]] & (number[here] != number[there])
-                of, drop = number[here][beside], (filled[here] - filled[there])[beside]
-                is_ditch = ~raised[there][beside] & (drop > 0.0)
-                is_ditch &= closed[there][beside] >= filled[here][beside] - self.beyond * drop
-                border += np.bincount(of, minlength=count + 1)
-                into_ditch += np.bincount(of, is_ditch, count + 1)
+        into_ditch, border = into_ditches(
+            np.where(fits[number], number, 0), count + 1, closed, filled, raised, self.beyond
+        )
         fits &= (into_ditch >= self.share * border) & (
             2.0 * cells_of * size >= self.least_width * border
         )
         even = np.bincount(number[even_cells(filled)], minlength=count + 1)
         fits &= even >= self.even_share * cells_of
-        grid.raised &= ~fits[number]
+        land = fits[number]
+        grid.raised &= ~(land & self._ends_level(grid, land, closed))
+
+    def _ends_level(self, grid: GridState, land: np.ndarray, closed: np.ndarray) -> np.ndarray:
+        """Return which land, with the ditches in it, hardly ends at lower ground; (rows, columns).
+
+        Rows of panels, planters or barges do: the ground between them goes on at their ends.
+        """
+        from scipy import ndimage
+
+        filled, raised = grid.filled, grid.raised
+        ditch = ~raised & (closed > filled + self.level)
+        block, count = ndimage.label(land | ditch)
+        open_, shut = np.zeros((2, count + 1))
+        for ahead, behind in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
+            for here, there in ((ahead, behind), (behind, ahead)):
+                beside = (block[here] > 0) & (block[there] == 0) & ~raised[there]
+                beside &= grid.surveyed[there] & grid.surveyed[here]
+                of, drop = block[here][beside], (filled[here] - filled[there])[beside]
+                of_land = land[here][beside]
+                is_open = np.where(of_land, drop > self.level, drop > -self.level)
+                open_ += np.bincount(of, is_open, count + 1)
+                shut += np.bincount(of, ~is_open, count + 1)
+        return (open_ <= self.most_open * (open_ + shut))[block]
