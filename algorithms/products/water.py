@@ -23,6 +23,7 @@ from .water_extent import surveyed
 from .water_grid import WaterGrid
 from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
 from .water_steps import parts_of_step
+from .water_surfaces import level_surfaces
 
 # Radius in cells of the disc that closes single stray cells, and of that which cuts thin links.
 _CLOSE, _OPEN = 1.5, 1.5
@@ -100,12 +101,14 @@ class _Region(NamedTuple):
     """Connected cells, with a margin.
 
     `below` are those of them below decks of bridges, `outside` those beyond the points of the
-    survey. `other` are the cells of water with another level, and those beside it.
+    survey, `level` those of dead-level surfaces full of returns. `other` are the cells of water
+    with another level, and those beside it.
     """
 
     water: np.ndarray
     below: np.ndarray
     outside: np.ndarray
+    level: np.ndarray
     rows: slice
     columns: slice
     other: np.ndarray | None = None
@@ -113,7 +116,7 @@ class _Region(NamedTuple):
     @property
     def open(self) -> np.ndarray:
         """The cells that the laser sees."""
-        return self.water & ~self.below
+        return self.water & ~self.below & ~self.outside
 
 
 class _Marks(NamedTuple):
@@ -170,7 +173,8 @@ def _regions(grid: WaterGrid, how: Water, progress: Progress) -> Iterator[_Regio
     from scipy.ndimage import find_objects, label
 
     outside = ~surveyed(grid.counts > 0)
-    cells = _without_links(closing(grid.candidates(), _CLOSE))
+    level = level_surfaces(grid, outside, how.min_area / grid.cell**2)
+    cells = _without_links(closing(grid.candidates() | level, _CLOSE))
     below = below_decks(cells, grid)
     cells |= below
     labels, _ = label(cells)
@@ -187,8 +191,8 @@ def _regions(grid: WaterGrid, how: Water, progress: Progress) -> Iterator[_Regio
         )
         water = labels[rows, columns] == number
         water = _with_small_islands(water, grid.cell)
-        unseen = (water & each[rows, columns] for each in (below, outside))
-        yield _Region(water, *unseen, rows, columns)
+        marks = (water & each[rows, columns] for each in (below, outside, level))
+        yield _Region(water, *marks, rows, columns)
 
 
 def _without_links(cells: np.ndarray) -> np.ndarray:
@@ -214,12 +218,14 @@ def _bodies_of(
     """Yield a region as water; if it is something else, its parts of class 9."""
     window = region.rows, region.columns
     is_class = region.water & grid.class_in(*window)
-    if is_class[region.open].mean() < _CLASSIFIED:
+    if not region.open.any():
+        return
+    if (is_class | region.level)[region.open].mean() < _CLASSIFIED:
         bodies = _parts_of(region, _by_shore, grid, usual, how)
         if bodies:
             yield from bodies
             return
-    classified = closing(is_class, _CLOSE_CLASS) | region.below
+    classified = closing(is_class, _CLOSE_CLASS) | region.level | region.below
     for cells in _labelled(classified, how.min_area / grid.cell**2):
         cells = _with_small_islands(cells, grid.cell)
         part = region._replace(water=cells, below=cells & region.below)
@@ -241,9 +247,9 @@ def _by_shore(region: _Region, grid: WaterGrid) -> _Marks | None:
 
 
 def _by_class(region: _Region, grid: WaterGrid) -> _Marks:
-    """Return what tells the level of a region of class 9: its points."""
+    """Return what tells the level of a region of class 9, or of a level surface: its points."""
     window = region.rows, region.columns
-    is_class = region.water & grid.class_in(*window)
+    is_class = region.water & (grid.class_in(*window) | region.level)
     shore = surface_of(is_class, grid.lowest[window], grid.cell)
     return _Marks(shore, _share_of_class(region, grid), 1.0)
 
@@ -302,6 +308,12 @@ def _body_of(
     filled = _filled(region, grid, usual)
     certainty = _certainty(max(1.0 - filled, marks.share), levels.spread, marks.rising)
     if levels.misfit > _MOST_SPREAD or levels.spread > _CERTAIN_SPREAD:
+        certainty = min(certainty, _MOST_MISFITTING)
+    if (
+        marks.share < _CLASSIFIED
+        and (region.water & region.level).mean() > 0.5 * region.water.mean()
+    ):
+        # A field can be as even, and lie as low.
         certainty = min(certainty, _MOST_MISFITTING)
     return [_made(kind, region, grid, levels, (certainty, marks.share, filled, width))]
 

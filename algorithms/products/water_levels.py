@@ -273,9 +273,10 @@ def _fit(shore: Shore, levels: np.ndarray) -> tuple[float, float]:
     count = min(_TOGETHER, len(off))
     near = cKDTree(shore.places).query(shore.places, list(range(1, count + 1)))[1]
     together = np.median(off[near], axis=1) - np.median(off)
-    return _spread(off), float(np.abs(together).max())
+    return spread_of(off), float(np.abs(together).max())
 
 
-def _spread(values: np.ndarray) -> float:
+def spread_of(values: np.ndarray) -> float:
+    """Return a robust standard deviation, from the 10th and the 90th percentile."""
     low, high = np.percentile(values, (10.0, 90.0))
     return float(high - low) / _DEVIATIONS

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from realdata import real
 from test_checkpoints import write
 
 from bare_earth.algorithms.cli import main
@@ -11,6 +12,7 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.descent import isotonic
 from bare_earth.algorithms.products.water import Water, find_water
+from bare_earth.algorithms.products.water_files import SurveyWater, WaterRequest
 from bare_earth.algorithms.products.water_grid import WaterGrid, cell_for
 
 WIDE, DENSITY, LEVEL = 400.0, 4.0, 100.0
@@ -324,3 +326,34 @@ def test_water_in_feet_has_its_level_in_feet(tmp_path):
     (feature,) = json.loads((tmp_path / "water.geojson").read_text())["features"]
     assert feature["properties"]["LEVEL"] == pytest.approx(LEVEL / feet, abs=0.7)
     assert feature["properties"]["AREA"] == pytest.approx(15_800, rel=0.05)
+
+
+@pytest.mark.parametrize("number", [0, 2])
+def test_a_pond_full_of_returns_is_found_without_its_class(number, tmp_path):
+    import laspy
+
+    las = laspy.read(real("real/pond_powerline.laz"))
+    near = (las.y - las.y.min() > 190) & (las.y - las.y.min() < 430)
+    las.points = las.points[near]
+    las.write(tmp_path / "truth.laz")
+    classes = np.array(las.classification)
+    classes[classes == 9] = number
+    las.classification = classes
+    las.write(tmp_path / "wiped.laz")
+    found = []
+    for name in ("truth", "wiped"):
+        request = WaterRequest(water=Water())
+        (body,) = SurveyWater.of([tmp_path / f"{name}.laz"], request).bodies
+        found.append(body)
+    x, y = np.meshgrid(np.arange(las.x.min(), las.x.max()), np.arange(las.y.min(), las.y.max()))
+    true, again = (contains(body, x, y) for body in found)
+    assert (true & again).sum() >= 0.88 * (true | again).sum()
+    assert found[1].grade != "certain" and abs(found[0].level - found[1].level) < 0.05
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.002])
+def test_a_flat_field_is_no_water(slope):
+    """Ditches are lower than the field, and land beside it is as high."""
+    scene = Scene(slope=slope, rolling=0.0)
+    scene.z[(np.abs(scene.x - 100) < 2) | (np.abs(scene.y - 300) < 2)] -= 1.0
+    assert scene.water() == []

@@ -1,0 +1,122 @@
+"""Dead-level low areas full of returns: water that mirrors the laser, or lets it see the bottom.
+
+They are as even as the ranging of the laser, at one level throughout, and lower than the land all
+round. A flat field drains, so that it slopes or has furrows, and ditches beside it are lower.
+"""
+
+from __future__ import annotations
+
+from typing import Iterator
+
+import numpy as np
+
+from ..grids.morphology import closing, dilation
+from .water_grid import WaterGrid
+from .water_levels import margin, spread_of, surface_of
+
+# Cells of the square in which the lowest returns differ by at most so much, as a standard deviation
+# in metres, and the share of its cells that have returns.
+_SQUARE, _EVEN, _FULL = 5, 0.045, 0.6
+# Share of class 9 in an area that the file calls water.
+_CLASSIFIED = 0.5
+# Rows that are looked at together.
+_ROWS = 1024
+# An even area has at least this share of the smallest area, because its edges are left out.
+_LEAST_PART = 0.2
+# Returns of one level lie so near to it, in metres. It is found in steps of so many metres.
+_NEAR, _STEP = 0.06, 0.02
+# Radius in cells of the disc that closes gaps between cells at the level.
+_CLOSE = 1.0
+# Most spread in metres of parts of the surface.
+_MOST_SPREAD = 0.02
+# Cells round an area that are its shore, and the least share of those with ground. So many of these
+# are higher than the surface and hardly any lower, by so many metres, and half of them by so much.
+_SHORE, _LEAST_KNOWN = 6.0, 0.4
+_HIGHER, _LOWER, _NEARLY, _RISE = 0.8, 0.025, 0.05, 0.15
+
+
+def level_surfaces(grid: WaterGrid, outside: np.ndarray, least: float) -> np.ndarray:
+    """Return which cells belong to dead-level areas that are lower than the land round them.
+
+    Parameters
+    ----------
+    grid : WaterGrid
+        Counts and heights of all points.
+    outside : numpy.ndarray of bool, shape (rows, columns)
+        The cells beyond the survey.
+    least : float
+        Their smallest area in cells.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (rows, columns)
+    """
+    from scipy.ndimage import find_objects, label
+
+    found = np.zeros(grid.shape, dtype=bool)
+    labels, _ = label(_even(grid))
+    sizes = np.bincount(labels.ravel())
+    reach = margin() + _SQUARE
+    for number, box in enumerate(find_objects(labels), start=1):
+        if sizes[number] < _LEAST_PART * least:
+            continue
+        window = tuple(slice(max(side.start - reach, 0), side.stop + reach) for side in box)
+        for area in _areas(labels[window] == number, grid.lowest[window], least):
+            # Points of class 9 say more.
+            is_class = grid.class_in(*window)[area].mean() >= _CLASSIFIED
+            if not is_class and _is_low(area, grid, window, outside[window]):
+                found[window] |= area
+    return found
+
+
+def _even(grid: WaterGrid) -> np.ndarray:
+    """Return the cells round which the lowest returns are even."""
+    from scipy.ndimage import uniform_filter
+
+    found, reach = np.zeros(grid.shape, dtype=bool), _SQUARE // 2
+    for start in range(0, grid.shape[0], _ROWS):
+        first, last = max(start - reach, 0), start + _ROWS + reach
+        heights = grid.lowest[first:last].astype(np.float64)
+        known = np.isfinite(heights)
+        if not known.any():
+            continue
+        heights = np.where(known, heights - np.median(heights[known]), 0.0)
+        full, mean, squared = (
+            uniform_filter(each, _SQUARE, mode="constant")
+            for each in (known.astype(np.float64), heights, heights**2)
+        )
+        full = np.maximum(full, 1e-9)
+        even = (squared / full - (mean / full) ** 2 <= _EVEN**2) & (full >= _FULL)
+        found[start : start + _ROWS] = even[start - first :][:_ROWS]
+    return found
+
+
+def _areas(even: np.ndarray, lowest: np.ndarray, least: float) -> Iterator[np.ndarray]:
+    """Yield the connected cells at the level that most cells of an even area have."""
+    from scipy.ndimage import label
+
+    heights = lowest[even & np.isfinite(lowest)].astype(np.float64)
+    steps = np.floor((heights - heights.min()) / _STEP).astype(np.int64)
+    counts = np.convolve(np.bincount(steps), np.ones(5), mode="same")
+    level = heights.min() + (int(counts.argmax()) + 0.5) * _STEP
+    near = dilation(even, 2.0) & (np.abs(lowest - level) <= _NEAR)
+    labels, _ = label(closing(near, _CLOSE))
+    for number in np.flatnonzero(np.bincount(labels.ravel()) >= least):
+        if number:
+            yield labels == number
+
+
+def _is_low(
+    area: np.ndarray, grid: WaterGrid, window: tuple[slice, ...], outside: np.ndarray
+) -> bool:
+    """Return whether an area has one level, and the land round it is higher."""
+    surface = surface_of(area, grid.lowest[window], grid.cell).lowest
+    if spread_of(surface) > _MOST_SPREAD:
+        return False
+    shore = dilation(area, _SHORE) & ~dilation(area, 1.0) & ~outside
+    land = grid.ground[window][shore]
+    known = land[np.isfinite(land)] - np.median(surface)
+    if len(known) < max(_LEAST_KNOWN * len(land), 1):
+        return False
+    higher, lower = (known > _NEARLY).mean(), (known < -_NEARLY).mean()
+    return bool(higher >= _HIGHER and lower <= _LOWER and np.median(known) >= _RISE)
