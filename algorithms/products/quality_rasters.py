@@ -22,6 +22,9 @@ NO_BYTE, _LEAST_POINTS = 255, 3
 # A strip is even where its lowest points lie so near to a plane through those of the cells around,
 # in metres. Edges of roofs, cars and single trees are not; a strip that is off as a whole is.
 _UNEVEN = 0.25
+# A difference that is farther than so many metres from the median of those of the 5 x 5 cells
+# around is that of the edge of a roof or of a crown. Strips that do not fit do so in many cells.
+_FROM_AROUND, _AROUND = 0.25, 2
 # Cells whose surroundings are looked at together.
 _LOOKED_AT = 1 << 18
 # Cells that are made together.
@@ -91,6 +94,25 @@ def differences(cells: QualityCells, rows: slice, inside: np.ndarray, void: floa
 
 def strip_differences(cells: QualityCells, rows: slice, steepest: float) -> np.ndarray:
     """Return the differences on ground that is not steeper than some degrees."""
+    low, high = max(rows.start - _AROUND, 0), min(rows.stop + _AROUND, cells.sizes.coarse.rows)
+    found = _of_even_strips(cells, slice(low, high), steepest)
+    wide = np.pad(found, _AROUND, constant_values=np.nan)
+    places = np.flatnonzero(~np.isnan(found))
+    side = np.arange(2 * _AROUND + 1)
+    around = (side[:, None] * wide.shape[1] + side).ravel()
+    lonely = np.zeros(len(places), dtype=bool)
+    for start in range(0, len(places), _LOOKED_AT):
+        part = slice(start, start + _LOOKED_AT)
+        row, column = np.divmod(places[part], found.shape[1])
+        values = wide.ravel()[(row * wide.shape[1] + column)[:, None] + around]
+        off = np.abs(found.ravel()[places[part]] - np.nanmedian(values, axis=1))
+        lonely[part] = off > _FROM_AROUND
+    found.ravel()[places[lonely]] = np.nan
+    return found[rows.start - low : rows.stop - low]
+
+
+def _of_even_strips(cells: QualityCells, rows: slice, steepest: float) -> np.ndarray:
+    """Return the range of the means of the strips that are even; NaN where fewer than two are."""
     number = cells.strip_points[:, rows]
     enough = number >= _LEAST_POINTS
     found = np.full(number.shape[1:], np.nan)
