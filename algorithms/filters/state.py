@@ -87,8 +87,8 @@ class GridState:
         heights = np.full(cells.rows * cells.columns, np.nan)
         heights[cells.index[lowest]] = points.z[lowest]
         grid = HeightGrid(heights.reshape(cells.shape), cells.size, cells.first)
-        none = (np.zeros(cells.shape, dtype=bool) for _ in range(4))
-        return cls(points, spacing, cells, shift, lowest, grid, *none)
+        woods, raised, objects, plateaus = np.zeros((4, *cells.shape), dtype=bool)
+        return cls(points, spacing, cells, shift, lowest, grid, woods, raised, objects, plateaus)
 
     @property
     def cell(self) -> np.ndarray:

@@ -191,8 +191,10 @@ def _regions(grid: WaterGrid, how: Water, progress: Progress) -> Iterator[_Regio
         )
         water = labels[rows, columns] == number
         water = _with_small_islands(water, grid.cell)
-        marks = (water & each[rows, columns] for each in (below, outside, level))
-        yield _Region(water, *marks, rows, columns)
+        below_deck, beyond, is_level = (
+            water & each[rows, columns] for each in (below, outside, level)
+        )
+        yield _Region(water, below_deck, beyond, is_level, rows, columns)
 
 
 def _without_links(cells: np.ndarray) -> np.ndarray:
@@ -364,7 +366,7 @@ def _is_free(inner: np.ndarray, levels: Levels) -> bool:
     off = known[:, 2] - levels.at(known[:, :2])
     few = _MOST_ABOVE * len(inner)
     above, elsewhere = np.count_nonzero(off > _ABOVE), np.count_nonzero(np.abs(off) > _MOST_OFF)
-    return above <= few and elsewhere <= max(few, len(off) / 2.0)
+    return bool(above <= few and elsewhere <= max(few, len(off) / 2.0))
 
 
 def _filled(region: _Region, grid: WaterGrid, usual: np.ndarray) -> float:

@@ -148,7 +148,8 @@ def shore_of(
     rises = outer - lowest
     squares = _squares(rows, columns, side)
     known = np.unique(squares)
-    share = len(known) / len(np.unique(_squares(*np.nonzero(is_shore), side)))
+    shore_row, shore_column = np.nonzero(is_shore)
+    share = len(known) / len(np.unique(_squares(shore_row, shore_column, side)))
     # The lowest ground of a square without cells right at the water is that of the bank.
     near = np.isin(known, squares[away[rows, columns] <= 1])
     return Shore(places[near], lowest[near], rises[near], heights, share, side)

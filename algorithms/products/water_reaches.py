@@ -101,8 +101,8 @@ def reaches_of(water: np.ndarray, longest: float) -> Reaches:
     cells = np.pad(water, ((0, rows - water.shape[0]), (0, columns - water.shape[1])))
     cells = cells.reshape(rows // group, group, columns // group, group).max(axis=(1, 3))
     deep = distance_transform_edt(np.pad(cells, 1))[1:-1, 1:-1][cells]
-    one, other, length = _neighbours(cells)
-    graph = _matrix(one, other, length, len(deep))
+    one, other, apart = _neighbours(cells)
+    graph = _matrix(one, other, apart, len(deep))
     end = _farthest(graph, _farthest(graph, 0))
     away = dijkstra(graph, directed=False, indices=end)
     away[~np.isfinite(away)] = 0.0
