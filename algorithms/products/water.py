@@ -150,31 +150,54 @@ def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list
     Cancelled
         If the user asked to stop.
     """
-    usual = grid.usual()
+    usual, outside = grid.usual(), ~surveyed(grid.counts > 0)
+    covered = np.zeros(grid.shape, dtype=bool)
     found: list[WaterBody] = []
-    for region in _regions(grid, how, progress):
-        bodies = list(_bodies_of(region, grid, usual, how))
-        # What is no water as a whole can be so without what no point shows.
-        for unseen in (region.outside, region.below, region.outside | region.below):
-            if bodies or not unseen.any():
+    # Level surfaces full of returns are water only where there is none by its voids and shore.
+    for number in range(2):
+        level = np.zeros(grid.shape, dtype=bool)
+        if number:
+            level = level_surfaces(grid, outside, how.min_area / grid.cell**2) & ~covered
+            if not level.any():
+                break
+        part = progress.part(number / 2.0, (number + 1) / 2.0)
+        for region in _regions(grid, how, outside, level, covered, part):
+            if number and not region.level.any():
                 continue
-            seen = _without_links(region.water & ~unseen)
-            for part in _labelled(seen, how.min_area / grid.cell**2):
-                alone = region._replace(
-                    water=part, below=region.below & part, outside=region.outside & part
-                )
-                bodies += _bodies_of(alone, grid, usual, how)
-        found += bodies
+            bodies = _water_of(region, grid, usual, how)
+            if bodies:
+                covered[region.rows, region.columns] |= region.water
+            found += bodies
     return sorted(found, key=lambda each: (-each.rings[0][:, 1].max(), each.rings[0][:, 0].min()))
 
 
-def _regions(grid: WaterGrid, how: Water, progress: Progress) -> Iterator[_Region]:
-    """Yield the connected regions that are large enough."""
+def _water_of(region: _Region, grid: WaterGrid, usual: np.ndarray, how: Water) -> list[WaterBody]:
+    """Return the water of a region, perhaps without what no point shows."""
+    bodies = list(_bodies_of(region, grid, usual, how))
+    for unseen in (region.outside, region.below, region.outside | region.below):
+        if bodies or not unseen.any():
+            continue
+        seen = _without_links(region.water & ~unseen)
+        for part in _labelled(seen, how.min_area / grid.cell**2):
+            alone = region._replace(
+                water=part, below=region.below & part, outside=region.outside & part
+            )
+            bodies += _bodies_of(alone, grid, usual, how)
+    return bodies
+
+
+def _regions(
+    grid: WaterGrid,
+    how: Water,
+    outside: np.ndarray,
+    level: np.ndarray,
+    covered: np.ndarray,
+    progress: Progress,
+) -> Iterator[_Region]:
+    """Yield the connected regions that are large enough, without those that are covered."""
     from scipy.ndimage import find_objects, label
 
-    outside = ~surveyed(grid.counts > 0)
-    level = level_surfaces(grid, outside, how.min_area / grid.cell**2)
-    cells = _without_links(closing(grid.candidates() | level, _CLOSE))
+    cells = _without_links(closing(grid.candidates() | level, _CLOSE) & ~covered)
     below = below_decks(cells, grid)
     cells |= below
     labels, _ = label(cells)
