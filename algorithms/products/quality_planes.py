@@ -99,19 +99,19 @@ def _sums_at(sums: Sums, size: float, window: int, places: np.ndarray) -> Iterat
 
 def _gathered(sums: Sums, size: float, window: int, places: np.ndarray) -> np.ndarray:
     """Return the sums over the squares round some cells, shape (9, k)."""
+    rows, columns = sums.number.shape
     side = 2 * window + 1
-    padded = Sums(*(np.pad(each, window) for each in sums))
-    columns = sums.number.shape[1]
     row, column = np.divmod(places, columns)
-    down, right = np.divmod(np.arange(side * side), side)
-    steps = down * (columns + 2 * window) + right
+    down, right = np.divmod(np.arange(side * side), side) - np.full((2, 1), window)
     found = np.empty((9, len(places)))
     step = max(_GATHERED // (side * side), 1)
     for start in range(0, len(places), step):
         part = slice(start, start + step)
-        corner = row[part] * (columns + 2 * window) + column[part]
-        n, x, y, z = (each.ravel()[corner[:, None] + steps] for each in padded)
-        x, y = x + (right - window) * size, y + (down - window) * size
+        there = row[part, None] + down, column[part, None] + right
+        inside = (there[0] >= 0) & (there[0] < rows) & (there[1] >= 0) & (there[1] < columns)
+        there = np.clip(there[0], 0, rows - 1), np.clip(there[1], 0, columns - 1)
+        n, x, y, z = (each[there] for each in sums)
+        n, x, y = n * inside, x + right * size, y + down * size
         products = (1.0, x, y, z, x * x, x * y, y * y, x * z, y * z)
         found[:, part] = [(n * each).sum(axis=1) for each in products]
     return found
