@@ -22,7 +22,7 @@ from .water_bridges import below_decks, beside_decks
 from .water_extent import surveyed
 from .water_grid import WaterGrid
 from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
-from .water_steps import parts_of_step
+from .water_steps import STEP, parts_of_step
 from .water_surfaces import level_surfaces
 
 # Radius in cells of the disc that closes single stray cells, and of that which cuts thin links.
@@ -298,6 +298,10 @@ def _parts_of(
     kind, levels = _levels_of(region.water, marks.shore, surface, most)
     if kind == "river":
         parts = parts_of_step(region.water, levels, grid.ground[region.rows, region.columns])
+        if len(parts) == 1:
+            # The water goes round a step, where its level is that of neither side.
+            levels = levels._replace(misfit=max(levels.misfit, STEP))
+            parts = []
         bodies: list[WaterBody] = []
         for cells, other in parts:
             if np.count_nonzero(cells) * grid.cell**2 >= _LEAST_PART * how.min_area:

@@ -13,7 +13,7 @@ from .water_reaches import Reaches
 # A step is at least so high in metres, within so many reaches, and so many times what the water
 # falls in as many of the reaches on either side of it. So many reaches count there, at least so
 # many.
-_STEP, _WITHIN, _STEEPER, _BESIDE, _LEVEL_REACHES = 0.4, 3, 4.0, 4, 1
+STEP, _WITHIN, _STEEPER, _BESIDE, _LEVEL_REACHES = 0.4, 3, 4.0, 4, 1
 # Metres that a drop counts less for each reach over which it goes.
 _BLURRED = 0.1
 # The parts are so many cells from where the land says that the step is; cells of the banks.
@@ -48,6 +48,8 @@ def parts_of_step(
 ) -> list[tuple[np.ndarray, np.ndarray]]:
     """Return what a region falls into at its highest step, or nothing if it has none.
 
+    One part is returned where the water goes round the step.
+
     Parameters
     ----------
     water : numpy.ndarray of bool, shape (rows, columns)
@@ -73,7 +75,7 @@ def parts_of_step(
     # Only side by side: a corner is no passage for a gap that is one cell wide.
     labels, count = label(water & ~gap)
     if count < 2:
-        return []
+        return [(water, np.zeros_like(water))]
     parts = [labels == number for number in range(1, count + 1)]
     return [(part, dilation(water & ~part, _HIDDEN)) for part in parts]
 
@@ -87,7 +89,7 @@ def _highest(levels: Levels, chain: np.ndarray) -> _Step | None:
             drop, length = float(heights[reach] - heights[end]), end - reach
             beside = (_slope(heights[reach::-1]), _slope(heights[end:]))
             usual = max(beside) * length
-            if drop >= max(_STEP, _STEEPER * usual):
+            if drop >= max(STEP, _STEEPER * usual):
                 before, after = chain[max(reach - 2, 0) : reach + 1], chain[end : end + 3]
                 middle = float(heights[reach] + heights[end]) / 2.0
                 found.append(_Step(before, after, length, middle, drop))

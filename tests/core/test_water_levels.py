@@ -225,6 +225,15 @@ def test_a_step_parts_the_water(name):
         assert body.grade == "certain" and np.percentile(channels.off(body), 90) < 0.15
 
 
+def test_water_that_goes_round_a_weir_is_not_certain():
+    """No cut parts it, so that near the weir the level is that of neither side."""
+    past = [(180, 120, 100.95), (300, 200, 100.3), (420, 120, 99.65)]
+    weir = [(10, 120, 101.0), (300, 120, 100.9), (300.01, 120, 99.7), (590, 120, 99.5)]
+    channels = Channels([(weir, 20), (past, 14)])
+    (body,) = channels.water((600, 240))
+    assert body.grade == "likely" and channels.off(body).max() > 0.3
+
+
 def test_rapids_and_steep_creeks_are_no_steps():
     for levels in ((102.3, 102.2, 100.2, 100.1), (104.0, 103.1, 102.8, 101.5)):
         corners = zip((10, 250, 330, 590), (60,) * 4, levels)
