@@ -19,25 +19,8 @@ _CHUNK = 1 << 20
 def below_ground(
     points: Points, ground: np.ndarray, depth: float, progress: Progress = SILENT
 ) -> np.ndarray:
-    """Return which points lie far below the surface of the ground.
-
-    The surface is that of the lowest ground points of cells of 1 m, with gaps filled smoothly.
-
-    Parameters
-    ----------
-    points : Points
-        All points.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which of them are ground; these are never below it.
-    depth : float
-        Metres below the surface in level terrain; the rise of the surface over a cell is added.
-    progress : Progress
-        Receives progress.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
-        All False where there is no ground.
+    """Return which points (n,), never ground, lie so many metres, and the rise over a cell, below
+    the lowest ground points of cells of 1 m; none where there is no ground.
     """
     below = np.zeros(points.count, dtype=bool)
     if not ground.any():

@@ -50,27 +50,16 @@ CLASSIC = "paper"
 
 
 class Preset(NamedTuple):
-    """The values of a preset.
+    """The values of a preset."""
 
-    Attributes
-    ----------
-    label : str
-        As in the dialog.
-    cell_size : float
-        Least cell size in metres. It grows where points are sparse, except in the paper's preset.
-    height_thresholds : tuple of float
-        In metres.
-    final_height, max_object_size : float
-        In metres.
-    ground_tolerance, slope_tolerance : float
-        In metres, and as a share of the rise.
-    """
-
-    label: str
+    label: str  # as in the dialog
+    # Least cell size in metres. It grows where points are sparse, except in the paper's preset.
     cell_size: float
-    height_thresholds: tuple[float, ...]
+    height_thresholds: tuple[float, ...]  # in metres
+    # In metres.
     final_height: float
     max_object_size: float
+    # In metres, and as a share of the rise.
     ground_tolerance: float = 0.18
     slope_tolerance: float = 1.4
 
@@ -217,14 +206,9 @@ def reach(parameters: GridMinimum) -> float:
 
 
 def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pipeline:
-    """Return the rules for some points, and tell which values were chosen.
-
-    First noise is removed from the grid of lowest points. Then objects are removed, the tall ones
-    first, and last the rims that are left. Removed cells grow back if they are level with the
-    ground beside them. Openings find objects without a rim on all sides, and regions that continue
-    gently into the ground come back. Every point close to the surface through the remaining lowest
-    points is ground.
-    """
+    """Return the rules for some points, and tell which values were chosen."""
+    # Objects are removed from the grid of lowest points, the tall ones first, and last the rims
+    # that are left; removed cells grow back if they are level with the ground beside them.
     cells = _counting_cells(points, parameters)
     resolved = parameters._resolved(cells)
     if resolved != parameters:

@@ -18,108 +18,57 @@ _USUAL_OBJECT = 50.0
 
 
 class Found(NamedTuple):
-    """What a method finds.
+    """What a method finds."""
 
-    Attributes
-    ----------
-    ground : numpy.ndarray of bool, shape (n,)
-        Which points are ground.
-    low : numpy.ndarray of bool, shape (n,), or None
-        Which points were left out as low outliers; None for none.
-    decided : Decisions or None
-        Which rule decided the cell of each point, if that was asked for.
-    """
-
-    ground: np.ndarray
+    ground: np.ndarray  # bool (n,): Which points are ground
+    # bool (n,) or None: Which points were left out as low outliers; None for none.
     low: np.ndarray | None
+    # Which rule decided the cell of each point, if that was asked for.
     decided: Decisions | None = None
 
 
 class Decisions(NamedTuple):
-    """Which rule decided the cell of each point.
+    """Which rule decided the cell of each point."""
 
-    Attributes
-    ----------
-    codes : numpy.ndarray of uint8, shape (n,)
-        Number of the rule, from 1; `NOT_GROUND` is added where the cell is not ground. 0 if no rule
-        works on cells.
-    size : float
-        Side of a cell in metres.
-    rules : tuple of str
-        Names of the rules; the first has number 1.
-    """
-
+    # uint8 (n,): Number of the rule, from 1; `NOT_GROUND` is added where the cell is not ground. 0
+    # if no rule works on cells.
     codes: np.ndarray
-    size: float
-    rules: tuple[str, ...]
+    size: float  # side of a cell in metres
+    rules: tuple[str, ...]  # names of the rules; the first has number 1
 
 
 class Toolbox(NamedTuple):
-    """A ground filter in the toolbox of QGIS.
+    """A ground filter in the toolbox of QGIS."""
 
-    Attributes
-    ----------
-    identifier : str
-        Second half of the id; it never changes.
-    title, summary : str
-        Name and tooltip.
-    about : str
-        First paragraphs of the help.
-    page : str
-        Its page in the folder docs.
-    words : tuple of str
-        Search words, separated by commas; each text is translated as a whole.
-    """
-
-    identifier: str
+    identifier: str  # second half of the id; it never changes
+    # Name and tooltip.
     title: str
     summary: str
-    about: str
-    page: str
-    words: tuple[str, ...]
+    about: str  # first paragraphs of the help
+    page: str  # its page in the folder docs
+    words: tuple[str, ...]  # search words, separated by commas; each text is translated as a whole
 
 
 class Method(NamedTuple):
-    """One ground filter.
+    """One ground filter."""
 
-    Attributes
-    ----------
-    name : str
-        As on the command line.
-    label : str
-        As in the toolbox.
-    parameters : type
-        Its `ParameterSet`. It has a field `preset` with a choice ``automatic``.
-    pipeline : callable
-        ``pipeline(points, parameters, progress)`` returns the rules for some points, and tells the
-        progress which values were chosen.
-    reach : callable
-        ``reach(parameters)``, the distance in metres within which points affect each other.
-    largest_object : callable
-        ``largest_object(parameters)``, the width in metres of the largest object that is searched.
-    size_parameter : str
-        Name of the parameter with this width.
-    classic : str
-        The preset that does the same as the original program or paper, without additions.
-    presets : mapping of str to dataclass or NamedTuple
-        The values of each preset that has some, for the help.
-    toolbox : Toolbox
-        Its texts in the toolbox.
-    takes_known_ground : bool
-        Whether the pipeline starts from points of known ground.
-    """
-
-    name: str
-    label: str
+    name: str  # as on the command line
+    label: str  # as in the toolbox
+    # Its `ParameterSet`. It has a field `preset` with a choice ``automatic``.
     parameters: type[ParameterSet]
+    # ``pipeline(points, parameters, progress)`` returns the rules for some points, and tells the
+    # progress which values were chosen.
     pipeline: Callable[..., Pipeline]
+    # ``reach(parameters)``, the distance in metres within which points affect each other.
     reach: Callable[..., float]
+    # ``largest_object(parameters)``, the width in metres of the largest object that is searched.
     largest_object: Callable[..., float]
-    size_parameter: str
+    size_parameter: str  # name of the parameter with this width
+    # The preset that does the same as the original program or paper, without additions.
     classic: str
-    presets: Mapping[str, Any]
-    toolbox: Toolbox
-    takes_known_ground: bool = False
+    presets: Mapping[str, Any]  # the values of each preset that has some, for the help
+    toolbox: Toolbox  # its texts in the toolbox
+    takes_known_ground: bool = False  # whether the pipeline starts from points of known ground
 
     def ground(
         self,
@@ -130,22 +79,8 @@ class Method(NamedTuple):
         multi_return: np.ndarray | None = None,
         explains: bool = False,
     ) -> Found:
-        """Return which points are ground. Low noise is left out, except by a classic preset.
-
-        Parameters
-        ----------
-        points : Points
-            All points that take part.
-        parameters : ParameterSet
-            Parameters of the method.
-        progress : Progress
-            Receives progress and messages.
-        known : numpy.ndarray of bool, shape (n,), optional
-            Points that are known to be ground.
-        multi_return : numpy.ndarray of bool, shape (n,), optional
-            Points of pulses with several returns, as they are many under trees.
-        explains : bool
-            Whether to tell which rule decided.
+        """Return which points are ground, without low noise (except by a classic preset), given
+        known ground and points of pulses with several returns.
         """
         pipeline = self.pipeline(points, parameters, progress)
         state = pipeline.run(points, progress, known, multi_return, explains)
@@ -170,9 +105,8 @@ class Method(NamedTuple):
         return vars(parameters)["preset"] == self.classic
 
     def largest(self, parameters: ParameterSet) -> tuple[float, str]:
-        """Return the width in metres of the largest expected object, and the parameter's name.
-
-        If the user gave no width, it is a usual one: wider objects are searched, but rare.
+        """Return the width in metres of the largest expected object, a usual one if the user gave
+        none, and the parameter's name.
         """
         labels = {each.name: each.label for each in parameters.declarations()}
         size = self.largest_object(parameters)

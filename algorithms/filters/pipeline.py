@@ -39,20 +39,13 @@ class Stage(Enum):
 
 @dataclass(frozen=True)
 class Rule:
-    """One rule of a filter: named values, and what it does with them.
+    """One rule of a filter: named values, and what it does with them."""
 
-    A rule can have other rules as fields: its exceptions, for example. If such a field is None, the
-    rule works without it.
+    # A rule can have other rules as fields: its exceptions, for example. If such a field is None,
+    # the rule works without it.
 
-    Attributes
-    ----------
-    stage : Stage
-        When the rule is applied.
-    reads, writes : tuple of str
-        Fields of the state that the rule uses and changes.
-    """
-
-    stage: ClassVar[Stage]
+    stage: ClassVar[Stage]  # when the rule is applied
+    # Fields of the state that the rule uses and changes.
     reads: ClassVar[tuple[str, ...]] = ()
     writes: ClassVar[tuple[str, ...]] = ()
     name: ClassVar[str]
@@ -90,7 +83,9 @@ class PointRule(Rule):
 
 @dataclass(frozen=True)
 class GridRule(Rule):
-    """A rule for the cells of a grid. If there are several grids, it is applied to each of them."""
+    """A rule for the cells of a grid."""
+
+    # If there are several grids, it is applied to each of them.
 
     def apply(self, grid: GridState, progress: Progress) -> None:
         """Change the state of one grid by this rule."""
@@ -99,15 +94,9 @@ class GridRule(Rule):
 
 @dataclass(frozen=True)
 class Pipeline:
-    """The rules of a ground filter, in the order of their stages.
+    """The rules of a ground filter, in the order of their stages."""
 
-    Attributes
-    ----------
-    rules : tuple of Rule
-        Applied one after another.
-    """
-
-    rules: tuple[Rule, ...]
+    rules: tuple[Rule, ...]  # applied one after another
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -115,13 +104,7 @@ class Pipeline:
         return tuple(dict.fromkeys(part.name for rule in self.rules for part in rule.parts()))
 
     def without(self, *names: str) -> Pipeline:
-        """Return a pipeline without the rules of these names.
-
-        Raises
-        ------
-        ValueError
-            If there is no rule with such a name.
-        """
+        """Return a pipeline without the rules of these names."""
         unknown = set(names) - set(self.names)
         if unknown:
             raise ValueError(f"No rule is called {', '.join(sorted(unknown))}.")
@@ -143,27 +126,8 @@ class Pipeline:
         multi_return: np.ndarray | None = None,
         explains: bool = False,
     ) -> State:
-        """Return what the rules find out about the points.
-
-        Parameters
-        ----------
-        points : Points
-            All points that take part.
-        progress : Progress
-            Receives progress and messages.
-        known_ground : numpy.ndarray of bool, shape (n,), optional
-            Points of known ground.
-        multi_return : numpy.ndarray of bool, shape (n,), optional
-            Points of pulses with several returns.
-        explains : bool
-            Whether to note which rule decided each cell (`State.decided`).
-
-        Raises
-        ------
-        BareEarthError
-            If the points spread too far for a grid, or no ground is found.
-        Cancelled
-            If the user asked to stop.
+        """Return what the rules find out about the points (`explains`: and which decided each
+        cell); BareEarthError if they spread too far for a grid or hold no ground.
         """
         state = State(points, progress, known_ground, multi_return)
         outliers = [n for n, rule in enumerate(self.rules) if rule.stage is Stage.OUTLIERS]

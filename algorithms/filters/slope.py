@@ -47,24 +47,14 @@ _WIDEST = 2.0
 
 
 class ManyScales(NamedTuple):
-    """The values of a preset that compares on many scales.
+    """The values of a preset that compares on many scales."""
 
-    Attributes
-    ----------
-    search_radius : float
-        Least search radius in metres.
-    slope_threshold : float
-        In degrees.
-    height_threshold, max_building_size : float
-        In metres.
-    cell_size : float
-        Least cell size in metres. It grows where points are sparse.
-    """
-
-    search_radius: float
-    slope_threshold: float
+    search_radius: float  # least search radius in metres
+    slope_threshold: float  # in degrees
+    # In metres.
     height_threshold: float
     max_building_size: float
+    # Least cell size in metres. It grows where points are sparse.
     cell_size: float = 1.0
 
 
@@ -253,12 +243,9 @@ def reach(parameters: SlopeFilter) -> float:
 
 
 def pipeline(points: Points, parameters: SlopeFilter, progress: Progress) -> Pipeline:
-    """Return the rules for some points, and tell which values were chosen.
-
-    A point is not ground if it stands above a neighbour by at least the height threshold and at a
-    slope above the slope threshold (Vosselman 2000, section 2). The preset of Whitebox compares
-    points on one scale, all others lowest points of cells on many scales.
-    """
+    """Return the rules for some points, and tell which values were chosen."""
+    # A point is not ground if it stands above a neighbour by at least the height threshold and at a
+    # slope above the slope threshold (Vosselman 2000, section 2).
     resolved = parameters.resolve(points)
     if resolved != parameters:
         progress.choice(_in_words(resolved))

@@ -64,12 +64,9 @@ class SmrfValues(ParameterSet):
     )
 
     def as_tin(self) -> TinDensification:
-        """Return the parameters of TIN densification that do about the same.
-
-        The window becomes the width of the largest object. The other values have no equal here, so
-        only their ratio to the default of OpenDroneMap counts: the parameter that acts alike gets
-        the value of the preset times this ratio, up to its limit.
-        """
+        """Return the parameters of TIN densification that do about the same."""
+        # Only the window has an equal. Of others, the ratio to OpenDroneMap's default counts: the
+        # parameter that acts alike gets the value of the preset times this ratio, up to its limit.
         usual, ours = SmrfValues(), TinDensification()
         angle = PRESETS[self.preset].iteration_angle * self.slope / usual.slope
         above, below = (

@@ -23,61 +23,31 @@ _GAP = 4
 
 @dataclass(frozen=True)
 class RuleTime:
-    """How long a rule took.
+    """How long a rule took."""
 
-    Attributes
-    ----------
-    stage, name : str
-        Names of the stage and of the rule.
-    seconds : float
-        Wall-clock time.
-    """
-
+    # Names of the stage and of the rule.
     stage: str
     name: str
-    seconds: float
+    seconds: float  # wall-clock time
 
 
 @dataclass
 class GridState:
-    """The lowest points of a grid of cells, and what is known of the cells.
+    """The lowest points of a grid of cells, and what is known of the cells."""
 
-    Attributes
-    ----------
-    points : Points
-        The points that take part.
-    spacing : float
-        Usual distance between points in metres.
-    cells : Cells
-        The cells.
-    shift : float
-        Metres by which the cells begin farther west and south.
-    lowest : numpy.ndarray of intp, shape (occupied,)
-        The lowest point of each occupied cell.
-    heights : HeightGrid
-        Heights of the lowest points, without low outliers.
-    woods : numpy.ndarray of bool, shape (rows, columns)
-        Cells under trees.
-    raised : numpy.ndarray of bool, shape (rows, columns)
-        Cells that stand out of the ground, so far.
-    objects, plateaus : numpy.ndarray of bool, shape (rows, columns)
-        Cells of objects with drops all round; and of regions that are too low for their width to be
-        objects for certain.
-    from_images : bool
-        As in `State`.
-    """
-
-    points: Points
-    spacing: float
-    cells: Cells
-    shift: float
-    lowest: np.ndarray
-    heights: HeightGrid
-    woods: np.ndarray
-    raised: np.ndarray
+    points: Points  # the points that take part
+    spacing: float  # usual distance between points in metres
+    cells: Cells  # the cells
+    shift: float  # metres by which the cells begin farther west and south
+    lowest: np.ndarray  # intp (occupied,): The lowest point of each occupied cell
+    heights: HeightGrid  # heights of the lowest points, without low outliers
+    woods: np.ndarray  # bool (rows, columns): Cells under trees
+    raised: np.ndarray  # bool (rows, columns): Cells that stand out of the ground, so far
+    # bool (rows, columns): Cells of objects with drops all round; and of regions that are too low
+    # for their width to be objects for certain.
     objects: np.ndarray
     plateaus: np.ndarray
-    from_images: bool = False
+    from_images: bool = False  # as in `State`
 
     @classmethod
     def of(cls, points: Points, spacing: float, size: float, shift: float = 0.0) -> GridState:
@@ -107,9 +77,8 @@ class GridState:
 
     @cached_property
     def filled(self) -> np.ndarray:
-        """Heights as float32, with gaps filled smoothly; beyond the survey those of its border.
-
-        Otherwise the filling would make a roof at the border wider than it is.
+        """Heights as float32, gaps filled smoothly, but beyond the survey those of its border, so
+        that a roof there gets no wider.
         """
         from scipy import ndimage
 
@@ -149,48 +118,30 @@ class GridState:
 
 @dataclass
 class State:
-    """What the rules of a pipeline have found out.
+    """What the rules of a pipeline have found out."""
 
-    Attributes
-    ----------
-    points : Points
-        The points that take part; low noise is infinitely high.
-    progress : Progress
-        Receives progress and messages of the rule that is applied.
-    known_ground : numpy.ndarray of bool, or None
-        Which points are known to be ground.
-    multi_return : numpy.ndarray of bool, shape (n,), or None
-        Which points are of pulses with several returns.
-    low_noise : numpy.ndarray of bool, shape (n,), or None
-        Points that are left out as low noise; None for none.
-    grids : list of GridState
-        One or two grids of lowest points.
-    seeds, waiting : numpy.ndarray of intp
-        Indices of the points that are taken for ground, and of others that may join them.
-    rise : numpy.ndarray of float, shape (rows, columns), or None
-        How much the mean surface of the seeds rises over a cell, in metres.
-    limits : numpy.ndarray of float64, shape (rows, columns, 2)
-        Lowest and highest height of ground points on the cells of the first grid.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which of `points` are ground.
-    times : list of RuleTime
-        How long each rule took.
-    decided : numpy.ndarray of int16, shape (rows, columns), or None
-        Number of the rule that decided each cell of the first grid; negative if it is not ground.
-    """
-
-    points: Points
-    progress: Progress
-    known_ground: np.ndarray | None = None
+    points: Points  # the points that take part; low noise is infinitely high
+    progress: Progress  # receives progress and messages of the rule that is applied
+    known_ground: np.ndarray | None = None  # bool or None: Which points are known to be ground
+    # bool (n,) or None: Which points are of pulses with several returns.
     multi_return: np.ndarray | None = None
+    # bool (n,) or None: Points that are left out as low noise; None for none.
     low_noise: np.ndarray | None = None
-    grids: list[GridState] = field(default_factory=list)
+    grids: list[GridState] = field(default_factory=list)  # one or two grids of lowest points
+    # intp: Indices of the points that are taken for ground, and of others that may join them.
     seeds: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.intp))
     waiting: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.intp))
+    # float (rows, columns) or None: How much the mean surface of the seeds rises over a cell, in
+    # metres.
     rise: np.ndarray | None = None
+    # float64 (rows, columns, 2): Lowest and highest height of ground points on the cells of the
+    # first grid.
     limits: np.ndarray = field(default_factory=lambda: np.empty((0, 0, 2)))
+    # bool (n,): Which of `points` are ground.
     ground: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=bool))
-    times: list[RuleTime] = field(default_factory=list)
+    times: list[RuleTime] = field(default_factory=list)  # how long each rule took
+    # int16 (rows, columns) or None: Number of the rule that decided each cell of the first grid;
+    # negative if it is not ground.
     decided: np.ndarray | None = None
     _was_ground: np.ndarray | None = None
     _noted: Cells | None = None
@@ -227,9 +178,8 @@ class State:
         in_threads(lambda grid: grid.take_again(self.points, which), self.grids)
 
     def codes(self, not_ground: int) -> tuple[np.ndarray, float]:
-        """Return the number of the rule that decided the cell of each point, and the cell size.
-
-        `not_ground` is added where the cell is not ground.
+        """Return the number of the rule that decided the cell of each point, plus `not_ground`
+        where that is not ground, and the cell size.
         """
         if self.decided is None:
             return np.zeros(self.points.count, dtype=np.uint8), 1.0

@@ -244,13 +244,10 @@ def reach(parameters: TinDensification) -> float:
 
 
 def pipeline(points: Points, parameters: TinDensification, progress: Progress) -> Pipeline:
-    """Return the rules for some points, and tell which values were chosen.
-
-    The cells that morphology takes for ground give the seeds of a TIN (after Zhao et al. 2016,
-    section 2). In rounds, each triangle takes the candidate nearest to it if distance and angle
-    allow it (Axelsson 2000, section 3). Last, every point close to the surface through all vertices
-    is ground.
-    """
+    """Return the rules for some points, and tell which values were chosen."""
+    # The cells that morphology takes for ground give the seeds of a TIN (Zhao et al. 2016, section
+    # 2). In rounds, each triangle takes the candidate nearest to it if distance and angle allow it
+    # (Axelsson 2000, section 3).
     resolved = parameters.resolve(points)
     if parameters.preset == CLASSIC:
         if resolved != parameters:

@@ -23,20 +23,8 @@ _MOST_OUTLIERS, _LEAST_CELLS = 0.02, 500
 
 
 def warn_of_extent(points: Points, largest: float, name: str, progress: Progress) -> None:
-    """Warn if the survey is no wider than the largest expected object.
-
-    A building that is as wide as the survey has no ground on two sides of it.
-
-    Parameters
-    ----------
-    points : Points
-        All points that the filter sees.
-    largest : float
-        Width of that object in metres.
-    name : str
-        Name of the parameter with this width.
-    progress : Progress
-        Receives the warning.
+    """Warn if the survey is no wider than the largest expected object, in metres: it has no ground
+    on two sides of that; `name` is that of its parameter.
     """
     if min(points.sides) < largest:
         progress.warning(
@@ -48,15 +36,7 @@ def warn_of_extent(points: Points, largest: float, name: str, progress: Progress
 
 
 def warn_of_little_ground(points: Points, ground: np.ndarray, progress: Progress) -> None:
-    """Warn if hardly any of the cells with points have ground.
-
-    Parameters
-    ----------
-    ground : numpy.ndarray of bool, shape (n,)
-        Which points the filter took for ground.
-    points, progress
-        As for `warn_of_extent`.
-    """
+    """Warn if hardly any of the cells with points have ground."""
     if np.count_nonzero(ground) >= _SURELY_ENOUGH * points.count:
         return
     cells = Cells.over(points, _CELL)
@@ -70,16 +50,8 @@ def warn_of_little_ground(points: Points, ground: np.ndarray, progress: Progress
 
 
 def warn_of_outliers(count: int, left: np.ndarray, progress: Progress) -> None:
-    """Warn if many of the lowest points are taken for low outliers.
-
-    Parameters
-    ----------
-    count : int
-        Number of cells with a point.
-    left : numpy.ndarray of float, shape (rows, columns)
-        Lowest height of each cell; NaN for outliers and in empty cells.
-    progress : Progress
-        Receives the warning.
+    """Warn if many of the lowest points, so many in all, are taken for low outliers, which are NaN
+    in `left`.
     """
     taken = count - np.count_nonzero(np.isfinite(left))
     if count >= _LEAST_CELLS and taken > _MOST_OUTLIERS * count:

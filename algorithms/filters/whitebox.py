@@ -36,30 +36,18 @@ _PAIRS_A_STEP, _GROWN_A_STEP = 2_000_000, 20_000
 
 @dataclass(frozen=True)
 class StandsAbove(PointRule):
-    """A point is ground unless it stands far above a neighbour, on one scale.
-
-    Attributes
-    ----------
-    radius : float
-        Search radius in metres.
-    slope : float
-        Slope threshold in degrees.
-    height : float
-        Height threshold in metres.
-    top_hat : bool
-        Whether heights above a surface that follows the terrain are compared (white top-hat).
-    min_neighbours : int
-        The radius of a point with fewer neighbours grows until it has so many.
-    """
+    """A point is ground unless it stands far above a neighbour, on one scale."""
 
     stage: ClassVar = Stage.ACCEPTED
     reads: ClassVar = ("points",)
     writes: ClassVar = ("ground",)
 
-    radius: float
-    slope: float
-    height: float
+    radius: float  # search radius in metres
+    slope: float  # slope threshold in degrees
+    height: float  # height threshold in metres
+    # Whether heights above a surface that follows the terrain are compared (white top-hat).
     top_hat: bool = True
+    # The radius of a point with fewer neighbours grows until it has so many.
     min_neighbours: int = 0
 
     def apply(self, state: State) -> None:
@@ -71,24 +59,14 @@ class StandsAbove(PointRule):
 
 
 class Neighbours(NamedTuple):
-    """When a point stands far above a neighbour.
+    """When a point stands far above a neighbour."""
 
-    Attributes
-    ----------
-    radius : float
-        Metres; points at exactly this distance are neighbours.
-    height : float
-        Least difference in height in metres.
-    slope : float
-        The rise over run must be more than this. The same neighbour must meet height and slope.
-    top_hat : bool
-        Whether heights above the opening are compared (white top-hat). The opening is the highest
-        erosion among the neighbours.
-    """
-
-    radius: float
-    height: float
+    radius: float  # metres; points at exactly this distance are neighbours
+    height: float  # least difference in height in metres
+    # The rise over run must be more than this. The same neighbour must meet height and slope.
     slope: float
+    # Whether heights above the opening are compared (white top-hat). The opening is the highest
+    # erosion among the neighbours.
     top_hat: bool
 
     def is_broken(self, rise: np.ndarray, distance: np.ndarray | float) -> np.ndarray:
@@ -99,28 +77,8 @@ class Neighbours(NamedTuple):
 def stands_above(
     points: Points, rule: Neighbours, at_least: int = 0, progress: Progress = SILENT
 ) -> np.ndarray:
-    """Return which points stand far above one of their neighbours.
-
-    Parameters
-    ----------
-    points : Points
-        All points.
-    rule : Neighbours
-        When a point stands far above a neighbour.
-    at_least : int
-        A point with fewer neighbours is compared with so many nearest points, and with those that
-        are as near as the last of them.
-    progress : Progress
-        Receives progress.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
-
-    Raises
-    ------
-    BareEarthError
-        If the points spread too far for a grid.
+    """Return which points (n,) stand far above a neighbour; one with fewer than `at_least`
+    neighbours is compared with its so many nearest, and those as near as the last of them.
     """
     neighbourhood, heights = _Neighbourhood(points, rule.radius, at_least), points.z
     if rule.top_hat:
@@ -134,11 +92,10 @@ def stands_above(
 
 
 class _Neighbourhood:
-    """The points within a radius of each point, or its nearest points if those are too few.
+    """The points within a radius of each point, or its nearest points if those are too few."""
 
-    If a point has fewer than `at_least` other points within the radius, the radius of this point
-    grows until it has so many. Strips (from south to north) bound the memory.
-    """
+    # If a point has fewer than `at_least` other points within the radius, the radius of this point
+    # grows until it has so many. Strips (from south to north) bound the memory.
 
     def __init__(self, points: Points, radius: float, at_least: int) -> None:
         self._points, self._radius = points, radius
@@ -232,11 +189,10 @@ class _Neighbourhood:
 
 
 class _Strip:
-    """Points in the order of their cells and, within a cell, of their heights.
+    """Points in the order of their cells and, within a cell, of their heights."""
 
-    Results are asked of `count` points from `first` on: `asked` (count,) says which of them each
-    result belongs to. `alive` is called several times a second.
-    """
+    # Results are asked of `count` points from `first` on: `asked` (count,) says which of them each
+    # result belongs to. `alive` is called several times a second.
 
     def __init__(
         self, points: Points, radius: float, first: int, count: int, alive: Callable[[], None]
@@ -297,11 +253,9 @@ class _Strip:
     def _below(
         self, which: np.ndarray, limit: np.ndarray, offsets: np.ndarray, fall: np.ndarray
     ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Yield some of `which` (k,), their neighbours that lie below `limit` (k,), and distances.
-
-        The caller lowers the limit as it learns more. A cell is searched if its lowest point lies
-        below the limit by more than the `fall` of its offset.
-        """
+        """Yield some of `which` (k,), their neighbours below `limit` (k,), and the distances."""
+        # The caller lowers the limit as it learns more. A cell is searched if its lowest point lies
+        # below the limit by more than the `fall` of its offset.
         cell, point = self._cell[which], self._own[which]
         for offset, least in zip(offsets, fall):
             self._alive()

@@ -43,35 +43,21 @@ _RINGS = (0, 1, 2, 4)
 
 
 class Rule(NamedTuple):
-    """How far the ground must lie below an edge.
+    """How far the ground must lie below an edge."""
 
-    Attributes
-    ----------
-    drop, slope : float
-        Metres, and metres for each metre of distance.
-    is_strict : bool
-        Whether no ground may lie on the drop, and none may rise beyond the foot.
-    """
-
+    # Metres, and metres for each metre of distance.
     drop: float
     slope: float
-    is_strict: bool
+    is_strict: bool  # whether no ground may lie on the drop, and none may rise beyond the foot
 
 
 class Sections(NamedTuple):
-    """Cross-sections: cells in a line.
+    """Cross-sections: cells in a line."""
 
-    Attributes
-    ----------
-    start, direction : numpy.ndarray of int, shape (n,)
-        The first cell in the flattened grid, and the number of the direction.
-    steps : numpy.ndarray of int, shape (n,)
-        Number of steps to the last cell.
-    """
-
+    # int (n,): The first cell in the flattened grid, and the number of the direction.
     start: np.ndarray
     direction: np.ndarray
-    steps: np.ndarray
+    steps: np.ndarray  # int (n,): Number of steps to the last cell
 
     @property
     def angles(self) -> np.ndarray:
@@ -96,19 +82,8 @@ class Sections(NamedTuple):
 
 
 def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule: Rule) -> Sections:
-    """Return the cross-sections of smooth surfaces that are raised at both ends.
-
-    Beyond both ends the ground must be lower, and nearly equally low.
-
-    Parameters
-    ----------
-    relief : Relief
-        Heights.
-    within : callable
-        Returns the cells in which a cross-section may begin: boolean, shape (rows, columns). It is
-        not called if there can be none.
-    rule : Rule
-        How much lower the ground must be.
+    """Return the cross-sections of smooth surfaces beyond both ends of which the ground is lower,
+    and nearly equally low; `within` is not called if there can be none.
     """
     start = np.flatnonzero(_edges(relief, rule))
     if len(start):
@@ -145,21 +120,14 @@ def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule
 
 
 class _Compass(NamedTuple):
-    """Steps in each direction, from a cell to the next whose centre is near the line.
+    """Steps in each direction, from a cell to the next whose centre is near the line."""
 
-    Attributes
-    ----------
-    rows, columns, offsets : numpy.ndarray of int, shape (directions, steps)
-        Offset of the cell after each number of steps: in rows, in columns and in the flattened
-        grid.
-    length : numpy.ndarray of float, shape (directions,)
-        Length of a step in metres.
-    """
-
+    # int (directions, steps): Offset of the cell after each number of steps: in rows, in columns
+    # and in the flattened grid.
     rows: np.ndarray
     columns: np.ndarray
     offsets: np.ndarray
-    length: np.ndarray
+    length: np.ndarray  # float (directions,): Length of a step in metres
 
     @classmethod
     def of(cls, relief: Relief) -> _Compass:
@@ -207,9 +175,8 @@ def _edges(relief: Relief, rule: Rule) -> np.ndarray:
 def _feet(
     relief: Relief, compass: _Compass, lines: Sections, rule: Rule
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the height of the foot below the edge where each line begins, and the steps to it.
-
-    The number of steps is 0 where there is no foot.
+    """Return the height of the foot below the edge where each line begins, and the steps to it, 0
+    where there is none.
     """
     heights, is_ground = relief.heights.ravel(), relief.is_ground.ravel()
     foot = np.full(len(lines.start), np.inf, dtype=np.float32)

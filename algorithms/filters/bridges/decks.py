@@ -45,28 +45,14 @@ _NEAR = 0.5
 
 
 def bridge_decks(points: Points, ground: np.ndarray, is_cleared: bool = False) -> np.ndarray:
-    """Return which points lie on decks of bridges.
-
-    A deck is level along short cross-sections. At both ends of these the land drops to ground of
-    nearly one height, without ground on the drop. At both ends of the deck, ground continues at the
-    height of the deck. Ramps, dams and embankments have slopes at their sides, and houses and piers
-    have no ground at their ends: they are no decks.
-
-    Parameters
-    ----------
-    points : Points
-        All points.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which points a filter takes for ground: all of a deck, some of it or nothing.
-    is_cleared : bool
-        Whether the ground is that of a classification, which may have taken decks out of it, with
-        their ends.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
-        Ground and other points on the surface of a deck.
+    """Return which points (n,) lie on decks of bridges, given what a filter takes for ground: all
+    of a deck, some of it or nothing.
     """
+    # A deck is level along short cross-sections. At both ends of these the land drops to ground of
+    # nearly one height, without ground on the drop. At both ends of the deck, ground continues at
+    # the height of the deck. Ramps, dams and embankments have slopes at their sides, and houses and
+    # piers have no ground at their ends. Ground that `is_cleared` is that of a classification,
+    # which may have taken decks out of it, with their ends.
     none = np.zeros(points.count, dtype=bool)
     if not ground.any():
         return none
@@ -81,9 +67,8 @@ def bridge_decks(points: Points, ground: np.ndarray, is_cleared: bool = False) -
 
 
 def _decks(relief: Relief) -> tuple[np.ndarray, np.ndarray]:
-    """Return the cells of decks, and the cells that cross-sections cross.
-
-    Other cells of decks are holes: cars, or points that are seen through gaps.
+    """Return the cells of decks, and the cells that cross-sections cross; others are holes: cars,
+    or points that are seen through gaps.
     """
     from scipy import ndimage
 
@@ -125,12 +110,10 @@ def _joins_ground(relief: Relief) -> np.ndarray:
 
 
 def _is_carried(relief: Relief, row: np.ndarray, column: np.ndarray, sections: Sections) -> bool:
-    """Return whether ground continues at the height of some cells at both of their ends.
-
-    The ends are searched along the greatest extent of the cells and across it: the deck of a wide
-    road over an underpass is shorter than wide. Most of the cross-sections must lie across the
-    deck; along the uneven edge of a terrace they run with it.
-    """
+    """Return whether ground continues at the height of some cells at both of their ends."""
+    # The ends are searched along the greatest extent of the cells and across it: the deck of a wide
+    # road over an underpass is shorter than wide. Most of the cross-sections must lie across the
+    # deck; along the uneven edge of a terrace they run with it.
     _, axes = np.linalg.eigh(np.cov(row, column))
     for up, right in axes.T:
         oblique = np.abs(np.sin(sections.angles - math.atan2(up, right))) >= math.sin(_OBLIQUE)

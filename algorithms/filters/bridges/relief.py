@@ -27,35 +27,22 @@ BORDER = 10.0
 
 
 class Relief(NamedTuple):
-    """Heights on a grid, with a border of unknown cells.
+    """Heights on a grid, with a border of unknown cells."""
 
-    Attributes
-    ----------
-    cell, spacing : float
-        Side of a cell, and the distance between points if that is larger, in metres.
-    border : int
-        Width of the border in cells.
-    parity : int
-        0 or 1. It is added to row and column, so that the same cells are even wherever the grid
-        begins.
-    level : float
-        Metres to add to the heights.
-    heights : numpy.ndarray of float32, shape (rows, columns)
-        Height of the lowest ground point, else of the lowest point; NaN where none is near.
-    is_ground : numpy.ndarray of bool, shape (rows, columns)
-        Whether this is the height of ground.
-    is_cleared : bool
-        Whether decks may have been taken out of the ground before. Then other points have their
-        median height: the lowest ones at the sides of a deck lie below it.
-    """
-
+    # Side of a cell, and the distance between points if that is larger, in metres.
     cell: float
     spacing: float
-    border: int
+    border: int  # width of the border in cells
+    # 0 or 1. It is added to row and column, so that the same cells are even wherever the grid
+    # begins.
     parity: int
-    level: float
+    level: float  # metres to add to the heights
+    # float32 (rows, columns): Height of the lowest ground point, else of the lowest point; NaN
+    # where none is near.
     heights: np.ndarray
-    is_ground: np.ndarray
+    is_ground: np.ndarray  # bool (rows, columns): Whether this is the height of ground
+    # Whether decks may have been taken out of the ground before. Then other points have their
+    # median height: the lowest ones at the sides of a deck lie below it.
     is_cleared: bool = False
 
     @classmethod

@@ -38,19 +38,13 @@ class NearSurface(PointRule):
 
 @dataclass(frozen=True)
 class OnlyKeyPoints(PointRule):
-    """Of the ground, only the points that a terrain model needs are taken.
-
-    Attributes
-    ----------
-    closeness : ModelKeyPoints
-        How close to their TIN all other ground points are.
-    """
+    """Of the ground, only the points that a terrain model needs are taken."""
 
     stage: ClassVar = Stage.ACCEPTED
     reads: ClassVar = ("points", "ground")
     writes: ClassVar = ("ground",)
 
-    closeness: ModelKeyPoints
+    closeness: ModelKeyPoints  # how close to their TIN all other ground points are
 
     def apply(self, state: State) -> None:
         """Accept the key points only."""
@@ -65,27 +59,10 @@ class OnlyKeyPoints(PointRule):
 def near_surface(
     points: Points, cells: Cells, limits: np.ndarray, progress: Progress = SILENT
 ) -> np.ndarray:
-    """Return which points lie between two surfaces, the lower and the upper limit of the ground.
-
-    Both are interpolated bilinearly between the centres of the cells, and level beyond the
-    outermost centres. The extremes of both round a cell decide most points; only the others need
-    the interpolation.
-
-    Parameters
-    ----------
-    points : Points
-        The points over which `cells` were made.
-    cells : Cells
-        The grid.
-    limits : numpy.ndarray of float64, shape (rows, columns, 2)
-        Heights in metres of the lower and of the upper surface.
-    progress : Progress
-        Receives progress.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
+    """Return which points (n,) lie between the lower and the upper of two surfaces (rows, columns,
+    2), in metres, bilinear between the centres of cells and level beyond them.
     """
+    # The extremes of both round a cell decide most points; only the others need the interpolation.
     bounds = _bounds(limits)
     near = np.empty(points.count, dtype=bool)
 
@@ -134,12 +111,11 @@ def _lower(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _bounds(limits: np.ndarray) -> np.ndarray:
-    """Return the extremes of two surfaces round each cell, float32, shape (cells, 4).
-
-    They are the lowest and the highest height of the lower surface, then of the upper surface.
-    Points between the second and the third lie between the surfaces, and points outside the first
-    and the fourth do not. Other points are in doubt.
+    """Return the lowest and the highest height of the lower, then of the upper surface round each
+    cell, float32 (cells, 4).
     """
+    # Points between the second and the third lie between the surfaces, points outside the first and
+    # the fourth do not, and others are in doubt.
     rows, columns, _ = limits.shape
     bounds = np.empty((rows * columns, 4), dtype=np.float32)
 

@@ -22,46 +22,29 @@ _LEAST_HEIGHTS = 6
 
 @dataclass(frozen=True)
 class BelowWater(PointRule):
-    """Points scattered below a level water surface are low noise.
+    """Points scattered below a level water surface are low noise."""
 
-    Water returns few pulses. Where points are sparse and many of them lie at one level, with land
-    as high or higher round them, nothing below is terrain. Terrain that is lower, as behind a dam,
-    has as many points as other land.
-
-    Attributes
-    ----------
-    sizes : tuple of float
-        Sides of the cells that are looked at, one after the other, in metres, or as multiples of
-        the usual distance between points if that is larger. The wider ones are for few returns.
-    reach : int
-        Radius of the surroundings in cells.
-    sparse : float
-        Water has less than this share of the usual number of points.
-    band, least_share : float
-        At least this share of the heights lie within so many metres of each other.
-    shore : float
-        Other heights may be lower than the water by so many metres without being below it.
-    sides : int
-        On so many of eight sides, half of the heights must not be below the water.
-    depth : float
-        Least depth in metres of noise below the water.
-    most : float
-        Noise has less than this share of the usual number of points.
-    """
+    # Water returns few pulses. Where points are sparse and many of them lie at one level, with land
+    # as high or higher round them, nothing below is terrain. Terrain that is lower, as behind a
+    # dam, has as many points as other land.
 
     stage: ClassVar = Stage.LOW_NOISE
     reads: ClassVar = ("points", "grids", "known_ground")
     writes: ClassVar = ("points", "grids", "low_noise")
 
+    # Sides of the cells that are looked at, one after the other, in metres, or as multiples of the
+    # usual distance between points if that is larger. The wider ones are for few returns.
     sizes: tuple[float, ...] = (4.0, 8.0)
-    reach: int = 4
-    sparse: float = 0.5
+    reach: int = 4  # radius of the surroundings in cells
+    sparse: float = 0.5  # water has less than this share of the usual number of points
+    # At least this share of the heights lie within so many metres of each other.
     band: float = 0.1
     least_share: float = 0.4
+    # Other heights may be lower than the water by so many metres without being below it.
     shore: float = 0.25
-    sides: int = 6
-    depth: float = 0.4
-    most: float = 0.1
+    sides: int = 6  # on so many of eight sides, half of the heights must not be below the water
+    depth: float = 0.4  # least depth in metres of noise below the water
+    most: float = 0.1  # noise has less than this share of the usual number of points
 
     def apply(self, state: State) -> None:
         """Add the points below water to the low noise."""
@@ -71,26 +54,11 @@ class BelowWater(PointRule):
             state.add_low_noise(self.find(points, lowest, state.spacing, size))
 
     def find(self, points: Points, lowest: np.ndarray, spacing: float, size: float) -> np.ndarray:
-        """Return which points lie below a water surface.
-
-        The highest of the lowest points in each wide cell is one of the surface. The level of the
-        water is where most of these are close together.
-
-        Parameters
-        ----------
-        points : Points
-            At least one point; infinitely high ones do not count.
-        lowest : numpy.ndarray of intp
-            The lowest point of each narrow cell.
-        spacing : float
-            Usual distance between points in metres.
-        size : float
-            Side of a wide cell: multiples of 1 m, or of the spacing if that is larger.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (n,)
+        """Return which points (n,) lie below water, in wide cells of so many metres, or spacings if
+        that is more; infinitely high points do not count.
         """
+        # The highest of the lowest points of narrow cells in each wide cell is one of the surface;
+        # the level of the water is where most of these are close together.
         from scipy import ndimage
 
         cells = Cells.over(points, size * max(_FINE, spacing))

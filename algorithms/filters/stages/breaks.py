@@ -44,15 +44,10 @@ _MEAN_SPACINGS = 1.5
 
 
 class Sides:
-    """The ground round points, separately for each side.
+    """The ground round points, separately for each side."""
 
-    Parameters
-    ----------
-    ground : Points
-        Points of the ground.
-    reach : float
-        Metres within which ground points are neighbours.
-    """
+    # `ground`: Points of the ground.
+    # `reach`: Metres within which ground points are neighbours.
 
     def __init__(self, ground: Points, reach: float) -> None:
         from scipy.spatial import cKDTree
@@ -64,21 +59,9 @@ class Sides:
             self._tree = cKDTree(places, _LEAF, compact_nodes=False, balanced_tree=False)
 
     def rises(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
-        """Return how far points lie above the plane of each side, and how well it fits.
-
-        Parameters
-        ----------
-        points : Points
-            The points to judge.
-        own : bool
-            Whether the points are ground points themselves. Then no point is its own neighbour.
-
-        Returns
-        -------
-        rise : numpy.ndarray of float64, shape (n, 8)
-            Metres; NaN where a side has too few neighbours.
-        misfit : numpy.ndarray of float64, shape (n, 8)
-            Root mean square distance of the neighbours from the plane, in metres.
+        """Return how many metres points lie above the plane of each side, NaN with too few
+        neighbours, and its misfit, both (n, 8); `own` points are ground, and not their own
+        neighbours.
         """
         rise = np.full((points.count, _SIDES), np.nan)
         misfit = np.full((points.count, _SIDES), np.nan)
@@ -139,24 +122,17 @@ def _reach(spacing: float) -> float:
 
 @dataclass(frozen=True)
 class Plants(PointRule):
-    """A seed above the planes of all sides is a plant; one far below all of them an outlier.
-
-    Attributes
-    ----------
-    height, depth : float
-        Metres above and below. For outliers the misfit of the plane is added; among plants it is
-        large.
-    where_dense : bool
-        Whether seeds are checked where points are closer than 0.17 m.
-    """
+    """A seed above the planes of all sides is a plant; one far below all of them an outlier."""
 
     stage: ClassVar = Stage.SEEDS
     reads: ClassVar = ("points", "grids", "seeds")
     writes: ClassVar = ("seeds", "waiting", "rise")
 
+    # Metres above and below. For outliers the misfit of the plane is added; among plants it is
+    # large.
     height: float = 0.1
     depth: float = 0.7
-    where_dense: bool = True
+    where_dense: bool = True  # whether seeds are checked where points are closer than 0.17 m
 
     def apply(self, state: State) -> None:
         """Let the wrong seeds wait."""
@@ -178,9 +154,8 @@ class Plants(PointRule):
         allowed: np.ndarray,
         reach: float,
     ) -> np.ndarray:
-        """Return which seeds lie above the planes of all sides, or below all.
-
-        On a slope, the height of a seed above the mean depends on its place in the cell: `allowed`.
+        """Return which seeds lie above the planes of all sides, or below all, beyond what their
+        place in the cell allows on a slope.
         """
         cell, z = cells.index[seeds], points.z[seeds]
         above, allowed = z - mean.ravel()[cell], allowed.ravel()[cell]
@@ -199,48 +174,32 @@ class Plants(PointRule):
 
 @dataclass(frozen=True)
 class Openness(Rule):
-    """A condition: points join the ground at breaks only where it is open.
+    """A condition: points join the ground at breaks only where it is open."""
 
-    Under trees, plants are level with something, too.
-
-    Attributes
-    ----------
-    share : float
-        Least share of the points round about that lie near the lowest points of their cells.
-    """
+    # Under trees, plants are level with something, too.
 
     stage: ClassVar = Stage.SEEDS
 
+    # Least share of the points round about that lie near the lowest points of their cells.
     share: float = 0.8
 
 
 @dataclass(frozen=True)
 class LevelSeeds(PointRule):
-    """A waiting point on the plane of the seeds on one side is ground: a break.
+    """A waiting point on the plane of the seeds on one side is ground: a break."""
 
-    It is for grids with gaps between the seeds, in which breaks may be lost.
-
-    Attributes
-    ----------
-    level, misfit : float
-        Metres from the plane within which a point joins, and the largest misfit of that plane.
-    passes : int
-        How often points join the ground.
-    step : float
-        They join within so many spacings of the ground each time.
-    steepest : float
-        Largest rise over run from the seeds within that distance.
-    """
+    # It is for grids with gaps between the seeds, in which breaks may be lost.
 
     stage: ClassVar = Stage.SEEDS
     reads: ClassVar = ("points", "grids", "seeds", "waiting", "rise")
     writes: ClassVar = ("seeds", "waiting")
 
+    # Metres from the plane within which a point joins, and the largest misfit of that plane.
     level: float = 0.25
     misfit: float = 0.3
-    passes: int = 2
-    step: float = 1.5
-    steepest: float = 1.5
+    passes: int = 2  # how often points join the ground
+    step: float = 1.5  # they join within so many spacings of the ground each time
+    steepest: float = 1.5  # largest rise over run from the seeds within that distance
     openness: Openness | None = Openness()
 
     def apply(self, state: State) -> None:
@@ -302,9 +261,8 @@ def mean_surface(points: Points, seeds: np.ndarray, cells: Cells, spacing: float
 
 
 def _extreme(cells: Cells, points: Points, which: np.ndarray, sign: float = 1.0) -> np.ndarray:
-    """Return the lowest of some points in each cell; infinite where there is none.
-
-    With a sign of -1, return the highest, as the lowest of the negative heights.
+    """Return the lowest of some points in each cell, or with a sign of -1 the negative of the
+    highest; infinite where there is none.
     """
     lowest = np.full(cells.rows * cells.columns, np.inf, dtype=np.float32)
     lower_at(lowest, cells.index[which], (sign * points.z[which]).astype(np.float32))

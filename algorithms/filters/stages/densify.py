@@ -38,72 +38,48 @@ _MOST_ROUNDS = 8
 
 @dataclass(frozen=True)
 class LevelNeighbour(Rule):
-    """A condition: one of the eight cells round a candidate is level with it.
+    """A condition: one of the eight cells round a candidate is level with it."""
 
-    Ground continues, but bushes below trees have points at any height.
-
-    Attributes
-    ----------
-    level : float
-        Metres, apart from the rise of the seeds' surface.
-    """
+    # Ground continues, but bushes below trees have points at any height.
 
     stage: ClassVar = Stage.SURFACE
 
-    level: float = 0.3
+    level: float = 0.3  # metres, apart from the rise of the seeds' surface
 
 
 @dataclass(frozen=True)
 class OutsideWoods(Rule):
-    """A condition: a candidate does not lie under trees.
+    """A condition: a candidate does not lie under trees."""
 
-    Bush by bush, the TIN would climb what grows there.
-    """
+    # Bush by bush, the TIN would climb what grows there.
 
     stage: ClassVar = Stage.SURFACE
 
 
 @dataclass(frozen=True)
 class Densification(PointRule):
-    """A waiting point that lies close to the facets of the TIN becomes a vertex, round by round.
+    """A waiting point that lies close to the facets of the TIN becomes a vertex, round by round."""
 
-    Axelsson (2000), section 3. Distances are metres, angles degrees.
-
-    Attributes
-    ----------
-    iteration_angle : float
-        Largest angle between the facet and the line from one of its corners to the point.
-    iteration_distance : float
-        Largest distance from the facet.
-    max_terrain_angle : float
-        On steeper facets the mirror image of the point beyond the nearest corner is tested instead.
-    reduce_angle_edge : float or None
-        In triangles whose longest edge is shorter the angle is reduced in proportion.
-    stop_edge : float or None
-        Triangles whose longest edge is shorter take no point.
-    noise_distance : float
-        A point so close to the facet is taken at any angle.
-    """
+    # Axelsson (2000), section 3. Distances are metres, angles degrees.
 
     stage: ClassVar = Stage.SURFACE
     reads: ClassVar = ("points", "grids", "seeds", "waiting")
     writes: ClassVar = ("seeds", "waiting")
 
+    # Largest angle between the facet and the line from one of its corners to the point.
     iteration_angle: float = 15.0
-    iteration_distance: float = 1.4
+    iteration_distance: float = 1.4  # largest distance from the facet
+    # On steeper facets the mirror image of the point beyond the nearest corner is tested instead.
     max_terrain_angle: float = 88.0
+    # In triangles whose longest edge is shorter the angle is reduced in proportion.
     reduce_angle_edge: float | None = 5.0
-    stop_edge: float | None = 2.0
-    noise_distance: float = 0.3
+    stop_edge: float | None = 2.0  # triangles whose longest edge is shorter take no point
+    noise_distance: float = 0.3  # a point so close to the facet is taken at any angle
     level_neighbour: LevelNeighbour | None = LevelNeighbour()
     outside_woods: OutsideWoods | None = OutsideWoods()
 
     def apply(self, state: State) -> None:
-        """Let waiting points join the seeds.
-
-        Only candidates in gaps between vertices are tested. Only vertices that may bound a triangle
-        with a candidate are triangulated.
-        """
+        """Let waiting points in gaps between vertices join the seeds."""
         points, cells, waiting = state.points, state.grids[0].cells, state.waiting
         if self.outside_woods:
             waiting = waiting[~state.grids[0].woods.ravel()[cells.index[waiting]]]
@@ -144,11 +120,10 @@ def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarr
 
 
 class _Survey(NamedTuple):
-    """The data for the TIN of each round.
+    """The data for the TIN of each round."""
 
-    `ring` are vertices round all cells (see `_ring`). Vertices within `reach` cells are next to
-    each other.
-    """
+    # `ring` are vertices round all cells (see `_ring`). Vertices within `reach` cells are next to
+    # each other.
 
     points: Points
     cells: Cells
@@ -183,10 +158,8 @@ def _has_level_neighbour(above: np.ndarray, level: float) -> np.ndarray:
 
 
 def _ring(cells: Cells, surface: np.ndarray) -> Points:
-    """Return virtual points round all cells, at multiples of their spacing in the frame.
-
-    Without them, ground outside the hull of the seeds would have no triangle.
-    """
+    """Return virtual points round all cells, at multiples of their spacing in the frame."""
+    # Without them, ground outside the hull of the seeds would have no triangle.
     (south, north), (west, east) = (
         (first * cells.size, (first + count) * cells.size)
         for first, count in zip(cells.first, cells.shape)
@@ -231,12 +204,10 @@ def _joined(
 
 
 def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
-    """Return the cells whose vertices may bound a triangle in which a candidate lies.
-
-    A triangulation of these vertices alone has the same triangles near candidates, and round the
-    gaps in which candidates lie. All other vertices, by far the most, would only cost time. Cells
-    farther than `reach` cells from all vertices are a gap.
-    """
+    """Return the cells whose vertices may bound a triangle in which a candidate lies."""
+    # A triangulation of these alone has the same triangles near candidates, and round the gaps in
+    # which they lie; all other vertices, by far the most, would only cost time. Cells farther than
+    # `reach` cells from all vertices are a gap.
     from scipy import ndimage
 
     gaps, count = ndimage.label(~within_square(np.maximum, vertices, reach), np.ones((3, 3)))
@@ -251,9 +222,8 @@ def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarr
 def _round(
     tin: Tin, triangle: np.ndarray, points: Points, rules: Densification
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return which candidates to add, at most one in each triangle, and a mask (candidates,).
-
-    The mask marks candidates that were tested in another triangle, because their own is too steep.
+    """Return which candidates to add, at most one in each triangle, and which were tested in
+    another triangle, because their own is too steep.
     """
     distance, angle, longest, mirrored = _distance_and_angle(tin, triangle, points, rules)
     allowed = np.full(len(triangle), math.radians(rules.iteration_angle))
@@ -272,9 +242,8 @@ def _round(
 def _distance_and_angle(
     tin: Tin, triangle: np.ndarray, points: Points, rules: Densification
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return distance to the facet, largest angle at its corners (rad), and its longest edge.
-
-    The last array marks the points whose mirror image was tested.
+    """Return distance to the facet, largest angle at its corners (rad), its longest edge, and whose
+    mirror image was tested.
     """
     corners = tin.triangles[triangle]
     x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]

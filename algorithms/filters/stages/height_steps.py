@@ -28,15 +28,11 @@ _RELAXATIONS = 2
 
 
 class HeightSteps:
-    """The steps of a height grid that the trend of the terrain does not explain.
+    """The steps of a height grid that the trend of the terrain does not explain."""
 
-    Parameters
-    ----------
-    grid : HeightGrid
-        Lowest height of each cell.
-    inside : numpy.ndarray of bool, shape (rows, columns)
-        Cells that were surveyed (see `covered`); nothing is known of the others.
-    """
+    # `grid`: Lowest height of each cell.
+    # `inside`: bool (rows, columns): Cells that were surveyed (see `covered`); nothing is known of
+    # the others.
 
     def __init__(self, grid: HeightGrid, inside: np.ndarray) -> None:
         size, surface = grid.size, grid.filled(_RELAXATIONS).astype(np.float32)
@@ -47,26 +43,19 @@ class HeightSteps:
         self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
 
     def regions(self, threshold: float) -> Regions:
-        """Return the regions between the rims of a threshold.
-
-        Rim cells belong to the region that they are level with, like the edge of a roof. Rim cells
-        that are level with none, like a thin tree, form regions of their own.
-
-        Parameters
-        ----------
-        threshold : float
-            A cell is a rim if it is higher than one of its eight neighbours by more than so many
-            metres, plus the rise of the terrain between the two and its usual unevenness.
+        """Return the regions between cells that are higher than a neighbour by more than a
+        threshold in metres, the rise of the terrain and its usual unevenness.
         """
+        # Rim cells belong to the region that they are level with, like the edge of a roof; those
+        # that are level with none, like a thin tree, are regions of their own.
         (steps,) = self._steps(threshold)
         return self._regions(steps)
 
     def regions_and_rims(
         self, threshold: float, roughness_factor: float
     ) -> tuple[Regions, np.ndarray]:
-        """Return the `regions`, and which cells are rims if more unevenness is allowed.
-
-        For these rims, the usual unevenness is added `roughness_factor` times.
+        """Return the `regions`, and which cells are rims if the usual unevenness is added so many
+        times.
         """
         steps, large = self._steps(threshold, (1.0, roughness_factor))
         return self._regions(steps), self._unframed(self._rims(large))
@@ -90,20 +79,8 @@ class HeightSteps:
         return Regions(self._unframed(regions), border, self._size, self._step)
 
     def pits(self, candidates: np.ndarray, threshold: float, max_size: float) -> np.ndarray:
-        """Return the cells of patches that lie below the cells round them on all sides.
-
-        Parameters
-        ----------
-        candidates : numpy.ndarray of bool, shape (rows, columns)
-            Cells that may be in a pit. Cells that touch are one patch, even if they are uneven.
-        threshold : float
-            Least height in metres of the rise round it (see `regions`).
-        max_size : float
-            Largest width (shorter side) of a pit, in metres.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (rows, columns)
+        """Return the cells of patches of candidates, at most so many metres wide, that lie below
+        the cells round them on all sides; cells that touch are one patch, even if they are uneven.
         """
         from scipy import ndimage
 
@@ -114,16 +91,8 @@ class HeightSteps:
         return patches.sunken(max_size) & candidates
 
     def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
-        """Return the kept ground and the cells beside it that are level with it.
-
-        Parameters
-        ----------
-        kept : numpy.ndarray of bool, shape (rows, columns)
-            Cells of the ground.
-        heights : numpy.ndarray of float, shape (rows, columns)
-            Lowest heights, including cells that may grow back; NaN where there is none.
-        threshold : float
-            As for `regions`; a cell is compared with the mean of its kept neighbours.
+        """Return the kept ground, and the cells with a height that are level with the mean of the
+        kept ones beside them.
         """
         kept = np.pad(kept, self._step).ravel()
         grid = np.pad(heights.astype(np.float32), self._step, constant_values=np.nan).ravel()
@@ -263,19 +232,11 @@ class HeightSteps:
 
 
 class _Steps(NamedTuple):
-    """The differences between neighbouring cells, in one direction.
+    """The differences between neighbouring cells, in one direction."""
 
-    Attributes
-    ----------
-    row, column : int
-        The direction.
-    offset : int
-        From a cell to its neighbour, in the flattened grid.
-    sign : numpy.ndarray of int8
-        1 where the neighbour is higher by more than is allowed, -1 where it is lower, else 0.
-    """
-
+    # The direction.
     row: int
     column: int
-    offset: int
+    offset: int  # from a cell to its neighbour, in the flattened grid
+    # int8: 1 where the neighbour is higher by more than is allowed, -1 where it is lower, else 0.
     sign: np.ndarray

@@ -24,10 +24,8 @@ def into_ditches(
     raised: np.ndarray,
     beyond: float,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return how many sides of each region's border drop into a ditch, and how many it has.
-
-    `number` are the regions of cells from 1 on, 0 for none. Of a ditch, the closing fills all but a
-    share `beyond` of the drop: there is land about as high on its other side.
+    """Return how many sides of each region's border drop into a ditch, of which the closing fills
+    all but a share `beyond`, and how many it has; `number` is 0 for no region.
     """
     into, border = np.zeros((2, count))
     for ahead, behind in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
@@ -43,53 +41,31 @@ def into_ditches(
 
 @dataclass(frozen=True)
 class OnSlope(Rule):
-    """An exception: a step with two more alike steps before or after it is part of a slope.
+    """An exception: a step with two more alike steps before or after it is part of a slope."""
 
-    Cells without a point do not count, except one among wide cells: their filling makes a slope of
-    any wall. Where narrow cells have no point, blocks of them are tested as well.
-
-    Attributes
-    ----------
-    alike, alike_across : float
-        Steps are alike if the smallest is at least this share of the largest. The second is for
-        steps that cross a cell without a point, or are between blocks of cells.
-    wide : float
-        Least side in metres of wide cells. Of four wide cells on a slope one may have no point: its
-        filling spreads the drop at a wall over two cells, not over three.
-    block : int
-        Cells along the side of the blocks that are tested where narrow cells have no point.
-    narrowest : float
-        In cells narrower than this, in metres, no step is part of a slope: in points from images
-        three steps of half a metre can be the side of a machine.
-    """
+    # Cells without a point do not count, except one among wide cells: their filling makes a slope
+    # of any wall. Where narrow cells have no point, blocks of them are tested as well.
 
     stage: ClassVar = Stage.TERRAIN
 
+    # Steps are alike if the smallest is at least this share of the largest. The second is for steps
+    # that cross a cell without a point, or are between blocks of cells.
     alike: float = 0.4
     alike_across: float = 0.55
+    # Least side in metres of wide cells. Of four wide cells on a slope one may have no point: its
+    # filling spreads the drop at a wall over two cells, not over three.
     wide: float = 2.0
+    # Cells along the side of the blocks that are tested where narrow cells have no point.
     block: int = 2
+    # In cells narrower than this, in metres, no step is part of a slope: in points from images
+    # three steps of half a metre can be the side of a machine.
     narrowest: float = 1.0
 
     def spared(
         self, grid: HeightGrid, filled: np.ndarray, one: np.ndarray, axis: int
     ) -> np.ndarray:
-        """Return which steps are part of a slope.
-
-        Parameters
-        ----------
-        grid : HeightGrid
-            Lowest heights.
-        filled : numpy.ndarray of float, shape (rows, columns)
-            The same with gaps filled.
-        one : numpy.ndarray of intp, shape (steps,)
-            Cells from which the steps lead, as indices into the flattened grid.
-        axis : int
-            0 if the steps lead north, 1 if they lead east.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (steps,)
+        """Return which steps, from cells `one` of the flattened grid north (axis 0) or east (1),
+        are part of a slope.
         """
         known, size, first = grid.known, grid.size, grid.origin
         on, beside_gap = self._among_alike(filled, known, one, axis, size, self.alike)
@@ -123,9 +99,8 @@ class OnSlope(Rule):
         size: float,
         least: float,
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return which steps have two more alike steps, and which are near a cell without a point.
-
-        `least` is the share from which on steps are alike.
+        """Return which steps have two more that are alike by at least a share, and which are near a
+        cell without a point.
         """
         offset = filled.shape[1] if axis == 0 else 1
         place, count = np.divmod(one, filled.shape[1])[axis], filled.shape[axis]
@@ -147,25 +122,17 @@ class OnSlope(Rule):
 
 @dataclass(frozen=True)
 class Rocks(Rule):
-    """A region that rises more unevenly than roofs, bridges and woods is a rock.
+    """A region that rises more unevenly than roofs, bridges and woods is a rock."""
 
-    A roof or a bridge is level; a wood on a slope is equally high above the ground everywhere.
-
-    Attributes
-    ----------
-    area : float
-        Least area in square metres.
-    deviation : float
-        Least standard deviation in metres of its heights, and of its heights above the ground.
-    band, band_share : float
-        A roof is lower, or level: then a band of so many metres holds more than this share of its
-        cells.
-    """
+    # A roof or a bridge is level; a wood on a slope is equally high above the ground everywhere.
 
     stage: ClassVar = Stage.TERRAIN
 
-    area: float = 200.0
+    area: float = 200.0  # least area in square metres
+    # Least standard deviation in metres of its heights, and of its heights above the ground.
     deviation: float = 5.0
+    # A roof is lower, or level: then a band of so many metres holds more than this share of its
+    # cells.
     band: float = 3.0
     band_share: float = 1.0 / 3.0
 
@@ -186,36 +153,21 @@ class Rocks(Rule):
 
 @dataclass(frozen=True)
 class LowBanks(Rule):
-    """A low, narrow and even strip is a bank of a field, a dyke or the rim of a ditch.
+    """A low, narrow and even strip is a bank of a field, a dyke or the rim of a ditch."""
 
-    Of a hedge or a wall, cells have points on the ground beside it; of a row of cars, they are not
-    even. No real tile needs it so far; without it generated banks of 1.2 x 5 m are lost.
-
-    Attributes
-    ----------
-    area : float
-        Least area in square metres.
-    height : float
-        Largest mean height above the ground in metres.
-    width : float
-        Largest mean width in metres.
-    even_share : float
-        Least share of the cells that are even.
-    most_in_row : float
-        On a larger share of its border than this, another strip as high is beside it: it is one of
-        a row, as of panels or planters, or land between ditches. 1 if that does not matter.
-    beyond : float
-        The strip beside it may be lower by this share of the drop between them.
-    """
+    # Of a hedge or a wall, cells have points on the ground beside it; of a row of cars, they are
+    # not even. No real tile needs it so far; without it generated banks of 1.2 x 5 m are lost.
 
     stage: ClassVar = Stage.TERRAIN
 
-    area: float = 20.0
-    height: float = 1.2
-    width: float = 6.0
-    even_share: float = 0.7
+    area: float = 20.0  # least area in square metres
+    height: float = 1.2  # largest mean height above the ground in metres
+    width: float = 6.0  # largest mean width in metres
+    even_share: float = 0.7  # least share of the cells that are even
+    # On a larger share of its border than this, another strip as high is beside it: it is one of a
+    # row, as of panels or planters, or land between ditches. 1 if that does not matter.
     most_in_row: float = 0.8
-    beyond: float = 0.35
+    beyond: float = 0.35  # the strip beside it may be lower by this share of the drop between them
 
     def fits(self, regions: RaisedRegions) -> np.ndarray:
         """Return which regions are banks; boolean, shape (regions,)."""
@@ -246,43 +198,28 @@ class LowBanks(Rule):
 
 @dataclass(frozen=True)
 class BetweenDitches(GridRule):
-    """Even land with ditches beside it, and land as high beyond them, is ground.
+    """Even land with ditches beside it, and land as high beyond them, is ground."""
 
-    No real tile needs it so far. Without it the slope filter and grid minimum lose a fifth to three
-    quarters of generated land with a ditch each 10 or 15 m.
-
-    Attributes
-    ----------
-    width, depth : float
-        The largest width and depth of a ditch in metres.
-    least_area, least_width : float
-        The least area (m2) and width (m) of the land between ditches.
-    share : float
-        Least share of the land's border that drops into a ditch.
-    beyond : float
-        The land beyond the ditch may be lower by this share of the drop.
-    even_share : float
-        Least share of its cells that are even; plants are not even.
-    level : float
-        At the border of the land and its ditches, ground that is lower than land by more than so
-        many metres, or that is not higher than a ditch, is open.
-    most_open : float
-        Most of this border that is open, as a share.
-    """
+    # No real tile needs it so far. Without it the slope filter and grid minimum lose a fifth to
+    # three quarters of generated land with a ditch each 10 or 15 m.
 
     stage: ClassVar = Stage.TERRAIN
     reads: ClassVar = ("filled", "surface", "surveyed", "raised")
     writes: ClassVar = ("raised",)
 
+    # The largest width and depth of a ditch in metres.
     width: float = 6.0
     depth: float = 2.2
+    # The least area (m2) and width (m) of the land between ditches.
     least_area: float = 100.0
     least_width: float = 2.5
-    share: float = 0.5
-    beyond: float = 0.35
-    even_share: float = 0.6
+    share: float = 0.5  # least share of the land's border that drops into a ditch
+    beyond: float = 0.35  # the land beyond the ditch may be lower by this share of the drop
+    even_share: float = 0.6  # least share of its cells that are even; plants are not even
+    # At the border of the land and its ditches, ground that is lower than land by more than so many
+    # metres, or that is not higher than a ditch, is open.
     level: float = 0.3
-    most_open: float = 0.3
+    most_open: float = 0.3  # most of this border that is open, as a share
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Let even land between ditches be ground."""
@@ -309,9 +246,8 @@ class BetweenDitches(GridRule):
         grid.raised &= ~(land & self._ends_level(grid, land, closed))
 
     def _ends_level(self, grid: GridState, land: np.ndarray, closed: np.ndarray) -> np.ndarray:
-        """Return which land, with the ditches in it, hardly ends at lower ground; (rows, columns).
-
-        Rows of panels, planters or barges do: the ground between them goes on at their ends.
+        """Return which land, with the ditches in it, hardly ends at lower ground, as rows of
+        panels, planters or barges do.
         """
         from scipy import ndimage
 

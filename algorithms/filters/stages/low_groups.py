@@ -28,42 +28,26 @@ _DEVIATION = 1.48
 
 @dataclass(frozen=True)
 class LowGroups(PointRule):
-    """A small group of points in a pit below ground that surrounds it is low noise.
+    """A small group of points in a pit below ground that surrounds it is low noise."""
 
-    Real pits of this size are hardly ever as deep, and of those that are (gaps in a canopy, wells,
-    ends of ditches) others near them are as low, or the lowest points round them are uneven.
-
-    Attributes
-    ----------
-    width : float
-        Largest width of a group in metres. Its corners may be farther from its lowest point.
-    depth : float
-        Least depth in metres below the plane of the surroundings.
-    deviations : float
-        Least depth as a multiple of the deviation of the surroundings from their plane.
-    ring : float
-        Radius of the surroundings in metres.
-    ring_cells : int
-        Least radius of the surroundings in cells, for sparse points.
-    level : float
-        A height belongs to the plane up to so many metres from it.
-    sides : int
-        On so many of eight sides, half of the heights must belong to the plane.
-    most_beside : float
-        Most heights beyond the group that are as low, as a share of those on the plane.
-    """
+    # Real pits of this size are hardly ever as deep, and of those that are (gaps in a canopy,
+    # wells, ends of ditches) others near them are as low, or the lowest points round them are
+    # uneven.
 
     stage: ClassVar = Stage.LOW_NOISE
     reads: ClassVar = ("points", "grids", "known_ground")
     writes: ClassVar = ("points", "grids", "low_noise")
 
+    # Largest width of a group in metres. Its corners may be farther from its lowest point.
     width: float = 2.0
-    depth: float = 0.4
+    depth: float = 0.4  # least depth in metres below the plane of the surroundings
+    # Least depth as a multiple of the deviation of the surroundings from their plane.
     deviations: float = 4.0
-    ring: float = 6.0
-    ring_cells: int = 4
-    level: float = 0.25
-    sides: int = 5
+    ring: float = 6.0  # radius of the surroundings in metres
+    ring_cells: int = 4  # least radius of the surroundings in cells, for sparse points
+    level: float = 0.25  # a height belongs to the plane up to so many metres from it
+    sides: int = 5  # on so many of eight sides, half of the heights must belong to the plane
+    # Most heights beyond the group that are as low, as a share of those on the plane.
     most_beside: float = 0.0
 
     def apply(self, state: State) -> None:
@@ -74,23 +58,10 @@ class LowGroups(PointRule):
         state.add_low_noise(self.find(state.points, known))
 
     def find(self, points: Points, known: tuple[Cells, np.ndarray] | None = None) -> np.ndarray:
-        """Return which points belong to a low group.
-
-        The lowest point of each cell is compared with the plane through the lowest points round it.
-        The plane follows the lower ones where buildings or crowns stand among them. On most sides
-        the surroundings must lie on the plane, and nothing beyond the group may be as low.
-
-        Parameters
-        ----------
-        points : Points
-            At least one point.
-        known : tuple of Cells and numpy.ndarray of intp, optional
-            Cells of at least 1 m, and the lowest point of each, if they are known.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (n,)
+        """Return which points (n,) belong to a low group; `known` are cells of at least 1 m and the
+        lowest point of each.
         """
+        # The plane follows the lower points where buildings or crowns stand among them.
         if known is None:
             cells = Cells.over(points, max(_CELL, spacing(points)))
             known = cells, cells.lowest_points(points)
@@ -157,29 +128,19 @@ class LowGroups(PointRule):
 
 @dataclass(frozen=True)
 class WideLowGroups(LowGroups):
-    """A wider group below ground is low noise if there are points of the ground among its own.
+    """A wider group below ground is low noise if there are points of the ground among its own."""
 
-    In a real pit there are none. Reflections in streets, and below roofs, are such groups.
-
-    Attributes
-    ----------
-    cell : float
-        Least side in metres of the cells of which the lowest points are compared.
-    spacings : float
-        The same as a multiple of the usual distance between points.
-    on_ground : float
-        Least number of points of the ground among those of the group, as a share of these.
-    least : int
-        So many points nearest to the middle of the group are looked at if it has fewer.
-    """
+    # In a real pit there are none. Reflections in streets, and below roofs, are such groups.
 
     width: float = 6.0
     depth: float = 3.0
     ring: float = 18.0
     most_beside: float = 0.1
-    cell: float = 3.0
-    spacings: float = 3.0
+    cell: float = 3.0  # least side in metres of the cells of which the lowest points are compared
+    spacings: float = 3.0  # the same as a multiple of the usual distance between points
+    # Least number of points of the ground among those of the group, as a share of these.
     on_ground: float = 0.3
+    # So many points nearest to the middle of the group are looked at if it has fewer.
     least: int = 8
 
     def apply(self, state: State) -> None:
@@ -205,24 +166,16 @@ class WideLowGroups(LowGroups):
 
 
 class Group(NamedTuple):
-    """A low group: its lowest point, and the plane below which its points lie.
+    """A low group: its lowest point, and the plane below which its points lie."""
 
-    Attributes
-    ----------
-    x, y : float
-        Place of the lowest point.
-    limit, east, north : float
-        Height of the plane in metres there, and its rise over run towards east and north.
-    margin : float
-        Metres from this plane up to that of the ground.
-    """
-
+    # Place of the lowest point.
     x: float
     y: float
+    # Height of the plane in metres there, and its rise over run towards east and north.
     limit: float
     east: float
     north: float
-    margin: float
+    margin: float  # metres from this plane up to that of the ground
 
     def _above(self, points: Points) -> np.ndarray:
         """Return how many metres above the plane points lie."""

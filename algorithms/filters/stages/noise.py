@@ -31,29 +31,11 @@ _POINTS_A_PART, _POINTS_A_SUM = 1 << 15, 1 << 19
 def middle_of_noise(
     points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
 ) -> tuple[np.ndarray, float]:
-    """Return the middle of the ground points of each cell, and their noise, both in metres.
-
-    The first guess lies above the lowest point of a cell by a multiple of the noise, which follows
-    from the number of its points. Then the points near the guess are averaged.
-
-    Parameters
-    ----------
-    points : Points
-        All points.
-    cells : Cells
-        A grid over the points.
-    surface : numpy.ndarray of float64, shape (rows, columns)
-        Heights in metres of a surface through the lowest points, at the middles of the cells.
-    slopes : tuple of numpy.ndarray of float64, shape (rows, columns)
-        Its slope (rise over run) towards north and east.
-
-    Returns
-    -------
-    level : numpy.ndarray of float64, shape (rows * columns,)
-        Metres above the surface.
-    noise : float
-        Standard deviation in metres; 0 if no cell has enough points.
+    """Return the middle of the ground points of each cell (cells,) above a surface of given slopes,
+    and their noise as a standard deviation, 0 if no cell has enough points, in metres.
     """
+    # The first guess lies above the lowest point by a multiple of the noise that follows from the
+    # number of points; then the points near the guess are averaged.
     rises = _rises(points, cells, surface, slopes)
     sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
     noise = _noise(sums, _NOISE_PERCENTILE)
@@ -67,22 +49,10 @@ def middle_of_noise(
 def noise_of_squares(
     points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
 ) -> float:
-    """Return the noise of ground points where few of them lie in a cell.
-
-    It is measured in squares of 3 x 3 cells. It is a little too large, because it includes the
-    errors of the surface.
-
-    Parameters
-    ----------
-    points, cells, surface, slopes
-        As for `middle_of_noise`.
-
-    Returns
-    -------
-    float
-        Standard deviation in metres, rounded to centimetres, so that the border of a survey hardly
-        changes it. 0 if no square has enough points.
+    """Return the noise where few points lie in a cell, in squares of 3 x 3, rounded to centimetres
+    so that the border of a survey hardly changes it; 0 if none has enough points.
     """
+    # It is a little too large, because it includes the errors of the surface.
     rises = _rises(points, cells, surface, slopes)
     sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
     squares = CellBlocks.over(cells, _SQUARE * cells.size)
@@ -116,11 +86,10 @@ def from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.ndar
 def _rises(
     points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
 ) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return the cells of the points that may be noise of the ground, and their rises.
-
-    Each part of the points has cells (int32) and rises above the surface (float32). Rises are
-    multiples of a power of two, so that their sums are exact in any order.
+    """Return the cells (int32) and the rises above the surface (float32) of points that may be
+    noise of the ground, part by part.
     """
+    # Rises are multiples of a power of two, so that their sums are exact in any order.
     height, to_north, to_east = (each.ravel() for each in (surface, *slopes))
 
     def near(part: slice) -> tuple[np.ndarray, np.ndarray]:
@@ -147,22 +116,8 @@ def _rises(
 def _sums(
     rises: list[tuple[np.ndarray, np.ndarray]], level: np.ndarray, most: float, powers: int = 2
 ) -> np.ndarray:
-    """Return the count, the sum and the sum of squares of the rises near the level of each cell.
-
-    Parameters
-    ----------
-    rises : list of tuple
-        As `_rises` returns them.
-    level : numpy.ndarray of float, shape (cells,)
-        Metres.
-    most : float
-        Largest distance from the level in metres.
-    powers : int
-        2, or 1 without the squares.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (powers + 1, cells)
+    """Return the count, the sum and (with 2 powers) the sum of squares of the rises within some
+    metres of the level of each cell, (powers + 1, cells).
     """
     sums, lock = np.zeros((powers + 1, level.size)), threading.Lock()
 

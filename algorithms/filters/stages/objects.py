@@ -25,73 +25,50 @@ from .regions import Regions
 
 
 class Objects(NamedTuple):
-    """Cells that stand out on all sides; grids of shape (rows, columns).
+    """Cells that stand out on all sides; grids of shape (rows, columns)."""
 
-    Attributes
-    ----------
-    raised : numpy.ndarray of bool
-        Cells of objects.
-    plateaus : numpy.ndarray of bool
-        Cells of regions that are too low for their width to be objects for certain: a roof, or a
-        mound.
-    """
-
-    raised: np.ndarray
+    raised: np.ndarray  # bool: Cells of objects
+    # bool: Cells of regions that are too low for their width to be objects for certain: a roof, or
+    # a mound.
     plateaus: np.ndarray
 
 
 @dataclass(frozen=True)
 class Plateaus(Rule):
-    """Regions bounded by low drops are plateaus: they are objects if an opening cuts off part.
-
-    Attributes
-    ----------
-    height : float
-        Least height in metres of the drops round a plateau: a hall may be so low above the ground
-        uphill. The cells must be so wide that most points on its walls share a cell with the
-        ground.
-    """
+    """Regions bounded by low drops are plateaus: they are objects if an opening cuts off part."""
 
     stage: ClassVar = Stage.OBJECTS
 
+    # Least height in metres of the drops round a plateau: a hall may be so low above the ground
+    # uphill. The cells must be so wide that most points on its walls share a cell with the ground.
     height: float = 1.2
 
 
 @dataclass(frozen=True)
 class RaisedObjects(GridRule):
-    """A region with drops all round is an object.
+    """A region with drops all round is an object."""
 
-    More than half of the border must be a drop, also of the whole border with that of the survey:
-    the one drop of a topmost terrace tread winds, and the survey ends on its other side.
-
-    Attributes
-    ----------
-    max_size : float
-        Largest width (shorter side) of an object in metres.
-    heights : tuple of float
-        Least heights in metres of the drops that bound an object, one for each pass, the largest
-        first. Objects that one pass finds are removed before the next.
-    share, whole_share : float
-        Least share of the known border, and of the whole border, that must be a drop.
-    steepness : float
-        Least mean height of the drop over the width of the region. Lower and wider regions are
-        terrain, or plateaus.
-    wide, dense : float or None
-        Where points are closer than `dense` metres, objects are searched on cells of `wide` metres:
-        in narrower ones gaps in crowns and roofs break the rims, in wider ones plazas and terraces
-        become plateaus. Where points are farther apart, cells as wide as their spacing do. None for
-        the cells of the grid everywhere.
-    """
+    # More than half of the border must be a drop, also of the whole border with that of the survey:
+    # the one drop of a topmost terrace tread winds, and the survey ends on its other side.
 
     stage: ClassVar = Stage.OBJECTS
     reads: ClassVar = ("points", "heights")
     writes: ClassVar = ("objects", "plateaus", "raised")
 
-    max_size: float
+    max_size: float  # largest width (shorter side) of an object in metres
+    # Least heights in metres of the drops that bound an object, one for each pass, the largest
+    # first. Objects that one pass finds are removed before the next.
     heights: tuple[float, ...] = (5.0, 2.0)
+    # Least share of the known border, and of the whole border, that must be a drop.
     share: float = 0.65
     whole_share: float = 0.55
+    # Least mean height of the drop over the width of the region. Lower and wider regions are
+    # terrain, or plateaus.
     steepness: float = 0.15
+    # Where points are closer than `dense` metres, objects are searched on cells of `wide` metres:
+    # in narrower ones gaps in crowns and roofs break the rims, in wider ones plazas and terraces
+    # become plateaus. Where points are farther apart, cells as wide as their spacing do. None for
+    # the cells of the grid everywhere.
     wide: float | None = 2.0
     dense: float = 0.8
     plateaus: Plateaus | None = Plateaus()
@@ -152,31 +129,19 @@ class RaisedObjects(GridRule):
 
 @dataclass(frozen=True)
 class TallObjects(GridRule):
-    """Objects are removed by passes over the lowest points of blocks, the tall ones first.
+    """Objects are removed by passes over the lowest points of blocks, the tall ones first."""
 
-    In blocks, gaps in a tree's crown and points half-way down a wall hide no rim. Single cells far
-    above the ground of their block are objects as well.
-
-    Attributes
-    ----------
-    objects : RaisedObjects
-        The rule for a region.
-    above : float
-        Single cells so many metres above the ground of their block are objects as well.
-    block : float
-        Side of a block in metres; a block has at least 2 x 2 cells.
-    steepest : float
-        Largest slope (rise over run) of the ground that counts.
-    """
+    # In blocks, gaps in a tree's crown and points half-way down a wall hide no rim. Single cells
+    # far above the ground of their block are objects as well.
 
     stage: ClassVar = Stage.OBJECTS
     reads: ClassVar = ("heights",)
     writes: ClassVar = ("objects", "plateaus", "raised")
 
-    objects: RaisedObjects
-    above: float
-    block: float = 1.0
-    steepest: float = 5.0
+    objects: RaisedObjects  # the rule for a region
+    above: float  # single cells so many metres above the ground of their block are objects as well
+    block: float = 1.0  # side of a block in metres; a block has at least 2 x 2 cells
+    steepest: float = 5.0  # largest slope (rise over run) of the ground that counts
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Find the cells of objects and plateaus."""

@@ -36,44 +36,27 @@ _SCALE_STEP = math.sqrt(2.0)
 
 @dataclass(frozen=True)
 class WideWindows(Rule):
-    """Windows wider than those for houses cut off halls only.
-
-    Attributes
-    ----------
-    usual_window : float
-        Largest radius in metres of the usual windows.
-    height : float
-        Least height in metres that wider windows cut off.
-    per_slope : float
-        Metres that each metre of their radius adds to it on a slope of 45 degrees: a wide window
-        cuts off a steep slope where its contours bend.
-    """
+    """Windows wider than those for houses cut off halls only."""
 
     stage: ClassVar = Stage.OPENING
 
-    usual_window: float = 24.0
-    height: float = 2.5
+    usual_window: float = 24.0  # largest radius in metres of the usual windows
+    height: float = 2.5  # least height in metres that wider windows cut off
+    # Metres that each metre of their radius adds to it on a slope of 45 degrees: a wide window cuts
+    # off a steep slope where its contours bend.
     per_slope: float = 0.1
 
 
 @dataclass(frozen=True)
 class CrownWindows(Rule):
-    """In woods, windows are no larger than crowns.
+    """In woods, windows are no larger than crowns."""
 
-    Where hardly a pulse reaches the ground, larger windows cut ridges off.
-
-    Attributes
-    ----------
-    radius : float
-        Radius in metres of a large crown.
-    edge : float
-        Within so many metres of the edge of a wood, houses may stand.
-    """
+    # Where hardly a pulse reaches the ground, larger windows cut ridges off.
 
     stage: ClassVar = Stage.OPENING
 
-    radius: float = 11.0
-    edge: float = 5.0
+    radius: float = 11.0  # radius in metres of a large crown
+    edge: float = 5.0  # within so many metres of the edge of a wood, houses may stand
 
     def where(self, grid: GridState) -> np.ndarray:
         """Return the cells in which large windows do not count; boolean, shape (rows, columns)."""
@@ -82,40 +65,28 @@ class CrownWindows(Rule):
 
 @dataclass(frozen=True)
 class ProgressiveOpening(GridRule):
-    """Openings with growing windows cut off what is narrower than a window and too high above it.
+    """Openings with growing windows cut off what is narrower than these and too high above it."""
 
-    What is too high grows with the window and with the slope of the terrain.
-
-    Attributes
-    ----------
-    largest_window : float
-        Radius in metres of the largest window.
-    base, per_radius, per_slope : float
-        Allowed height in metres for any window, metres that each metre of the radius adds, and
-        metres that each metre of it adds on a slope of 45 degrees; in proportion on others.
-    most : float
-        The largest allowance in metres.
-    first_slope : float
-        A first, strict opening with this slope (rise over run) gives the surface from which the
-        slope of the terrain is taken.
-    smoothing, steepest : float
-        Metres over which this surface is smoothed, and the largest slope that counts.
-    level_beyond : bool
-        Whether heights beyond the survey are those of its border, not filled smoothly.
-    """
+    # What is too high grows with the window and with the slope of the terrain.
 
     stage: ClassVar = Stage.OPENING
     reads: ClassVar = ("heights", "objects", "woods")
     writes: ClassVar = ("filled", "raised")
 
-    largest_window: float
+    largest_window: float  # radius in metres of the largest window
+    # Allowed height in metres for any window, metres that each metre of the radius adds, and metres
+    # that each metre of it adds on a slope of 45 degrees; in proportion on others.
     base: float = 0.15
     per_radius: float = 0.04
     per_slope: float = 0.2
-    most: float = 1.5
+    most: float = 1.5  # the largest allowance in metres
+    # A first, strict opening with this slope (rise over run) gives the surface from which the slope
+    # of the terrain is taken.
     first_slope: float = 0.12
+    # Metres over which this surface is smoothed, and the largest slope that counts.
     smoothing: float = 5.0
     steepest: float = 0.6
+    # Whether heights beyond the survey are those of its border, not filled smoothly.
     level_beyond: bool = True
     wide_windows: WideWindows | None = WideWindows()
     crown_windows: CrownWindows | None = CrownWindows()
@@ -143,14 +114,8 @@ class ProgressiveOpening(GridRule):
     def _standing_out(
         self, filled: np.ndarray, within: np.ndarray, size: float, progress: Progress
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Open the grid with growing windows; `within` are the cells without large ones.
-
-        Returns
-        -------
-        first : numpy.ndarray of bool, shape (rows, columns)
-            Cells that stand out by the strict slope of the first opening.
-        limit : numpy.ndarray of float32, shape (rows, columns)
-            The terrain's slope (rise over run) below which a cell stands out.
+        """Return cells that stand out by the strict slope, and for each cell the terrain's slope
+        (rise over run) below which it stands out; `within` are cells without large windows.
         """
         first = np.zeros(filled.shape, dtype=bool)
         limit = np.full(filled.shape, -np.inf, dtype=np.float32)
@@ -199,19 +164,13 @@ class ProgressiveOpening(GridRule):
 
 @dataclass(frozen=True)
 class CutPlateaus(GridRule):
-    """All of a plateau is an object if openings cut off a large part: its uphill side is low.
-
-    Attributes
-    ----------
-    share : float
-        Least share of its cells that is cut off.
-    """
+    """All of a plateau is an object if openings cut off a large part: its uphill side is low."""
 
     stage: ClassVar = Stage.OPENING
     reads: ClassVar = ("plateaus", "raised")
     writes: ClassVar = ("raised",)
 
-    share: float = 0.3
+    share: float = 0.3  # least share of its cells that is cut off
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Raise the plateaus of which a large part is raised."""
@@ -245,12 +204,10 @@ def _lowest_of_blocks(grid: np.ndarray, width: int) -> np.ndarray:
 def _cut_in_blocks(
     steps: np.ndarray, opened: np.ndarray, cut: np.ndarray, zoom: int, least: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return which cells lose more than some steps to an opening of blocks, and how many.
-
-    `steps` are the heights of the cells, `opened` those of the blocks, and `cut` is what the blocks
-    lose. A block counts for its neighbours as well, because their lowest cell may lie beside the
-    object.
-    """
+    """Return which cells lose more than some steps to an opening of blocks, and how many."""
+    # `steps` are the heights of the cells, `opened` those of the blocks, `cut` what the blocks
+    # lose. A block counts for its neighbours as well, because their lowest cell may lie beside the
+    # object.
     most = within_square(np.maximum, cut, 1)
     fine = np.repeat(np.repeat(most > least, zoom, axis=0), zoom, axis=1)
     which = np.flatnonzero(fine[: steps.shape[0], : steps.shape[1]])
@@ -264,30 +221,19 @@ def _cut_in_blocks(
 
 @dataclass(frozen=True)
 class SteepRises(GridRule):
-    """Cells stand out that are higher than another, on any scale, by more than terrain allows.
+    """Cells stand out that are higher than another, on any scale, by more than terrain allows."""
 
-    All points in a disc have the allowance of its radius: steps along Vosselman's line. The slope
-    of the terrain, averaged over about the radius, is added to the threshold.
-
-    Attributes
-    ----------
-    radius : float
-        Largest distance in metres over which cells are compared.
-    slope : float
-        Slope threshold in degrees.
-    height : float
-        Height threshold in metres.
-    top_hat : bool
-        Whether heights above a surface that follows the terrain are compared (white top-hat).
-    """
+    # All points in a disc have the allowance of its radius: steps along Vosselman's line. The slope
+    # of the terrain, averaged over about the radius, is added to the threshold.
 
     stage: ClassVar = Stage.OPENING
     reads: ClassVar = ("heights",)
     writes: ClassVar = ("raised",)
 
-    radius: float
-    slope: float
-    height: float
+    radius: float  # largest distance in metres over which cells are compared
+    slope: float  # slope threshold in degrees
+    height: float  # height threshold in metres
+    # Whether heights above a surface that follows the terrain are compared (white top-hat).
     top_hat: bool = True
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
@@ -311,11 +257,8 @@ class SteepRises(GridRule):
 
 
 def _slope(grid: HeightGrid, eroded: np.ndarray, reach: float) -> np.ndarray:
-    """Return the slope of the terrain, rise over run, averaged over about the search radius.
-
-    The eroded surface has no objects. Its gradient is averaged, because averaged heights would be
-    flattened at a border.
-    """
+    """Return the slope of the terrain, rise over run, averaged over about the search radius."""
+    # The gradient is averaged, because averaged heights would be flattened at a border.
     from scipy import ndimage
 
     surface = grid._replace(values=np.where(np.isfinite(eroded), eroded, np.nan)).filled()

@@ -30,35 +30,26 @@ _EVEN = 0.3
 
 @dataclass(frozen=True)
 class Corroborated(Rule):
-    """An exception: pits that other cells some metres away are as low as are ground.
+    """An exception: pits that other cells some metres away are as low as are ground."""
 
-    Under dense canopy the few cells with ground points are pits, but they lie on one surface.
-    Faults are scattered: hardly any other cell lies at their level, or far fewer than on the even
-    surface above them.
-
-    Attributes
-    ----------
-    nearest, farthest : float
-        Cells between so many metres from a pit are its witnesses; nearer ones may belong to the
-        same fault.
-    apart : float
-        Metres between witnesses.
-    level, level_slope, depth_share : float
-        A witness is as low as a pit if they differ by at most `level` metres, plus `level_slope`
-        for each metre of distance, and by at most this share of the depth of the pit.
-    least, least_share : float
-        Least number of witnesses that are as low, and their least share of the number of witnesses
-        on an even surface above the pit.
-    """
+    # Under dense canopy the few cells with ground points are pits, but they lie on one surface.
+    # Faults are scattered: hardly any other cell lies at their level, or far fewer than on the even
+    # surface above them.
 
     stage: ClassVar = Stage.OUTLIERS
 
+    # Cells between so many metres from a pit are its witnesses; nearer ones may belong to the same
+    # fault.
     nearest: float = 3.0
     farthest: float = 10.0
-    apart: float = 0.5
+    apart: float = 0.5  # metres between witnesses
+    # A witness is as low as a pit if they differ by at most `level` metres, plus `level_slope` for
+    # each metre of distance, and by at most this share of the depth of the pit.
     level: float = 0.5
     level_slope: float = 0.2
     depth_share: float = 0.33
+    # Least number of witnesses that are as low, and their least share of the number of witnesses on
+    # an even surface above the pit.
     least: int = 4
     least_share: float = 0.15
 
@@ -69,11 +60,9 @@ class Corroborated(Rule):
         depth: np.ndarray,
         even: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Return the pits that are ground; boolean, shape (rows, columns).
-
-        `pits` are cells far below those next to them, `depth` is their depth in metres, and `even`
-        marks the cells that lie on an even surface, if they are known already.
-        """
+        """Return the pits that are ground; boolean, shape (rows, columns)."""
+        # `pits` are cells far below those next to them, `depth` is their depth in metres, and
+        # `even` marks the cells that lie on an even surface, if they are known already.
         result = np.zeros(pits.shape, dtype=bool)
         row, column = np.nonzero(pits)
         if not len(row):
@@ -112,31 +101,23 @@ class Corroborated(Rule):
 
 @dataclass(frozen=True)
 class UnderCanopy(Rule):
-    """An exception: pits under a canopy are ground, where the lowest points round them are crowns.
+    """An exception: pits are ground where the lowest points round them are crowns."""
 
-    Where hardly a pulse gets through, as in rain forest, hardly any other point is as low, so that
-    the pits are not `Corroborated`. But an outlier lies below a surface, and the lower side of
-    crowns is none.
-
-    Attributes
-    ----------
-    roughness : float
-        The lowest points are those of a canopy if their median distance from a plane is more than
-        so many metres.
-    reach, reach_cells : float
-        They are looked at up to so many metres, and so many cells, away.
-    depth : float
-        A pit that is deeper than so many times this distance is an outlier all the same.
-    pit : float
-        The plane is fitted without the points so many metres round the pit, which may belong to it.
-    """
+    # Where hardly a pulse gets through, as in rain forest, hardly any other point is as low, so
+    # that the pits are not `Corroborated`. But an outlier lies below a surface, and the lower side
+    # of crowns is none.
 
     stage: ClassVar = Stage.OUTLIERS
 
+    # The lowest points are those of a canopy if their median distance from a plane is more than so
+    # many metres.
     roughness: float = 2.5
+    # They are looked at up to so many metres, and so many cells, away.
     reach: float = 6.0
     reach_cells: int = 4
+    # A pit that is deeper than so many times this distance is an outlier all the same.
     depth: float = 6.0
+    # The plane is fitted without the points so many metres round the pit, which may belong to it.
     pit: float = 2.0
 
     def spared(
@@ -159,22 +140,16 @@ class UnderCanopy(Rule):
 
 @dataclass(frozen=True)
 class NarrowPits(GridRule):
-    """A cell in a narrow pit that is too deep for terrain is a low outlier.
+    """A cell in a narrow pit that is too deep for terrain is a low outlier."""
 
-    The grid is closed by 3 x 3 cells (the opening of -z). Cells that the closing raises by more
-    than `slope` times their size are outliers (Pingel et al. 2013).
-
-    Attributes
-    ----------
-    slope : float
-        Rise over run, far above that of any terrain.
-    """
+    # The grid is closed by 3 x 3 cells (the opening of -z). Cells that the closing raises by more
+    # than `slope` times their size are outliers (Pingel et al. 2013).
 
     stage: ClassVar = Stage.OUTLIERS
     reads: ClassVar = ("points", "heights")
     writes: ClassVar = ("heights",)
 
-    slope: float = 5.0
+    slope: float = 5.0  # rise over run, far above that of any terrain
     corroborated: Corroborated | None = Corroborated()
     under_canopy: UnderCanopy | None = UnderCanopy()
 
@@ -197,31 +172,19 @@ class NarrowPits(GridRule):
 
 @dataclass(frozen=True)
 class IsolatedLowPoints(GridRule):
-    """A lone point below an even surface is a low outlier, as in points from images.
+    """A lone point below an even surface is a low outlier, as in points from images."""
 
-    The other points of its cell and most cells next to it lie on the surface. Hardly any other cell
-    some metres away is as low.
-
-    Attributes
-    ----------
-    depth : float
-        Least depth in metres below the cells round it.
-    least_even : int
-        At least so many of the eight cells round it are even.
-    least_points : int
-        Its cell has at least so many points.
-    gap : float
-        The next point of the cell is higher by at least this share of the depth.
-    """
+    # The other points of its cell and most cells next to it lie on the surface. Hardly any other
+    # cell some metres away is as low.
 
     stage: ClassVar = Stage.OUTLIERS
     reads: ClassVar = ("points", "heights")
     writes: ClassVar = ("heights",)
 
-    depth: float = 0.6
-    least_even: int = 6
-    least_points: int = 4
-    gap: float = 0.7
+    depth: float = 0.6  # least depth in metres below the cells round it
+    least_even: int = 6  # at least so many of the eight cells round it are even
+    least_points: int = 4  # its cell has at least so many points
+    gap: float = 0.7  # the next point of the cell is higher by at least this share of the depth
     corroborated: Corroborated | None = Corroborated()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
@@ -248,36 +211,23 @@ class IsolatedLowPoints(GridRule):
 
 @dataclass(frozen=True)
 class DenseOutliers(PointRule):
-    """In a dense cloud of a laser, points far below all others round them are low noise.
+    """In a dense cloud of a laser, points far below all others round them are low noise."""
 
-    Most cells of half a metre or a metre may have such a point. Here cells are so narrow that few
-    have one. In clouds from images such points are parts of the ground beside crowns and roofs,
-    where the surface sags.
-
-    Attributes
-    ----------
-    spacings : float
-        Side of the cells as a multiple of the usual distance between points. With so few points
-        hardly any cell has an outlier, and hardly any is empty.
-    least_spacing : float
-        A smaller distance between points counts as this, in metres.
-    depth : float
-        Least depth in metres below the cells round it.
-    passes : int
-        Of several outliers in one cell, each pass finds the lowest.
-    many : float
-        If more than this share of the points are such outliers, the log says so.
-    """
+    # Most cells of half a metre or a metre may have such a point. Here cells are so narrow that few
+    # have one. In clouds from images such points are parts of the ground beside crowns and roofs,
+    # where the surface sags.
 
     stage: ClassVar = Stage.LOW_NOISE
     reads: ClassVar = ("points", "grids", "known_ground", "multi_return")
     writes: ClassVar = ("points", "grids", "low_noise")
 
+    # Side of the cells as a multiple of the usual distance between points. With so few points
+    # hardly any cell has an outlier, and hardly any is empty.
     spacings: float = 3.0
-    least_spacing: float = 0.02
-    depth: float = 1.0
-    passes: int = 3
-    many: float = 1e-4
+    least_spacing: float = 0.02  # a smaller distance between points counts as this, in metres
+    depth: float = 1.0  # least depth in metres below the cells round it
+    passes: int = 3  # of several outliers in one cell, each pass finds the lowest
+    many: float = 1e-4  # if more than this share of the points are such outliers, the log says so
     corroborated: Corroborated | None = Corroborated()
 
     def apply(self, state: State) -> None:

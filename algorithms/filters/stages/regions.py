@@ -21,24 +21,17 @@ Steps = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 class Border(NamedTuple):
-    """The pairs of neighbouring cells that lie in different regions.
+    """The pairs of neighbouring cells that lie in different regions."""
 
-    Attributes
-    ----------
-    regions : int
-        One more than the largest number of a region.
-    first, second : numpy.ndarray of int32, shape (pairs,)
-        Region of the first and of the second cell; 0 where nothing is known.
-    sign : numpy.ndarray of int8, shape (pairs,)
-        1 where the second is higher by more than is allowed, -1 where it is lower, else 0.
-    rise : numpy.ndarray of float32, shape (pairs,)
-        Height of the second above the first in metres, beyond the trend; 0 where `sign` is 0.
-    """
-
-    regions: int
+    regions: int  # one more than the largest number of a region
+    # int32 (pairs,): Region of the first and of the second cell; 0 where nothing is known.
     first: np.ndarray
     second: np.ndarray
+    # int8 (pairs,): 1 where the second is higher by more than is allowed, -1 where it is lower,
+    # else 0.
     sign: np.ndarray
+    # float32 (pairs,): Height of the second above the first in metres, beyond the trend; 0 where
+    # `sign` is 0.
     rise: np.ndarray
 
     def length(self) -> np.ndarray:
@@ -50,10 +43,9 @@ class Border(NamedTuple):
     def drops(
         self, removed: np.ndarray, sign: int
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Count where each region drops (sign 1) or rises (-1) to regions that are not removed.
-
-        Returns, for each region, the number of pairs of cells with a drop, with a known neighbour,
-        and of all pairs; and the mean height of the drops in metres.
+        """Count, for each region, pairs of cells with a drop (sign 1) or rise (-1), with a known
+        neighbour, and all pairs, to regions that are not removed; and return the mean height of the
+        drops in metres.
         """
         pairs = ~(removed[self.first] | removed[self.second])
         known = pairs & (self.first > 0) & (self.second > 0)
@@ -76,15 +68,10 @@ class Border(NamedTuple):
 
 
 class Regions:
-    """The regions between rims.
+    """The regions between rims."""
 
-    Attributes
-    ----------
-    number : numpy.ndarray of int32, shape (rows, columns)
-        The region of each cell; 0 where nothing is known.
-    width : numpy.ndarray of float, shape (count,)
-        Width (shorter side) of each region in metres.
-    """
+    # `number`: int32 (rows, columns): The region of each cell; 0 where nothing is known.
+    # `width`: float (count,): Width (shorter side) of each region in metres.
 
     def __init__(self, number: np.ndarray, border: Border, size: float, step: int) -> None:
         self.number = number
@@ -99,21 +86,8 @@ class Regions:
         whole_share: float,
         steepness: float = 0.0,
     ) -> np.ndarray:
-        """Return the cells of the regions whose border is mostly a drop.
-
-        Parameters
-        ----------
-        max_size : float
-            Largest width (shorter side) in metres.
-        share, whole_share : float
-            Least share of the known border, and of the whole border with that of the survey, that
-            must be a drop.
-        steepness : float
-            Least mean height of the drop over the width of the region.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (rows, columns)
+        """Return the cells of regions of at most some width (the shorter side) in metres, of whose
+        known and whole border such shares drop, by a mean of `steepness` times the width.
         """
         return self._bounded(max_size, 1, share, whole_share, steepness)
 
@@ -129,11 +103,9 @@ class Regions:
         least_share: float,
         least_steepness: float,
     ) -> np.ndarray:
-        """Return the cells of regions bounded by drops (1) or rises (-1).
-
-        Regions that one round finds are unknown in the next, which finds regions that they hid: a
-        roof below a tower, a pit within a pit.
-        """
+        """Return the cells of regions bounded by drops (1) or rises (-1)."""
+        # What one round finds is unknown in the next, which finds what it hid: a roof below a
+        # tower.
         fits = self.width <= max_size
         fits[0] = False
         found = np.zeros(len(fits), dtype=bool)
@@ -155,44 +127,25 @@ def _shorter_side(area: np.ndarray, perimeter: np.ndarray) -> np.ndarray:
 
 
 class RaisedRegions(NamedTuple):
-    """The raised regions of a grid, with what rules ask about them.
+    """The raised regions of a grid, with what rules ask about them."""
 
-    Attributes
-    ----------
-    size : float
-        Side of a cell in metres.
-    shape : tuple of int
-        Rows and columns of the grid.
-    cells : numpy.ndarray of intp, shape (n,)
-        The raised cells, in the flattened grid.
-    number : numpy.ndarray of int64, shape (n,)
-        Region of each of these cells.
-    heights, heights_above : numpy.ndarray of float, shape (n,)
-        Height of each of these cells, and its height above the ground, in metres.
-    area, above : numpy.ndarray of float64, shape (regions,)
-        Square metres; mean height above the ground in metres.
-    feet : numpy.ndarray of int64, shape (k,)
-        Region of each raised cell that is level with the ground beside it, once for each such side.
-    filled : numpy.ndarray of float32, shape (rows, columns)
-        Heights of all cells in metres, without NaN.
-    borders : list
-        Pairs of regions between which there are level steps, drops and rises, for two directions.
-    cut : numpy.ndarray of float64, shape (regions,)
-        Sides of cells along the border of the survey.
-    """
-
-    size: float
-    shape: tuple[int, int]
-    cells: np.ndarray
-    number: np.ndarray
+    size: float  # side of a cell in metres
+    shape: tuple[int, int]  # rows and columns of the grid
+    cells: np.ndarray  # intp (n,): The raised cells, in the flattened grid
+    number: np.ndarray  # int64 (n,): Region of each of these cells
+    # float (n,): Height of each of these cells, and its height above the ground, in metres.
     heights: np.ndarray
     heights_above: np.ndarray
+    # float64 (regions,): Square metres; mean height above the ground in metres.
     area: np.ndarray
     above: np.ndarray
+    # int64 (k,): Region of each raised cell that is level with the ground beside it, once for each
+    # such side.
     feet: np.ndarray
-    filled: np.ndarray
+    filled: np.ndarray  # float32 (rows, columns): Heights of all cells in metres, without NaN
+    # Pairs of regions between which there are level steps, drops and rises, for two directions.
     borders: list[list[_Pairs]]
-    cut: np.ndarray
+    cut: np.ndarray  # float64 (regions,): Sides of cells along the border of the survey
 
     @property
     def even(self) -> np.ndarray:
@@ -209,20 +162,10 @@ class RaisedRegions(NamedTuple):
 def raised_regions(
     grid: GridState, raised: np.ndarray, steps: Steps, judges_gaps: bool
 ) -> RaisedRegions:
-    """Return the regions of the raised cells between which no step leads up or down.
-
-    Parameters
-    ----------
-    grid : GridState
-        Heights, and the surface of the ground.
-    raised : numpy.ndarray of bool, shape (rows, columns)
-        Cells that are judged.
-    steps : tuple
-        Pairs of neighbouring cells of which at least one is raised, and 1 where the second is
-        higher by a step, -1 where it is lower, else 0.
-    judges_gaps : bool
-        Whether a cell without a point is no evidence of a gentle border.
+    """Return the regions of the raised cells that no step parts, given pairs of neighbours of which
+    at least one is raised.
     """
+    # If gaps are judged, a cell without a point is no evidence of a gentle border.
     one, other, sign = steps
     seen = grid.heights.known.ravel() if judges_gaps else np.ones(raised.size, dtype=bool)
     up = raised.ravel()
@@ -265,9 +208,8 @@ def even_cells(filled: np.ndarray) -> np.ndarray:
 
 
 def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, int]:
-    """Return the region of each cell, -1 where none is raised, and how many there are.
-
-    `one` and `other` are pairs of raised cells without a step between them.
+    """Return the region of each cell, -1 where none is raised, and their number, from pairs of
+    raised cells without a step.
     """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
@@ -284,9 +226,8 @@ def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.nd
 def _borders(
     region: np.ndarray, up: np.ndarray, steps: Steps, seen: np.ndarray
 ) -> list[list[_Pairs]]:
-    """Return the pairs of regions between which there are level steps, drops and rises.
-
-    The two directions are separate.
+    """Return, for each of two directions, the pairs of regions with level steps, drops and rises
+    between them.
     """
     one, other, sign = steps
     borders = []

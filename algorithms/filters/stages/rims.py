@@ -31,26 +31,19 @@ def density(cells: Cells) -> float:
 
 @dataclass(frozen=True)
 class BlockPits(GridRule):
-    """A narrow pit far below the usual lowest points around holds low outliers.
+    """A narrow pit far below the usual lowest points around holds low outliers."""
 
-    It is the rule of the paper's preset: a gap in the canopy, a yard or a street between roofs is
-    such a pit, too.
-
-    Attributes
-    ----------
-    depth, width : float
-        Low noise is so many metres below the usual lowest points round it, and narrower than this.
-    block : float
-        Side in metres of the blocks in which it is searched.
-    """
+    # It is the rule of the paper's preset: a gap in the canopy, a yard or a street between roofs is
+    # such a pit, too.
 
     stage: ClassVar = Stage.OUTLIERS
     reads: ClassVar = ("heights",)
     writes: ClassVar = ("heights",)
 
+    # Low noise is so many metres below the usual lowest points round it, and narrower than this.
     depth: float = 2.0
     width: float = 10.0
-    block: float = 1.0
+    block: float = 1.0  # side in metres of the blocks in which it is searched
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Remove the cells of noise."""
@@ -72,33 +65,20 @@ class BlockPits(GridRule):
 
 @dataclass(frozen=True)
 class Rims(GridRule):
-    """The rims of low objects, and what they enclose, are no ground.
+    """The rims of low objects, and what they enclose, are no ground."""
 
-    Removed cells grow back if they are level with the ground beside them.
-
-    Attributes
-    ----------
-    objects : RaisedObjects
-        The rule for a region.
-    height : float
-        Whatever stands this far above the ground beside it is removed, in metres.
-    passes : int
-        The first removal uncovers more.
-    roughness : float
-        The unevenness of the terrain is added so many times to the height of rims.
-    objects_grow_back : bool
-        Whether cells of tall objects may grow back, too.
-    """
+    # Removed cells grow back if they are level with the ground beside them.
 
     stage: ClassVar = Stage.OPENING
     reads: ClassVar = ("heights", "objects", "raised")
     writes: ClassVar = ("raised",)
 
-    objects: RaisedObjects
-    height: float
-    passes: int = 2
+    objects: RaisedObjects  # the rule for a region
+    height: float  # whatever stands this far above the ground beside it is removed, in metres
+    passes: int = 2  # the first removal uncovers more
+    # The unevenness of the terrain is added so many times to the height of rims.
     roughness: float = 2.0
-    objects_grow_back: bool = False
+    objects_grow_back: bool = False  # whether cells of tall objects may grow back, too
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Raise the cells of low objects."""
@@ -117,27 +97,18 @@ class Rims(GridRule):
 
 @dataclass(frozen=True)
 class FineSeeds(PointRule):
-    """Rims need cells without gaps, but the surface can have finer cells.
+    """Rims need cells without gaps, but the surface can have finer cells."""
 
-    The lowest point of a fine cell is a seed if its wide cell is ground and the point is near the
-    surface of the wide cells.
-
-    Attributes
-    ----------
-    size : float
-        Side of a fine cell in metres.
-    height : float
-        The point is at most so many metres from the surface.
-    unevenness : float
-        It may lie off the surface by this share of the rise over a wide cell in addition.
-    """
+    # The lowest point of a fine cell is a seed if its wide cell is ground and the point is near the
+    # surface of the wide cells.
 
     stage: ClassVar = Stage.SEEDS
     reads: ClassVar = ("points", "grids", "seeds")
     writes: ClassVar = ("grids", "seeds", "waiting")
 
-    height: float
-    size: float = 1.0
+    height: float  # the point is at most so many metres from the surface
+    size: float = 1.0  # side of a fine cell in metres
+    # It may lie off the surface by this share of the rise over a wide cell in addition.
     unevenness: float = 0.6
 
     def apply(self, state: State) -> None:
@@ -162,22 +133,14 @@ class FineSeeds(PointRule):
 
 @dataclass(frozen=True)
 class PaperSurface(PointRule):
-    """Points close to the surface through the lowest points of ground cells are ground.
-
-    Attributes
-    ----------
-    tolerance : float
-        Metres in level terrain.
-    slope_tolerance : float
-        Share of the rise of the surface over one cell that is added.
-    """
+    """Points close to the surface through the lowest points of ground cells are ground."""
 
     stage: ClassVar = Stage.ACCEPTED
     reads: ClassVar = ("grids",)
     writes: ClassVar = ("limits",)
 
-    tolerance: float
-    slope_tolerance: float
+    tolerance: float  # metres in level terrain
+    slope_tolerance: float  # share of the rise of the surface over one cell that is added
 
     def apply(self, state: State) -> None:
         """Set the limits of the heights of ground points."""

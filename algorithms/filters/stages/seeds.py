@@ -23,24 +23,16 @@ _HIDDEN, _OBJECT, _OPEN, _GROUND = range(4)
 
 @dataclass(frozen=True)
 class LowestPoints(PointRule):
-    """The lowest point of each cell may be ground.
+    """The lowest point of each cell may be ground."""
 
-    It is chance where cells begin, so there can be a second grid, half a cell apart.
-
-    Attributes
-    ----------
-    size : float
-        Side of the cells in metres.
-    grids : int
-        1 or 2.
-    """
+    # It is chance where cells begin, so there can be a second grid, half a cell apart.
 
     stage: ClassVar = Stage.LOWEST
     reads: ClassVar = ("points", "spacing", "multi_return")
     writes: ClassVar = ("grids",)
 
-    size: float
-    grids: int = 1
+    size: float  # side of the cells in metres
+    grids: int = 1  # 1 or 2
 
     def apply(self, state: State) -> None:
         """Make the grids."""
@@ -54,34 +46,20 @@ class LowestPoints(PointRule):
 
 @dataclass(frozen=True)
 class Seeds(PointRule):
-    """The lowest points of ground cells are seeds; other lowest points wait.
+    """The lowest points of ground cells are seeds; other lowest points wait."""
 
-    A point that is the lowest of its cell on both of two grids must be ground on both; one that is
-    the lowest on only one grid must be ground on that one.
-
-    Attributes
-    ----------
-    objects_wait : bool
-        Whether lowest points on objects may become ground later.
-    hint : str or None
-        What to check if there is no seed; None if others may follow.
-    """
+    # A point that is the lowest of its cell on both of two grids must be ground on both; one that
+    # is the lowest on only one grid must be ground on that one.
 
     stage: ClassVar = Stage.SEEDS
     reads: ClassVar = ("grids",)
     writes: ClassVar = ("grids", "seeds", "waiting")
 
-    objects_wait: bool = False
-    hint: str | None = None
+    objects_wait: bool = False  # whether lowest points on objects may become ground later
+    hint: str | None = None  # what to check if there is no seed; None if others may follow
 
     def apply(self, state: State) -> None:
-        """Take seeds from the grids; only the first of these is needed from then on.
-
-        Raises
-        ------
-        BareEarthError
-            If there is no seed.
-        """
+        """Take seeds from the grids; only the first of these is needed from then on."""
         if len(state.grids) == 1:
             (grid,) = state.grids
             ground, is_open = self._judged(grid)
@@ -113,28 +91,16 @@ class Seeds(PointRule):
 
 @dataclass(frozen=True)
 class KnownGround(PointRule):
-    """The lowest points of known ground are seeds.
-
-    Attributes
-    ----------
-    cell : float
-        Side in metres of the cells whose lowest known points are taken.
-    """
+    """The lowest points of known ground are seeds."""
 
     stage: ClassVar = Stage.SEEDS
     reads: ClassVar = ("points", "known_ground")
     writes: ClassVar = ("seeds",)
 
-    cell: float = 1.0
+    cell: float = 1.0  # side in metres of the cells whose lowest known points are taken
 
     def apply(self, state: State) -> None:
-        """Add the known points to the seeds.
-
-        Raises
-        ------
-        BareEarthError
-            If there is no seed.
-        """
+        """Add the known points to the seeds."""
         known = state.known_ground
         if known is not None and known.any():
             which = np.flatnonzero(known)

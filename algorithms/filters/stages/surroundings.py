@@ -31,42 +31,22 @@ _START = 0.3
 
 
 class Surroundings(NamedTuple):
-    """The lowest points round some places; arrays of shape (places, neighbours).
+    """The lowest points round some places; arrays of shape (places, neighbours)."""
 
-    Attributes
-    ----------
-    centre : tuple of numpy.ndarray
-        x, y and z of the places.
-    x, y, z : numpy.ndarray of float32
-        Relative to the place; 0 where nothing is known.
-    distance : numpy.ndarray of float32
-        Horizontal distance from the place.
-    side : numpy.ndarray of int8
-        Direction from the place, 0 to 7.
-    known : numpy.ndarray of bool
-        Where there is a point that cannot belong to the group itself.
-    """
-
-    centre: tuple[np.ndarray, np.ndarray, np.ndarray]
+    centre: tuple[np.ndarray, np.ndarray, np.ndarray]  # x, y and z of the places
+    # float32: Relative to the place; 0 where nothing is known.
     x: np.ndarray
     y: np.ndarray
     z: np.ndarray
-    distance: np.ndarray
-    side: np.ndarray
-    known: np.ndarray
+    distance: np.ndarray  # float32: Horizontal distance from the place
+    side: np.ndarray  # int8: Direction from the place, 0 to 7
+    known: np.ndarray  # bool: Where there is a point that cannot belong to the group itself
 
     def plane(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the plane through most of the heights round each place, and the heights above it.
-
-        Least squares with weights by Geman and McClure, from a level plane under most heights.
-
-        Returns
-        -------
-        plane : numpy.ndarray of float32, shape (places, 3)
-            Rise towards east and north, and height in metres above the place.
-        above : numpy.ndarray of float32, shape (places, neighbours)
-            Metres.
+        """Return the plane through most of the heights round each place (rise to east and north,
+        metres above the place), and the heights above it.
         """
+        # Least squares with weights by Geman and McClure, from a level plane under most heights.
         count = len(self.z)
         plane = np.zeros((count, 3), dtype=np.float32)
         plane[:, 2] = np.nan_to_num(self._quantile(self.z, _START), posinf=0.0)
@@ -79,9 +59,8 @@ class Surroundings(NamedTuple):
         return plane, self._above(plane)
 
     def median(self, values: np.ndarray, which: np.ndarray | None = None) -> np.ndarray:
-        """Return the median of some values round each place; infinite where there are none.
-
-        Of an even number, the lower of the two in the middle. `which` selects values.
+        """Return the median of some values round each place, the lower of two; infinite where there
+        are none.
         """
         return self._quantile(values, 0.5, which)
 
@@ -122,20 +101,13 @@ class Surroundings(NamedTuple):
 
 
 class LowestOfCells(NamedTuple):
-    """Where the lowest point of each cell lies, on grids with a margin of unknown cells.
+    """Where the lowest point of each cell lies, on grids with a margin of unknown cells."""
 
-    Attributes
-    ----------
-    x, y, z : numpy.ndarray of float64, shape (rows, columns)
-        NaN where there is none.
-    margin : int
-        Cells of margin, the radius of the surroundings.
-    """
-
+    # float64 (rows, columns): NaN where there is none.
     x: np.ndarray
     y: np.ndarray
     z: np.ndarray
-    margin: int
+    margin: int  # cells of margin, the radius of the surroundings
 
     @classmethod
     def of(
@@ -168,10 +140,8 @@ class LowestOfCells(NamedTuple):
         return (row + self.margin) * self.z.shape[1] + column + self.margin
 
     def _beside_centre(self, cells: Cells, filled: np.ndarray) -> np.ndarray:
-        """Return how much lower or higher than the centre of its cell the lowest point lies.
-
-        The lowest point of a cell on a slope is one at its lower side, by chance nearer or farther.
-        """
+        """Return how much lower or higher than the centre of its cell the lowest point lies."""
+        # On a slope that is one at the lower side, by chance nearer or farther.
         from scipy import ndimage
 
         inner = (slice(self.margin, -self.margin),) * 2
@@ -186,10 +156,8 @@ class LowestOfCells(NamedTuple):
         return np.nan_to_num(east * x + north * y)
 
     def around(self, places: np.ndarray, width: float) -> Iterator[Surroundings]:
-        """Yield the lowest points round cells, some at a time, but for those nearer than a width.
-
-        `places` are indices of cells in the flattened grids, as `pits` returns them; the width is
-        in metres.
+        """Yield the lowest points round cells (indices as `pits` returns them), some cells at a
+        time, but for points nearer than a width in metres.
         """
         steps = np.arange(-self.margin, self.margin + 1)
         row, column = (axis.ravel() for axis in np.meshgrid(steps, steps, indexing="ij"))

@@ -19,37 +19,23 @@ from .regions import RaisedRegions, raised_regions
 
 
 class Borders(NamedTuple):
-    """How the borders of regions are to the ground, in sides of cells; arrays of shape (regions,).
+    """How the borders of regions are to the ground, in sides of cells, (regions,)."""
 
-    Attributes
-    ----------
-    level, rising : numpy.ndarray of float64
-        Sides that are level with the ground, and that rise to it.
-    sharp : numpy.ndarray of float64
-        Sides that drop.
-    """
-
+    # float64: Sides that are level with the ground, and that rise to it.
     level: np.ndarray
     rising: np.ndarray
-    sharp: np.ndarray
+    sharp: np.ndarray  # float64: Sides that drop
 
 
 @dataclass(frozen=True)
 class GentleBorder(Rule):
-    """A region is terrain if a large share of its border is gentle.
-
-    Attributes
-    ----------
-    share : float
-        Least share of the border, without what rises to the ground, that is level with it.
-    area : float
-        Least area of the region in square metres: crowns and sheds are smaller.
-    """
+    """A region is terrain if a large share of its border is gentle."""
 
     stage: ClassVar = Stage.TERRAIN
 
+    # Least share of the border, without what rises to the ground, that is level with it.
     share: float = 0.3
-    area: float = 100.0
+    area: float = 100.0  # least area of the region in square metres: crowns and sheds are smaller
 
     def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
         """Return which regions are terrain by this rule; boolean, shape (regions,)."""
@@ -60,24 +46,18 @@ class GentleBorder(Rule):
 
 @dataclass(frozen=True)
 class LevelBorder(Rule):
-    """A wide region is terrain if some of its border is level: a plateau with a ramp.
+    """A wide region is terrain if some of its border is level: a plateau with a ramp."""
 
-    Rises do not count: a roof rises to the next roof.
-
-    Attributes
-    ----------
-    areas, shares : tuple of float
-        A region of the first area (m2) needs the first share of its border; one of the second area
-        the second share. In between the share falls with the logarithm of the area.
-    most_cut : float
-        Largest share of the border along which the survey ends: the rest of a roof or of a closed
-        canopy may lie beyond it.
-    """
+    # Rises do not count: a roof rises to the next roof.
 
     stage: ClassVar = Stage.TERRAIN
 
+    # A region of the first area (m2) needs the first share of its border; one of the second area
+    # the second share. In between the share falls with the logarithm of the area.
     areas: tuple[float, float] = (400.0, 3000.0)
     shares: tuple[float, float] = (0.3, 0.05)
+    # Largest share of the border along which the survey ends: the rest of a roof or of a closed
+    # canopy may lie beyond it.
     most_cut: float = 0.1
 
     def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
@@ -91,39 +71,27 @@ class LevelBorder(Rule):
 
 @dataclass(frozen=True)
 class GentleRegions(GridRule):
-    """A raised region that continues gently into the ground is terrain.
+    """A raised region that continues gently into the ground is terrain."""
 
-    A region is a group of raised cells without steps between them. Its border is gentle where it
-    touches the ground without a step, and sharp where it drops.
-
-    Attributes
-    ----------
-    step : float
-        Largest step between cells, in metres beyond the terrain's own rise, that is not an edge. It
-        is for cells of up to 1 m, and in proportion larger for larger cells.
-    smoothing : float
-        Metres over which the surface is smoothed for the terrain's own rise, which is no step.
-    area : float
-        Least area of a region in square metres.
-    passes : int
-        Passes in which regions join the ground or regions that have joined it.
-    judges_gaps : bool
-        Whether cells without a point are judged as well. They are raised if their filled height is,
-        and outside the survey they are no border.
-    in_images : bool
-        Whether borders show that a region is terrain in clouds from images as well, in which walls
-        are slopes.
-    """
+    # A region is a group of raised cells without steps between them. Its border is gentle where it
+    # touches the ground without a step, and sharp where it drops.
 
     stage: ClassVar = Stage.TERRAIN
     reads: ClassVar = ("heights", "filled", "surveyed", "surface", "objects", "raised")
     writes: ClassVar = ("raised",)
 
+    # Largest step between cells, in metres beyond the terrain's own rise, that is not an edge. It
+    # is for cells of up to 1 m, and in proportion larger for larger cells.
     step: float = 0.3
+    # Metres over which the surface is smoothed for the terrain's own rise, which is no step.
     smoothing: float = 2.0
-    area: float = 20.0
-    passes: int = 4
+    area: float = 20.0  # least area of a region in square metres
+    passes: int = 4  # passes in which regions join the ground or regions that have joined it
+    # Whether cells without a point are judged as well. They are raised if their filled height is,
+    # and outside the survey they are no border.
     judges_gaps: bool = True
+    # Whether borders show that a region is terrain in clouds from images as well, in which walls
+    # are slopes.
     in_images: bool = False
     on_slope: OnSlope | None = OnSlope()
     gentle_border: GentleBorder | None = GentleBorder()
@@ -161,14 +129,8 @@ class GentleRegions(GridRule):
     def _steps(
         self, grid: GridState, raised: np.ndarray, smooth: np.ndarray, axis: int, step: float
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Compare neighbouring cells along an axis if at least one of them is raised.
-
-        Returns
-        -------
-        one, other : numpy.ndarray of intp
-            The pairs, as indices into the flattened grid.
-        sign : numpy.ndarray of int8
-            1 where the other is higher by a step, -1 where it is lower, else 0.
+        """Return pairs of neighbours along an axis, of which at least one is raised, and 1 where
+        the other is higher by a step, -1 where it is lower, else 0.
         """
         filled, size = grid.filled, grid.cells.size
         ahead = tuple(slice(1, None) if side == axis else slice(None) for side in (0, 1))
@@ -227,23 +189,8 @@ def smoothed(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:
 
 
 def slope_at(surface: np.ndarray, axis: int, cells: np.ndarray, size: float) -> np.ndarray:
-    """Return the slope of a surface along an axis, rise over run, at some cells.
-
-    Parameters
-    ----------
-    surface : numpy.ndarray of float, shape (rows, columns)
-        Heights in metres without NaN.
-    axis : int
-        0 towards north, 1 towards east.
-    cells : numpy.ndarray of intp
-        Indices into the flattened grid.
-    size : float
-        Side of a cell in metres.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (cells,)
-        Central differences, one-sided at the border.
+    """Return the rise over run of a surface at some cells of the flattened grid, towards north
+    (axis 0) or east (1), one-sided at the border.
     """
     place = np.divmod(cells, surface.shape[1])[axis]
     ahead, back = place < surface.shape[axis] - 1, place > 0

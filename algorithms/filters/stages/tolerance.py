@@ -31,22 +31,15 @@ NOISE_SPACING = 0.36
 
 @dataclass(frozen=True)
 class PlainSurface(PointRule):
-    """The surface goes through the lowest vertex of each cell.
-
-    Attributes
-    ----------
-    above, below : float
-        Tolerances in metres in level terrain.
-    on_slopes : float
-        Metres that a slope of 45 degrees adds to both.
-    """
+    """The surface goes through the lowest vertex of each cell."""
 
     stage: ClassVar = Stage.ACCEPTED
     reads: ClassVar = ("points", "grids", "seeds")
     writes: ClassVar = ("limits",)
 
+    # Tolerances in metres in level terrain.
     above: float
-    on_slopes: float
+    on_slopes: float  # metres that a slope of 45 degrees adds to both
     below: float = 0.6
 
     def apply(self, state: State) -> None:
@@ -60,25 +53,19 @@ class PlainSurface(PointRule):
 
 @dataclass(frozen=True)
 class MeasuredNoise(Rule):
-    """The tolerance above grows with the measured noise.
+    """The tolerance above grows with the measured noise."""
 
-    Where many points lie in a cell, the lowest lies far below the ground, so the surface goes
-    through the middle of their noise.
-
-    Attributes
-    ----------
-    least, factor : float
-        Tolerance in metres above a surface through the middle of the noise, and the multiple of the
-        noise that is added to it.
-    sparse_factor, usual : float
-        The same multiple where few points lie in a cell, and metres that are subtracted: plants
-        lower than the noise cannot be recognised.
-    """
+    # Where many points lie in a cell, the lowest lies far below the ground, so the surface goes
+    # through the middle of their noise.
 
     stage: ClassVar = Stage.ACCEPTED
 
+    # Tolerance in metres above a surface through the middle of the noise, and the multiple of the
+    # noise that is added to it.
     least: float = 0.05
     factor: float = 3.0
+    # The same multiple where few points lie in a cell, and metres that are subtracted: plants lower
+    # than the noise cannot be recognised.
     sparse_factor: float = 2.5
     usual: float = 0.07
 
@@ -108,64 +95,42 @@ class MeasuredNoise(Rule):
 
 @dataclass(frozen=True)
 class Breaks(Rule):
-    """At breaks the surface is too smooth, so the tolerances are larger.
-
-    Attributes
-    ----------
-    curvature : float
-        Curvature over a cell, in metres, above which there is a break.
-    factor : float
-        The tolerance that each metre above it adds.
-    """
+    """At breaks the surface is too smooth, so the tolerances are larger."""
 
     stage: ClassVar = Stage.ACCEPTED
 
-    curvature: float = 0.25
-    factor: float = 1.5
+    curvature: float = 0.25  # curvature over a cell, in metres, above which there is a break
+    factor: float = 1.5  # the tolerance that each metre above it adds
 
 
 @dataclass(frozen=True)
 class LowPlants(Rule):
-    """Under trees, low plants stand among the points of the ground.
+    """Under trees, low plants stand among the points of the ground."""
 
-    There the surface goes through the lowest vertices, and the tolerance above grows with no noise
-    and less with the slope.
-
-    Attributes
-    ----------
-    slope_share : float
-        Share of the tolerance on slopes that is left above the surface.
-    """
+    # There the surface goes through the lowest vertices, and the tolerance above grows with no
+    # noise and less with the slope.
 
     stage: ClassVar = Stage.ACCEPTED
 
-    slope_share: float = 0.3
+    slope_share: float = 0.3  # share of the tolerance on slopes that is left above the surface
 
 
 @dataclass(frozen=True)
 class ToleranceSurface(PointRule):
-    """Points close to the surface through the seeds are ground.
+    """Points close to the surface through the seeds are ground."""
 
-    Each vertex is moved to the middle of its cell along the slope, because the lowest point of a
-    cell lies on its lower side. Where points are dense, the surface between them is known better,
-    so the tolerance on slopes is smaller in proportion.
-
-    Attributes
-    ----------
-    above : float
-        Metres in level terrain.
-    on_slopes : float
-        Metres that a slope of 45 degrees adds, where points are a metre apart or more.
-    below : float
-        Metres in level terrain; more than above, because the surface is smoother than the ground.
-    """
+    # Each vertex is moved to the middle of its cell along the slope, because the lowest point of a
+    # cell lies on its lower side. Where points are dense, the surface between them is known better,
+    # so the tolerance on slopes is smaller in proportion.
 
     stage: ClassVar = Stage.ACCEPTED
     reads: ClassVar = ("points", "grids", "seeds")
     writes: ClassVar = ("limits",)
 
-    above: float
+    above: float  # metres in level terrain
+    # Metres that a slope of 45 degrees adds, where points are a metre apart or more.
     on_slopes: float
+    # Metres in level terrain; more than above, because the surface is smoother than the ground.
     below: float = 0.6
     measured_noise: MeasuredNoise | None = MeasuredNoise()
     breaks: Breaks | None = Breaks()
@@ -213,9 +178,8 @@ def _curvature(surface: np.ndarray) -> np.ndarray:
 def _centred(
     points: Points, vertices: np.ndarray, cells: Cells, woods: np.ndarray
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Return the surface at the middles of cells, and its slopes.
-
-    It is the mean of the vertices of a cell, and under trees the lowest.
+    """Return the mean of the vertices of each cell, or the lowest under trees, at its middle, and
+    the slopes of that surface.
     """
     cell, z = cells.index[vertices], points.z[vertices]
     north, east = from_middle(points.take(vertices), cells, cell)

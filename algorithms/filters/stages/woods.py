@@ -24,25 +24,17 @@ _POINTS_A_PART = 1 << 16
 
 @dataclass(frozen=True)
 class Woods(PointRule):
-    """Cells are under trees where many points are of pulses with several returns.
+    """Cells are under trees where many points are of pulses with several returns."""
 
-    On roofs, rocks and fields their share is below a tenth, in woods a quarter to all. Where the
-    file has no returns, no cell is known to be under trees.
-
-    Attributes
-    ----------
-    share : float
-        Least share of such points in the surroundings.
-    width : float
-        Side in metres of the square in which they are counted.
-    """
+    # On roofs, rocks and fields their share is below a tenth, in woods a quarter to all. Where the
+    # file has no returns, no cell is known to be under trees.
 
     stage: ClassVar = Stage.LOWEST
     reads: ClassVar = ("multi_return", "grids")
     writes: ClassVar = ("grids",)
 
-    share: float = 0.2
-    width: float = 5.0
+    share: float = 0.2  # least share of such points in the surroundings
+    width: float = 5.0  # side in metres of the square in which they are counted
 
     def apply(self, state: State) -> None:
         """Find the cells under trees."""
@@ -57,22 +49,8 @@ class Woods(PointRule):
 
 
 def share_around(which: np.ndarray, cells: Cells, width: float, default: float) -> np.ndarray:
-    """Return the share of some points in the surroundings of each cell.
-
-    Parameters
-    ----------
-    which : numpy.ndarray of bool, shape (n,)
-        The points that are counted.
-    cells : Cells
-        Cells of all points.
-    width : float
-        Side in metres of the square in which they are counted.
-    default : float
-        The share where there are no points.
-
-    Returns
-    -------
-    numpy.ndarray of float32, shape (rows, columns)
+    """Return the share of some points in the square of so many metres round each cell (rows,
+    columns), or a default where there are none.
     """
     from scipy import ndimage
 
@@ -85,25 +63,9 @@ def share_around(which: np.ndarray, cells: Cells, width: float, default: float) 
 
 
 def openness(points: Points, cells: Cells, lowest: np.ndarray, rise: np.ndarray) -> np.ndarray:
-    """Return the share of points near the lowest one of their cell, in the surroundings of a cell.
-
-    It is about 1 on open ground, on roofs and where points are sparse, and 0.2 to 0.6 under trees.
-
-    Parameters
-    ----------
-    points : Points
-        All points that take part, mostly last returns.
-    cells : Cells
-        Their cells.
-    lowest : numpy.ndarray of intp
-        The lowest point of each cell.
-    rise : numpy.ndarray of float, shape (rows, columns)
-        How much the ground rises from side to side of a cell, in metres.
-
-    Returns
-    -------
-    numpy.ndarray of float32, shape (rows, columns)
-        0 to 1; 1 where there are no points.
+    """Return the share of points near the lowest of their cell, in the surroundings of each cell
+    (rows, columns): about 1 on open ground, on roofs and where points are sparse, 0.2 to 0.6 under
+    trees.
     """
     heights = np.zeros(rise.size)
     heights[cells.index[lowest]] = points.z[lowest]
