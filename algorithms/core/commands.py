@@ -12,13 +12,7 @@ _PLAIN = re.compile(r"[\w.:\\/=-]+")
 
 
 def shell_line(words: Sequence[str]) -> str:
-    """Return a command and its arguments as one line that can be pasted into a shell.
-
-    Parameters
-    ----------
-    words : sequence of str
-        The command, then its arguments.
-    """
+    """Return a command and its arguments as one line that can be pasted into a shell."""
     if os.name == "nt":
         return " ".join(word if _PLAIN.fullmatch(word) else _quoted(word) for word in words)
     return shlex.join(words)

@@ -26,15 +26,10 @@ class FinishedFilesStay(Cancelled):
 
 
 def printable(text: str) -> str:
-    r"""Return a text as one line that any terminal, log or page can show.
-
-    Line breaks, control characters, and bytes of file names that are not UTF-8 become escapes.
-
-    Examples
-    --------
-    >>> print(printable("a\nb\udcff.laz"))
-    a\nb\xff.laz
+    r"""Return a text as one line that any terminal, log or page can show, other characters as
+    escapes.
     """
+    # Line breaks, control characters, and bytes of file names that are not UTF-8.
     if text.isprintable():
         return text
     return "".join(map(_shown, text))

@@ -12,21 +12,8 @@ from .temporary import patiently
 
 
 def exchange(moves: Sequence[tuple[Path, Path]], outdated: Sequence[Path], aside: Path) -> None:
-    """Move files to their places and remove others: all of it or, after an error, nothing.
-
-    Parameters
-    ----------
-    moves : sequence of (Path, Path)
-        New files, and their places, in which old ones may be.
-    outdated : sequence of Path
-        Old files without new ones.
-    aside : Path
-        A temporary folder on the same disk, for the old files.
-
-    Raises
-    ------
-    BareEarthError
-        If another program has an old file open (`OutputInUse`), or the operating system refuses.
+    """Move files to their places and remove others, all or, after an error such as `OutputInUse`,
+    none; `aside` is a temporary folder on the same disk, for the old files.
     """
     targets = [*(target for _, target in moves), *outdated]
     for each in targets:

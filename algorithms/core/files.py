@@ -49,9 +49,8 @@ _ENDINGS = (".copc.laz", ".las", ".laz", ".vpc", ".txt", ".tif", ".tiff")
 
 
 def split_name(path: Path) -> tuple[str, str]:
-    """Return the name of a file without its ending, and the ending, such as ``.copc.laz``.
-
-    The ending is empty for folders and other kinds of files.
+    """Return the name of a file without its ending, and the ending, such as ``.copc.laz``, which is
+    empty for folders and other kinds of files.
     """
     ending = next((each for each in _ENDINGS if path.name.lower().endswith(each)), "")
     stem = path.name[: -len(ending) or None]
@@ -59,22 +58,8 @@ def split_name(path: Path) -> tuple[str, str]:
 
 
 def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
-    """Refuse, before any work is done, an output that could not be written at the end.
-
-    Temporary files of killed runs in the folder are removed, since their space may be needed.
-
-    Parameters
-    ----------
-    target : Path
-        The file to be made.
-    sources : tuple of Path
-        Files that must not be overwritten.
-
-    Raises
-    ------
-    BareEarthError
-        If the folder is missing or not writable, or the target is a folder, no ordinary file, one
-        of the sources, or has a name that is too long.
+    """Refuse, before any work is done, an output that could not be written at the end, or is one of
+    the sources.
     """
     try:
         if not target.parent.is_dir():
@@ -104,15 +89,10 @@ def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
 
 
 def make_work_folder(path: Path) -> None:
-    """Make a hidden folder in a folder of outputs, where a run may remove what it likes.
-
-    Raises
-    ------
-    BareEarthError
-        If it is a link: somebody who writes into a shared folder could lead a run elsewhere by it.
-    OSError
-        If the operating system refuses to make it.
+    """Make a hidden folder in a folder of outputs, where a run may remove what it likes; refuse a
+    link.
     """
+    # By a link, somebody who writes into a shared folder could lead a run elsewhere.
     path.mkdir(exist_ok=True)
     # Windows has more than one kind of links.
     if path.resolve() != path.parent.resolve() / path.name:
@@ -120,22 +100,10 @@ def make_work_folder(path: Path) -> None:
 
 
 def check_lengths(folder: Path, names: Iterable[str]) -> None:
-    """Refuse a folder, which need not exist yet, in which the paths of files would be too long.
-
-    Windows allows most programs, QGIS among them, 259 characters.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder.
-    names : iterable of str
-        Names of files that a run makes in it, with their folders.
-
-    Raises
-    ------
-    BareEarthError
-        If the operating system refuses to make a file whose path is as long.
+    """Refuse a folder, which need not exist yet, in which the paths of files (`names`, with their
+    folders) would be too long.
     """
+    # Windows allows most programs, QGIS among them, 259 characters.
     there = next((each for each in (folder, *folder.parents) if each.is_dir()), folder)
     longest = max(len(os.path.abspath(folder / each)) for each in names)
     left = longest - len(os.path.abspath(there)) - MARKS_LENGTH - 2
@@ -150,18 +118,7 @@ def check_lengths(folder: Path, names: Iterable[str]) -> None:
 
 
 def check_distinct(outputs: Iterable[Path | None]) -> None:
-    """Refuse, before any work is done, outputs of one run that would overwrite each other.
-
-    Parameters
-    ----------
-    outputs : iterable of Path or None
-        The files to be made; None for those that are not wanted.
-
-    Raises
-    ------
-    BareEarthError
-        If two of them are the same file.
-    """
+    """Refuse, before any work is done, outputs of one run of which two are the same file."""
     wanted = [each for each in outputs if each is not None]
     for one, other in itertools.combinations(wanted, 2):
         if is_same_file(one, other):
@@ -176,16 +133,8 @@ def is_same_file(one: Path, other: Path) -> bool:
 
 
 class Outputs(contextlib.ExitStack):
-    """The output files of a run, which get their names together when the block ends, or none.
-
-    After an exception (including a cancel), the temporary files are removed and old files stay
-    unchanged. If another program has an old file open at the end, all new ones stay beside the old
-    ones under other names, which the error gives.
-
-    Raises
-    ------
-    BareEarthError
-        If the operating system refuses to write; the text says what to do.
+    """The output files of a run, which get their names together when the block ends, or none after
+    an exception (including a cancel), when old files stay unchanged.
     """
 
     def __init__(self) -> None:
@@ -194,18 +143,10 @@ class Outputs(contextlib.ExitStack):
         self._made: list[tuple[Path, Path, tuple[str, ...]]] = []
 
     def file(self, target: Path, outdated: Iterable[str] = ()) -> Path:
-        """Return a temporary file beside the target.
-
-        Its name has the ending of the target, since libraries choose the format by it. The
-        permissions of an old target are kept.
-
-        Parameters
-        ----------
-        target : Path
-            The file to make.
-        outdated : iterable of str
-            Names of files beside an old target that are removed, since they describe it.
+        """Return a temporary file beside the target, with its ending and the permissions of an old
+        one; `outdated` names files beside an old target that are removed, since they describe it.
         """
+        # Libraries choose the format by the ending.
         with write_errors_told(target):
             temporary = make_temporary(target, _mode_of(target))
         return self._add(temporary, target, outdated)
@@ -238,7 +179,9 @@ class Outputs(contextlib.ExitStack):
         return super().__exit__(kind, error, traceback)
 
     def _finish(self) -> None:
-        """Give all files their names. First see whether all of these are free."""
+        """Give all files their names, or, if another program has an old file open, leave all new
+        ones beside the old ones under other names, which the error gives.
+        """
         moves = []
         for temporary, target, _ in self._made:
             names = sorted(os.listdir(temporary)) if temporary.is_dir() else None
@@ -284,20 +227,14 @@ def free_path(path: Path) -> Path:
 
 @contextlib.contextmanager
 def replacing(target: Path) -> Iterator[Path]:
-    """Yield a temporary file; rename it to `target` when the block ends. See `Outputs`."""
+    """Yield a temporary file, which becomes `target` when the block ends, as in `Outputs`."""
     with Outputs() as outputs:
         yield outputs.file(target)
 
 
 @contextlib.contextmanager
 def new_folder(path: Path) -> Iterator[Path]:
-    """Make a folder if it does not exist, and yield it; remove it at the end if it is empty.
-
-    Raises
-    ------
-    BareEarthError
-        If the operating system refuses to make it.
-    """
+    """Make a folder if it does not exist, and yield it; remove it at the end if it is empty."""
     try:
         path.mkdir(exist_ok=True)
     except OSError as error:
@@ -311,14 +248,8 @@ def new_folder(path: Path) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def temporary_folder(beside: Path) -> Iterator[Path]:
-    """Yield a new folder inside `beside`; remove it with its contents when the block ends.
-
-    If the process is killed, `remove_leftovers` removes it.
-
-    Raises
-    ------
-    BareEarthError
-        If the operating system refuses to make it.
+    """Yield a new folder inside `beside`, and remove it with its contents when the block ends, or
+    by `remove_leftovers` if the process is killed.
     """
     with write_errors_told(beside):
         folder = make_temporary_folder(beside)
@@ -329,12 +260,8 @@ def temporary_folder(beside: Path) -> Iterator[Path]:
 
 
 def check_free(target: Path) -> None:
-    """Refuse a file that could not be replaced.
-
-    Raises
-    ------
-    OutputInUse
-        If it is read-only, or if another program has it open. In both cases only Windows refuses.
+    """Refuse (`OutputInUse`) a file that is read-only, or that another program has open, if the
+    system, as Windows, would not replace it.
     """
     try:
         if target.is_file():
@@ -358,11 +285,9 @@ def _in_use(target: Path) -> OutputInUse:
 
 
 def rename(temporary: Path, target: Path) -> None:
-    """Rename a file on the same disk; an old target is replaced.
-
-    A network disk may report an error although it has renamed the file: if its first answer was
-    lost, it answers the repeated request that the temporary file does not exist.
-    """
+    """Rename a file on the same disk; an old target is replaced."""
+    # A network disk may report an error although it has renamed the file: if its first answer was
+    # lost, it answers the repeated request that the temporary file does not exist.
     written = os.stat(temporary)
     try:
         patiently(os.replace, temporary, target)
@@ -386,13 +311,7 @@ def _mode_of(target: Path) -> int | None:
 
 @contextlib.contextmanager
 def write_errors_told(target: Path) -> Iterator[None]:
-    """Turn errors of the operating system into a sentence on what cannot be written.
-
-    Raises
-    ------
-    BareEarthError
-        In place of each OSError.
-    """
+    """Turn errors of the operating system into a `BareEarthError` on what cannot be written."""
     try:
         yield
     except OSError as error:

@@ -17,21 +17,11 @@ _LOCKED = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
 
 @contextlib.contextmanager
 def alone_in(folder: Path) -> Iterator[None]:
-    """Lock a folder against other runs until the block ends.
-
-    The operating system removes the lock when the process ends, even if it is killed. If the file
-    system has no locks, other runs are not refused.
-
-    Parameters
-    ----------
-    folder : Path
-        An existing folder that only such runs write into. The file `lock` in it is locked.
-
-    Raises
-    ------
-    BareEarthError
-        If another run works in the folder, or nothing can be written there.
+    """Lock the file `lock` in an existing folder until the block ends; refuse a folder in which
+    another run works, or that cannot be written to.
     """
+    # The operating system removes the lock when the process ends, even if it is killed. If the file
+    # system has no locks, other runs are not refused.
     path = folder / "lock"
     with contextlib.ExitStack() as opened:
         try:
@@ -51,15 +41,10 @@ def alone_in(folder: Path) -> Iterator[None]:
 
 @contextlib.contextmanager
 def one_at_a_time(path: Path) -> Iterator[None]:
-    """Wait until no other thread or process is in such a block for the same path.
-
-    If the file system has no locks, nobody waits.
-
-    Parameters
-    ----------
-    path : Path
-        A file that is made and locked; it stays.
+    """Wait until no other thread or process is in such a block for the same path, a file that is
+    made and stays.
     """
+    # If the file system has no locks, nobody waits.
     with contextlib.ExitStack() as opened:
         with contextlib.suppress(OSError):
             _lock(opened.enter_context(open(path, "ab")).fileno(), waits=True)

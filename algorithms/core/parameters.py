@@ -30,56 +30,26 @@ _Set = TypeVar("_Set", bound="ParameterSet")
 
 @dataclass(frozen=True)
 class Declaration:
-    """The declaration of one parameter.
+    """The declaration of one parameter."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the field; upper case in Processing, with hyphens on the command line.
-    kind : str
-        ``number``, ``integer``, ``boolean``, ``choice``, ``numbers`` or ``integers`` (lists), or
-        ``choices`` (one or more, each once).
-    default : object
-        The default value; None if the parameter is off by default.
-    label, help, unit : str
-        Title of the field, one or two sentences on what it does and how to choose it, and its unit
-        (``m``, ``deg``, ``points``; empty if it has none).
-    minimum, maximum : float or None
-        Inclusive limits of a number, or of each number of a list.
-    choices : mapping of str to str
-        The values of a choice with their labels.
-    optional : bool
-        Whether None is allowed.
-    advanced : bool
-        Whether it is an advanced parameter of the dialog.
-    empty : str
-        The meaning of None: ``not used``, ``automatic`` (the program chooses), or other words.
-    word : str
-        A word that may be given in place of a list of numbers, such as ``all``; empty for none.
-    """
-
-    name: str
+    name: str  # upper case in Processing, with hyphens on the command line
+    # "number", "integer", "boolean", "choice", "choices", "numbers" or "integers" (lists).
     kind: str
-    default: Any
-    label: str
-    help: str
-    unit: str = ""
-    minimum: float | None = None
-    maximum: float | None = None
+    default: Any  # None if the parameter is off by default
+    label: str  # title of the field
+    help: str  # one or two sentences on what it does and how to choose it
+    unit: str = ""  # "m", "deg", "points"; empty if it has none
+    minimum: float | None = None  # inclusive, of a number, or of each number of a list
+    maximum: float | None = None  # inclusive
+    # The labels of the values of a choice.
     choices: Mapping[str, str] = dataclasses.field(default_factory=dict)
-    optional: bool = False
+    optional: bool = False  # whether None is allowed
     advanced: bool = False
-    empty: str = "not used"
-    word: str = ""
+    empty: str = "not used"  # what None means: "not used", "automatic", or other words
+    word: str = ""  # may be given in place of a list of numbers, such as "all"; empty for none
 
     def check(self, value: Any) -> Any:
-        """Return `value`, converted to the type of this parameter.
-
-        Raises
-        ------
-        BareEarthError
-            If the value is not allowed.
-        """
+        """Return `value`, converted to the type of this parameter; refuse what is not allowed."""
         if value is None:
             if not self.optional:
                 raise BareEarthError(f"{self.label} must have a value.")
@@ -152,10 +122,8 @@ def parameter(
     empty: str = "not used",
     word: str = "",
 ) -> Any:
-    """Declare one field of a `ParameterSet`; see `Declaration` for the arguments.
-
-    By default, `kind` follows from `choices` and the type of the default. It must be given if the
-    default is None.
+    """Declare one field of a `ParameterSet`; arguments as of `Declaration`, of which `kind` must be
+    given if the default is None.
     """
     if kind is None:
         kind = "choice" if choices else _kind_of(default)
@@ -167,16 +135,8 @@ def parameter(
 
 
 def parameter_of(declared: type[ParameterSet], name: str, **differently: Any) -> Any:
-    """Declare the same field as in another set, with some differences.
-
-    Parameters
-    ----------
-    declared : type
-        The other `ParameterSet`.
-    name : str
-        Its field.
-    **differently
-        Attributes of the `Declaration` that differ.
+    """Declare the same field as in another set, with other attributes of its `Declaration` where
+    they differ.
     """
     declaration = next(each for each in declared.declarations() if each.name == name)
     declaration = dataclasses.replace(declaration, **differently)

@@ -19,22 +19,12 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True)
 class Frame:
-    """The position of local metres in the coordinate reference system of the survey.
+    """The position of local metres in the coordinate reference system of the survey."""
 
-    Attributes
-    ----------
-    origin : tuple of float
-        x and y of the local origin, in units of the CRS.
-    horizontal_unit, vertical_unit : float
-        Metres in one unit of the CRS.
-    wkt : str or None
-        The CRS as well-known text, if the survey has one.
-    """
-
-    origin: tuple[float, float] = (0.0, 0.0)
-    horizontal_unit: float = 1.0
-    vertical_unit: float = 1.0
-    wkt: str | None = None
+    origin: tuple[float, float] = (0.0, 0.0)  # x and y of local (0, 0), in units of the CRS
+    horizontal_unit: float = 1.0  # metres in one unit of the CRS
+    vertical_unit: float = 1.0  # metres in one unit of the CRS
+    wkt: str | None = None  # the CRS, if the survey has one
 
     def moved(self, corner: tuple[float, float]) -> Frame:
         """Return a frame with another origin, given in metres of this one."""
@@ -49,15 +39,8 @@ class _Columns(NamedTuple):
 
 
 class Points(_Columns):
-    """Coordinates in metres, relative to a local origin.
-
-    The origin belongs to the block (`Blocks.corner`), not to the survey. Grids start at the origin,
-    so that a point falls into the same cell whatever the extent and the files of the survey.
-
-    Attributes
-    ----------
-    x, y, z : numpy.ndarray of float64, shape (n,)
-        Easting, northing and height in metres. Do not change them after `box` was used.
+    """Easting, northing and height in metres from an origin, each float64 (n,), which must not
+    change after `box` was used.
     """
 
     @property

@@ -62,13 +62,7 @@ class Progress:
 
 
 class PassingOn(Progress):
-    """Passes on progress and messages to another progress; a base class.
-
-    Parameters
-    ----------
-    whole : Progress
-        Receives them.
-    """
+    """Passes on progress and messages to another progress; a base class."""
 
     def __init__(self, whole: Progress) -> None:
         self._whole = whole
@@ -115,19 +109,11 @@ class _Quiet(Progress):
 
 
 class Notes(Progress):
-    """Stores messages, to show them later or elsewhere.
-
-    Attributes
-    ----------
-    messages : list of tuple of str
-        Kind (the name of the called method) and text of each message.
-    seconds : dict of str to float
-        How long each stage took, in the order in which they ended first.
-    """
+    """Stores messages, to show them later or elsewhere."""
 
     def __init__(self) -> None:
-        self.messages: list[tuple[str, str]] = []
-        self.seconds: dict[str, float] = {}
+        self.messages: list[tuple[str, str]] = []  # kind (the called method) and text
+        self.seconds: dict[str, float] = {}  # by stage, in the order in which they ended first
 
     def info(self, text: str) -> None:
         """Store a message."""
@@ -151,14 +137,8 @@ class Notes(Progress):
 
 
 def paced(count: int, most: int) -> Iterator[slice]:
-    """Yield consecutive pieces of a range; the time of a piece sets the size of the next one.
-
-    Parameters
-    ----------
-    count : int
-        Length of the range, in points.
-    most : int
-        Greatest length of a piece.
+    """Yield consecutive pieces, of at most `most`, of a range of points; the time of a piece sets
+    the size of the next one.
     """
     start, size = 0, _FIRST_PIECE
     while start < count:

@@ -36,15 +36,10 @@ _PATIENCE, _PAUSE = 5.0, 0.05
 
 
 def patiently(action: Callable[..., Any], *arguments: Any) -> Any:
-    """Call a function of the file system; on Windows, wait some seconds for files that are in use.
-
-    Virus scanners, indexers and copying services open each new file for a moment.
-
-    Raises
-    ------
-    OSError
-        As the function.
+    """Call a function of the file system; on Windows, wait some seconds for files that are in use
+    before its OSError is raised.
     """
+    # Virus scanners, indexers and copying services open each new file for a moment.
     end = time.monotonic() + _PATIENCE
     while True:
         try:
@@ -68,11 +63,11 @@ def remove(path: str | Path) -> None:
 
 
 def make_temporary(target: Path, mode: int | None = None) -> Path:
-    """Make an empty file beside the target; its name says which process writes it.
-
-    It has the ending of the target, since libraries choose the format by it. An existing file is
-    never used: somebody who knew the name could have put a link there.
+    """Make an empty file beside the target, with its ending, and a name that says which process
+    writes it.
     """
+    # Libraries choose the format by the ending. An existing file is never used: somebody who knew
+    # the name could have put a link there.
     found = _ENDING.search(target.name)
     ending = found[0] if found else ""
     flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
@@ -85,10 +80,8 @@ def make_temporary(target: Path, mode: int | None = None) -> Path:
 
 
 def make_temporary_folder(beside: Path) -> Path:
-    """Make a folder in `beside`, or beside the temporary folder that this is in.
-
-    So there are none in each other, whose paths would become too long.
-    """
+    """Make a folder in `beside`, or beside the temporary folder that this is in."""
+    # So there are none in each other, whose paths would become too long.
     for each in reversed((beside, *beside.parents)):
         if _TEMPORARY.fullmatch(each.name):
             beside = each.parent
@@ -97,10 +90,8 @@ def make_temporary_folder(beside: Path) -> Path:
 
 
 def _made(folder: Path, ending: str, name: str, make: Callable[[Path], Any]) -> Path:
-    """Make something under a new temporary name; `name` is what users know instead.
-
-    The marks must be registered before it exists, so that no other thread removes it.
-    """
+    """Make something under a new temporary name; `name` is what users know instead."""
+    # The marks must be registered before it exists, so that no other thread removes it.
     known = [name]
     while True:
         random = _short(secrets.randbelow(36**3), 3)
@@ -147,18 +138,9 @@ def is_temporary(path: Path) -> bool:
 
 
 def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> None:
-    """Remove temporary files of killed processes from a folder.
-
-    Files of running processes stay. On a shared disk, files of other computers are removed if they
-    have not changed for a day.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder.
-    processes : container of int, optional
-        Remove only files of these processes. By default, of all processes.
-    """
+    """Remove temporary files of killed processes (by default any of them) from a folder."""
+    # Files of running processes stay. On a shared disk, files of other computers are removed if
+    # they have not changed for a day.
     if not folder.is_dir():
         return
     with os.scandir(folder) as entries:

@@ -20,16 +20,9 @@ _current = threading.local()
 
 
 def import_early(*names: str) -> None:
-    """Import modules that a later step needs in a thread, while the caller reads a file.
+    """Import modules that a later step needs in a thread, while the caller reads a file."""
 
-    Modules that are missing or broken are left to that step, which says so.
-
-    Parameters
-    ----------
-    *names : str
-        Names of modules.
-    """
-
+    # Modules that are missing or broken are left to that step, which says so.
     def load() -> None:
         with contextlib.suppress(ImportError):
             for name in names:
@@ -66,12 +59,8 @@ class _Counter:
 
 
 class SharedThreads:
-    """A number of threads that several computations share, also in several processes.
-
-    Parameters
-    ----------
-    count : int or Counter
-        How many threads may work at the same time (0 counts as 1), or the number of free ones.
+    """A number of threads (0 counts as 1) that several computations share, also in several
+    processes.
     """
 
     def __init__(self, count: int | Counter) -> None:
@@ -84,10 +73,8 @@ class SharedThreads:
 
     @contextlib.contextmanager
     def used(self) -> Iterator[None]:
-        """Let the calling thread be one of the threads, and use free ones, while the block runs.
-
-        If no thread is free, one that helps another computation ends soon.
-        """
+        """Let the calling thread be one of the threads, and use free ones, while the block runs."""
+        # If no thread is free, one that helps another computation ends soon.
         before = shared_threads()
         self._add(-1)
         _current.shared = self
@@ -148,25 +135,12 @@ def may_use(count: int) -> contextlib.AbstractContextManager[None]:
 def in_threads(
     function: Callable[[_Item], _Result], items: Iterable[_Item], progress: Progress = SILENT
 ) -> list[_Result]:
-    """Return the results of a function for each item, in order.
-
-    The calls run in the calling thread and in threads that are free. A call may use threads that
-    are free in the same way.
-
-    Parameters
-    ----------
-    function : callable
-        Takes one item. It must not change data that another call reads.
-    items : iterable
-        The items.
-    progress : Progress
-        Receives progress, from the calling thread.
-
-    Raises
-    ------
-    Exception
-        The exception of the first item whose call failed. Calls that have not started are left out.
+    """Return the results of a function for each item, in order, or raise the exception of the first
+    call that failed; a call must not change what another reads.
     """
+    # The calls run in the calling thread, which also receives progress, and in threads that are
+    # free. A call may use threads that are free in the same way. After a failure, calls that have
+    # not started are left out.
     items = list(items)
     return _Shared(function, items).results(progress)
 
@@ -174,18 +148,8 @@ def in_threads(
 def over_parts(
     function: Callable[[slice], object], count: int, part: int, progress: Progress
 ) -> None:
-    """Call a function for the parts of a range, in threads; see `in_threads`.
-
-    Parameters
-    ----------
-    function : callable
-        Takes a slice of the range. It must not write where another call writes.
-    count : int
-        Length of the range.
-    part : int
-        Length of a part.
-    progress : Progress
-        Receives progress, from the calling thread.
+    """Call a function for the slices of a range, in threads (see `in_threads`); it must not write
+    where another call writes.
     """
     _Shared(function, parts_of(count, part)).results(progress)
 
@@ -196,10 +160,9 @@ def parts_of(count: int, part: int) -> list[slice]:
 
 
 class _Shared:
-    """A list of calls, which several threads, including the calling one, work off.
+    """A list of calls, which several threads, including the calling one, work off."""
 
-    There is no thread pool, since making one for each step would take longer than many steps.
-    """
+    # There is no thread pool, since making one for each step would take longer than many steps.
 
     def __init__(self, function: Callable[[_Item], _Result], items: Sequence[_Item]) -> None:
         self._function, self._items = function, items

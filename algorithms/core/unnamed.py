@@ -11,12 +11,8 @@ from typing import BinaryIO, Iterator
 
 @contextlib.contextmanager
 def unnamed_file(folder: Path) -> Iterator[BinaryIO]:
-    """Yield a temporary file without a name. It disappears when the block or the process ends.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder on whose disk the data are stored.
+    """Yield a temporary file without a name on the disk of a folder, which disappears when the
+    block or the process ends.
     """
     with contextlib.ExitStack() as opened:
         file = opened.enter_context(tempfile.TemporaryFile(dir=folder))
@@ -31,15 +27,11 @@ def _close(file: BinaryIO) -> None:
 
 
 def reach_disk(file: BinaryIO) -> None:
-    """Hand what was written to the disk, before it is read again.
-
-    A full network disk may report an error only when a file is closed. Until then, reading the
-    file can return wrong data. A local disk reports the error at once, so this costs nothing there.
-
-    Raises
-    ------
-    OSError
-        If the disk does not accept the data.
+    """Hand what was written to the disk, before it is read again; OSError if the disk does not
+    accept it.
     """
+    # A full network disk may report an error only when a file is closed. Until then, reading the
+    # file can return wrong data. A local disk reports the error at once, so this costs nothing
+    # there.
     file.flush()
     os.close(os.dup(file.fileno()))

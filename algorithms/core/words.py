@@ -4,14 +4,7 @@ from __future__ import annotations
 
 
 def counted(count: int, one: str, more: str = "") -> str:
-    """Return a number of things in words, such as "1 file" and "2 files".
-
-    Parameters
-    ----------
-    count : int
-        How many.
-    one, more : str
-        The words for one and for more than one, such as "file is" and "files are"; without `more`
-        an "s" is added.
+    """Return a number of things in words, such as "1 file" and "2 files"; without `more` an "s" is
+    added to `one`.
     """
     return f"{count:,} {one if count == 1 else more or one + 's'}"

@@ -46,47 +46,23 @@ _UNITS = {
 
 
 class GeoKeys(NamedTuple):
-    """A CRS as GeoTIFF keys describe it; None for values that they do not state.
+    """A CRS as GeoTIFF keys describe it; None for values that they do not state."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the CRS in the file.
-    is_geographic : bool
-        Whether the coordinates are degrees, or geocentric.
-    epsg, vertical_epsg : int or None
-        EPSG code of the horizontal and the vertical CRS.
-    vertical_name : str
-        Name of the vertical CRS.
-    datum_epsg : int or None
-        EPSG code of the vertical datum.
-    is_above_ellipsoid : bool
-        Whether heights are above the ellipsoid.
-    horizontal_unit, vertical_unit : float or None
-        Metres in one unit.
-    unknown_units : tuple of int
-        Unit codes in the keys that are not known here.
-    """
-
-    name: str
-    is_geographic: bool
-    epsg: int | None
-    vertical_epsg: int | None
-    vertical_name: str
-    datum_epsg: int | None
-    is_above_ellipsoid: bool
-    horizontal_unit: float | None
-    vertical_unit: float | None
-    unknown_units: tuple[int, ...]
+    name: str  # as in the file
+    is_geographic: bool  # in degrees, or geocentric
+    epsg: int | None  # of the horizontal CRS
+    vertical_epsg: int | None  # of the vertical CRS
+    vertical_name: str  # of the vertical CRS
+    datum_epsg: int | None  # of the vertical datum
+    is_above_ellipsoid: bool  # the heights
+    horizontal_unit: float | None  # metres
+    vertical_unit: float | None  # metres
+    unknown_units: tuple[int, ...]  # codes in the keys that are not known here
 
 
 def read_geokeys(directory: bytes, doubles: bytes = b"", texts: bytes = b"") -> GeoKeys | None:
-    """Return the CRS that the GeoTIFF keys describe, or None if they do not define one.
-
-    Parameters
-    ----------
-    directory, doubles, texts : bytes
-        Contents of the records 34735, 34736 and 34737.
+    """Return the CRS that the contents of the records 34735, 34736 and 34737 describe, or None if
+    they do not define one.
     """
     keys = _read_keys(directory, doubles, texts)
     projected, geographic = _code(keys, _PROJECTED_CODE), _code(keys, _GEOGRAPHIC_CODE)

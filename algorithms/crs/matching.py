@@ -8,11 +8,10 @@ from .wkt import VerticalDatum
 
 
 def is_same_crs(one: Crs, other: Crs) -> bool:
-    """Return whether two CRS, their units and what heights are measured from are the same.
-
-    Programs write the same CRS differently, so codes and names are compared, not texts. A CRS that
-    is not stated differs from all others; a vertical datum that is not stated differs from none.
-    """
+    """Return whether two CRS, their units and what heights are measured from are the same."""
+    # Programs write the same CRS differently, so codes and names are compared, not texts. A CRS
+    # that is not stated differs from all others; a vertical datum that is not stated differs from
+    # none.
     if one == other:
         return True
     if Crs() in (one, other) or not has_same_units(one, other):
@@ -25,10 +24,8 @@ def is_same_crs(one: Crs, other: Crs) -> bool:
 
 
 def is_other_datum(one: VerticalDatum | None, other: VerticalDatum | None) -> bool | None:
-    """Return whether two vertical datums differ.
-
-    None if that is not certain: programs also use names of their own, or one is not stated.
-    """
+    """Return whether two vertical datums differ, None if that is not certain."""
+    # Programs also use names of their own, or one is not stated.
     if one is None or other is None:
         return None
     names = {_bare(each.name) for each in (one, other)}

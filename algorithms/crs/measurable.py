@@ -33,23 +33,10 @@ def wrong_lengths(scale: float) -> str:
 
 
 def require_measurable(subject: object, crs: Crs, box: Box | None = None) -> None:
-    """Refuse coordinates in which distances cannot be measured.
-
-    Parameters
-    ----------
-    subject : object
-        What the error names: a file, or "The survey".
-    crs : Crs
-        Its CRS.
-    box : tuple of float, optional
-        Smallest x and y, largest x and y, as far as known; they may be wrong.
-
-    Raises
-    ------
-    BareEarthError
-        If the CRS is geographic or geocentric, or lengths in it are far too long or too short here,
-        as in Web Mercator.
+    """Refuse coordinates in which distances cannot be measured, as in degrees or Web Mercator; the
+    error names the subject, a file or "The survey".
     """
+    # The box is known as far as a header states it, and may be wrong.
     if crs.is_geographic:
         raise _not_projected(subject, crs, box)
     wrong = wrong_lengths(length_scale(crs, box))
@@ -62,11 +49,9 @@ def require_measurable(subject: object, crs: Crs, box: Box | None = None) -> Non
 
 
 def length_scale(crs: Crs, box: Box | None) -> float:
-    """Return how many metres of a CRS a true metre takes in the middle of a box.
-
-    It is 1 but for Mercator projections, where it grows with the latitude. Other projections of the
-    world are rare for point clouds.
-    """
+    """Return how many metres of a CRS a true metre takes in the middle of a box."""
+    # It is 1 but for Mercator projections, where it grows with the latitude. Other projections of
+    # the world are rare for point clouds.
     true_scale = _mercator(crs.wkt or "", crs.epsg)
     if true_scale is None or box is None or not all(map(math.isfinite, box)):
         return 1.0

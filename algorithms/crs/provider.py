@@ -16,18 +16,14 @@ _CODE = re.compile(r"[A-Za-z]+:[A-Za-z0-9_]+$")
 
 
 def wkt_of_epsg(code: int) -> str | None:
-    """Return the well-known text (WKT 1) of an EPSG code.
-
-    None if there is no library, or it does not know the code.
-    """
+    """Return the WKT 1 of an EPSG code, None if there is no library, or the code is not known."""
     known = library()
     return None if known is None else known.wkt_of_epsg(code)
 
 
 def wkt_of_text(text: str) -> str | None:
-    """Return the well-known text (WKT 1) of a CRS in any form that the library understands.
-
-    None if there is no library, or it does not understand the text.
+    """Return the WKT 1 of a CRS in any form that the library understands, None if there is no
+    library, or it does not understand the text.
     """
     known = library()
     # GDAL would read the address.
@@ -35,50 +31,26 @@ def wkt_of_text(text: str) -> str | None:
 
 
 def are_same(one: str, other: str) -> bool | None:
-    """Return whether two well-known texts have the same horizontal CRS.
-
-    None if there is no library, or it does not understand a text.
+    """Return whether two well-known texts have the same horizontal CRS, None if there is no
+    library, or it does not understand a text.
     """
     known = library()
     return None if known is None else known.are_same(one, other)
 
 
 def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
-    """Transform places to WGS 84.
-
-    Parameters
-    ----------
-    wkt : str
-        The CRS of the places as well-known text.
-    places : numpy.ndarray of float64, shape (n, 2)
-        Their x and y.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (n, 2), or None
-        Longitudes and latitudes in degrees. None if there is no library, it does not know the CRS,
-        or a place is outside the area of the CRS.
+    """Return longitudes and latitudes in degrees, float64 (n, 2), of places in a CRS, None without
+    a library that knows it, or if a place is outside its area.
     """
     degrees = transformed(wkt, LONGITUDE_LATITUDE, places)
     return None if degrees is None or not _are_within(degrees, (180, 90)) else degrees
 
 
 def transformed(source: str, target: str, places: np.ndarray) -> np.ndarray | None:
-    """Transform places from one CRS to another; heights do not matter.
-
-    Parameters
-    ----------
-    source, target : str
-        Each CRS as well-known text, or as a code, such as ``EPSG:25832``.
-    places : numpy.ndarray of float64, shape (n, 2)
-        x and y; longitude first, whatever the definition of the CRS says.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (n, 2), or None
-        x and y, in this order. None if there is no library, it does not know a CRS, or a place is
-        outside the area of a CRS.
+    """Return x and y, float64 (n, 2), in another CRS, each given as well-known text or code, None
+    without a library that knows both, or if a place is outside their areas.
     """
+    # Longitude comes first, whatever the definition of the CRS says. Heights do not matter.
     known = library()
     if known is None or not _are_within(places, (_FARTHEST, _FARTHEST)):
         return None
@@ -94,7 +66,7 @@ def _are_within(places: np.ndarray, limits: tuple[float, float]) -> bool:
 
 
 def library() -> Any:
-    """Return the class for the installed library: GDAL first, for QGIS. None if there is none."""
+    """Return the class for the installed library, GDAL first, for QGIS; None if there is none."""
     for package, asking in (("osgeo", _Gdal), ("pyproj", _Pyproj)):
         if importlib.util.find_spec(package) is not None:
             return asking

@@ -27,21 +27,10 @@ class _Statement(NamedTuple):
 def crs_of_records(
     texts: Sequence[str], keys: GeoKeys | None, prefers_text: bool, progress: Progress
 ) -> Crs | None:
-    """Return the CRS of a file, given all of its records; None if they state none.
-
-    What the preferred record does not state, such as the unit of heights, comes from the others.
-
-    Parameters
-    ----------
-    texts : sequence of str
-        The records with well-known text.
-    keys : GeoKeys or None
-        The GeoTIFF keys.
-    prefers_text : bool
-        Whether well-known text holds where the records contradict each other.
-    progress : Progress
-        Receives warnings of contradictions and of units that are not known.
+    """Return the CRS of a file, given all of its records, None if they state none; warn of
+    contradictions, in which text holds if preferred, and of unknown units.
     """
+    # What the preferred record does not state, such as the unit of heights, comes from the others.
     found = [_Statement(_TEXT, text, facts) for text in texts if (facts := read_wkt(text))]
     found[1:] = [each._replace(kind=f"other {_TEXT}") for each in found[1:]]
     if keys is not None:

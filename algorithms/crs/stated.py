@@ -21,18 +21,8 @@ _LONGEST_SHOWN = 60
 
 
 def stated_wkt(text: str | None) -> str | None:
-    """Return the well-known text of a CRS that a user states; None if nothing is stated.
-
-    Parameters
-    ----------
-    text : str or None
-        An EPSG code, with or without a vertical one ("EPSG:2230", "EPSG:2230+6360"), well-known
-        text, or another text that pyproj or GDAL understand, such as PROJ strings.
-
-    Raises
-    ------
-    BareEarthError
-        If the text describes no CRS of places, or there is no library that knows it.
+    """Return the well-known text of a CRS that a user states, such as "EPSG:2230+6360", or None;
+    refuse what is no CRS of places, or that no library here knows.
     """
     text = (text or "").strip()
     return _wkt_of(text, library()) if text else None

@@ -15,34 +15,16 @@ _SYMBOLS = {"metre": "m", "foot": "ft", "US survey foot": "US survey ft"}
 
 @dataclass(frozen=True)
 class Crs:
-    """A coordinate reference system.
-
-    Attributes
-    ----------
-    wkt : str or None
-        The CRS as well-known text.
-    name : str
-        Its name; empty if there is none.
-    horizontal_unit, vertical_unit : float
-        Metres in one unit.
-    is_geographic : bool
-        Whether the coordinates are degrees, or geocentric, so that nothing can be measured.
-    epsg : int or None
-        EPSG code of the horizontal CRS.
-    map_name : str
-        Name of the horizontal CRS, if `name` names a vertical one as well.
-    datum : VerticalDatum or None
-        What heights are measured from; None if it is not stated.
-    """
+    """A coordinate reference system."""
 
     wkt: str | None = None
-    name: str = ""
-    horizontal_unit: float = 1.0
-    vertical_unit: float = 1.0
-    is_geographic: bool = False
-    epsg: int | None = None
-    map_name: str = ""
-    datum: VerticalDatum | None = None
+    name: str = ""  # empty if there is none
+    horizontal_unit: float = 1.0  # metres
+    vertical_unit: float = 1.0  # metres
+    is_geographic: bool = False  # in degrees, or geocentric, so that nothing can be measured
+    epsg: int | None = None  # of the horizontal CRS
+    map_name: str = ""  # of the horizontal CRS, if `name` names a vertical one as well
+    datum: VerticalDatum | None = None  # None if it is not stated
 
 
 def same_unit(one: float | None, other: float | None) -> bool:
@@ -51,13 +33,7 @@ def same_unit(one: float | None, other: float | None) -> bool:
 
 
 def unit_name(metres: float) -> str:
-    """Return the name of a unit, given its size in metres.
-
-    Examples
-    --------
-    >>> unit_name(0.3048006096)
-    'US survey foot'
-    """
+    """Return the name of a unit, such as "US survey foot", given its size in metres."""
     for known, name in _UNIT_NAMES.items():
         if same_unit(metres, known):
             return name
@@ -65,24 +41,14 @@ def unit_name(metres: float) -> str:
 
 
 def unit_symbol(metres: float) -> str:
-    """Return the symbol of a unit, given its size in metres.
-
-    Examples
-    --------
-    >>> unit_symbol(1.0)
-    'm'
-    """
+    """Return the symbol of a unit, such as "m", given its size in metres."""
     name = unit_name(metres)
     return _SYMBOLS.get(name, f"units of {name}")
 
 
 def unit_size(symbol: str) -> float:
-    """Return the metres in a unit, given what `unit_symbol` returned.
-
-    Examples
-    --------
-    >>> unit_size("ft"), unit_size("units of 0.5 m")
-    (0.3048, 0.5)
+    """Return the metres in a unit, given what `unit_symbol` returned, such as "ft" or "units of 0.5
+    m".
     """
     for metres in _UNIT_NAMES:
         if unit_symbol(metres) == symbol:
@@ -91,30 +57,19 @@ def unit_size(symbol: str) -> float:
 
 
 def crs_of_wkt(text: str, progress: Progress = SILENT) -> Crs | None:
-    """Return the CRS that well-known text describes; None if it describes none.
-
-    Parameters
-    ----------
-    text : str
-        WKT 1 or WKT 2.
-    progress : Progress
-        Receives messages on units that are not stated, but assumed.
+    """Return the CRS that WKT 1 or WKT 2 describes, None if it describes none; say which units are
+    assumed.
     """
     facts = read_wkt(text)
     return None if facts is None else crs_of_facts(text, facts, progress)
 
 
 def compound_wkt(crs: Crs) -> str | None:
-    """Return the well-known text of a CRS, including the unit of its heights.
-
-    Text made from GeoTIFF keys describes only the horizontal CRS; a different unit of heights is
-    added to it. None if the CRS has no text, or the text has another horizontal unit.
-
-    Examples
-    --------
-    >>> compound_wkt(Crs('LOCAL_CS["site",UNIT["metre",1]]', "site", vertical_unit=0.3048))[:14]
-    'COMPD_CS["site'
+    """Return the well-known text of a CRS with the unit of its heights, None if it has no text, or
+    the text has another horizontal unit.
     """
+    # Text made from GeoTIFF keys describes only the horizontal CRS; a different unit of heights is
+    # added to it.
     facts = read_wkt(crs.wkt) if crs.wkt else None
     if crs.wkt is None or facts is None or crs.is_geographic:
         return crs.wkt
@@ -153,17 +108,7 @@ def _id(code: int | None, keyword: str) -> str:
 
 
 def crs_of_facts(text: str | None, facts: WktFacts, progress: Progress = SILENT) -> Crs:
-    """Return the CRS, with assumed units if none are stated.
-
-    Parameters
-    ----------
-    text : str or None
-        The CRS as well-known text.
-    facts : WktFacts
-        Its properties.
-    progress : Progress
-        Receives messages on units that are not stated, but assumed.
-    """
+    """Return the CRS with the properties of a well-known text; say which units are assumed."""
     crs = Crs(
         text, facts.name, 1.0, 1.0, facts.is_geographic, facts.epsg, facts.map_name, facts.datum
     )

@@ -34,15 +34,10 @@ _LETTERS = re.compile(r"[^\W_]+")
 
 
 def unit_in(text: str) -> float | None:
-    """Return the metres in the unit that a text is or states; None if it states none.
-
-    A unit stands alone, in brackets, after a comma or "in", or at the end.
-
-    Examples
-    --------
-    >>> unit_in("Height, m"), unit_in("Elevation [US survey feet]"), unit_in("DTM of 1 m")
-    (1.0, 0.3048006096012192, None)
+    """Return the metres in the unit that a text is or states, as "Elevation [US survey feet]" does;
+    None if it states none, as "DTM of 1 m".
     """
+    # A unit stands alone, in brackets, after a comma or "in", or at the end.
     text = text.strip()
     size = _SIZE.search(text)
     if size:

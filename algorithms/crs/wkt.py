@@ -51,66 +51,30 @@ class Node(NamedTuple):
 
 
 class VerticalDatum(NamedTuple):
-    """What heights are measured from.
+    """What heights are measured from."""
 
-    Attributes
-    ----------
-    crs : str
-        Name of the vertical CRS.
-    name : str
-        Name of its datum; empty if it is not stated.
-    epsg, crs_epsg : int or None
-        EPSG codes of the datum and of the vertical CRS.
-    is_ellipsoid : bool
-        Whether heights are above the ellipsoid.
-    """
-
-    crs: str
-    name: str = ""
-    epsg: int | None = None
-    crs_epsg: int | None = None
+    crs: str  # name of the vertical CRS
+    name: str = ""  # of the datum; empty if it is not stated
+    epsg: int | None = None  # of the datum
+    crs_epsg: int | None = None  # of the vertical CRS
     is_ellipsoid: bool = False
 
 
 class WktFacts(NamedTuple):
-    """The properties of a CRS that a classification needs; a unit is None if not stated.
-
-    Attributes
-    ----------
-    name : str
-        Name of the CRS.
-    horizontal_unit, vertical_unit : float or None
-        Metres in one unit.
-    has_vertical : bool
-        Whether there is a vertical CRS.
-    is_geographic : bool
-        Whether the coordinates are degrees, or geocentric.
-    epsg : int or None
-        EPSG code of the horizontal CRS.
-    map_name : str
-        Name of the horizontal CRS.
-    datum : VerticalDatum or None
-        What heights are measured from; None if it is not stated.
-    """
+    """The properties of a CRS that a classification needs; a unit is None if not stated."""
 
     name: str
-    horizontal_unit: float | None
-    vertical_unit: float | None
-    has_vertical: bool
-    is_geographic: bool
-    epsg: int | None
-    map_name: str = ""
-    datum: VerticalDatum | None = None
+    horizontal_unit: float | None  # metres
+    vertical_unit: float | None  # metres
+    has_vertical: bool  # a vertical CRS
+    is_geographic: bool  # in degrees, or geocentric
+    epsg: int | None  # of the horizontal CRS
+    map_name: str = ""  # of the horizontal CRS
+    datum: VerticalDatum | None = None  # None if it is not stated
 
 
 def read_wkt(text: str) -> WktFacts | None:
-    """Return the CRS that `text` describes, or None if it describes none.
-
-    Examples
-    --------
-    >>> read_wkt('LOCAL_CS["site",UNIT["foot",0.3048]]').horizontal_unit
-    0.3048
-    """
+    """Return the CRS that `text` describes, or None if it describes none."""
     roots = [each for each in _parse(text) if isinstance(each, Node)]
     parts = [part for root in roots for part in _parts(root)]
     horizontal = next((p for p in parts if p.keyword in _PROJECTED | _LOCAL | _GEOGRAPHIC), None)
@@ -133,24 +97,12 @@ def read_wkt(text: str) -> WktFacts | None:
 
 
 def is_wkt2(text: str) -> bool:
-    """Return whether a text of a projected or local CRS is WKT 2.
-
-    Examples
-    --------
-    >>> is_wkt2('ENGCRS["site",EDATUM[""],CS[Cartesian,2]]')
-    True
-    """
+    """Return whether a text of a projected or local CRS, such as ENGCRS, is WKT 2."""
     return text.lstrip().upper().startswith(_SECOND_VERSION)
 
 
 def with_unit_of_heights(text: str) -> str:
-    """Return WKT 1 whose vertical unit has its EPSG code, without which GeoTIFF cannot state it.
-
-    Examples
-    --------
-    >>> with_unit_of_heights('VERT_CS["v",VERT_DATUM["d",2005],UNIT["ft",0.3048]]')[-43:]
-    'UNIT["ft",0.3048,AUTHORITY["EPSG","9002"]]]'
-    """
+    """Return WKT 1 whose vertical unit has its EPSG code, without which GeoTIFF cannot state it."""
     vertical = _VERTICAL_UNIT.search(text)
     metres = _number(vertical[2]) if vertical else None
     for code, size in _UNIT_CODES.items():
@@ -161,9 +113,8 @@ def with_unit_of_heights(text: str) -> str:
 
 
 def _parse(text: str) -> list[str | Node]:
-    """Return the nodes of the text; brackets that are not closed end with the text.
-
-    The list is empty if brackets are nested deeper than in any CRS.
+    """Return the nodes of the text, none if brackets are nested deeper than in any CRS; brackets
+    that are not closed end with the text.
     """
     top: list[str | Node] = []
     open_lists = [top]
@@ -191,10 +142,8 @@ def _parts(node: Node) -> Sequence[Node]:
 
 
 def _unit_of(node: Node) -> float | None:
-    """Return the unit that is a direct child of a CRS or an axis.
-
-    Units deeper inside belong to the base CRS or to parameters of the projection.
-    """
+    """Return the unit that is a direct child of a CRS or an axis."""
+    # Units deeper inside belong to the base CRS or to parameters of the projection.
     for unit in node.children(_UNITS):
         numbers = [_number(value) for value in unit.values[1:2] if isinstance(value, str)]
         if numbers and numbers[0] is not None:
@@ -245,13 +194,7 @@ def _number(text: str) -> float | None:
 
 
 def is_unit(metres: float) -> bool:
-    """Return whether a size in metres is allowed for a unit.
-
-    Examples
-    --------
-    >>> is_unit(0.3048), is_unit(1e308), is_unit(float("nan"))
-    (True, False, False)
-    """
+    """Return whether a size in metres is allowed for a unit."""
     return _SMALLEST_UNIT <= metres <= _LARGEST_UNIT
 
 
