@@ -46,21 +46,13 @@ class BlockIndex(NamedTuple):
 
 @dataclass(frozen=True)
 class BlockGrid:
-    """The blocks of a survey and where they lie. Every job gets it, so it holds no list of files.
-
-    Attributes
-    ----------
-    frame : Frame
-        Frame of all files, with its origin at (0, 0) of the CRS.
-    blocks : Blocks
-        How the survey is cut.
-    stated : str or None
-        The CRS that the user states for all files, as for `open_las`.
+    """The blocks of a survey and where they lie; every job gets it, so it holds no list of
+    files.
     """
 
-    frame: Frame
+    frame: Frame  # of all files, with its origin at (0, 0) of the CRS
     blocks: Blocks
-    stated: str | None = None
+    stated: str | None = None  # the CRS that the user states for all files, as for `open_las`
 
     def window(self, places: Iterable[BlockIndex]) -> Box:
         """Return the box that holds all points that the blocks need, in units of the CRS."""
@@ -78,12 +70,7 @@ class BlockGrid:
         return range(west, east + 1), range(south, north + 1)
 
     def codes(self, cloud: PointCloud) -> np.ndarray:
-        """Return the `code` of the block of each point.
-
-        Returns
-        -------
-        numpy.ndarray of int64, shape (n,)
-        """
+        """Return the `code` of the block of each point, int64 of shape (n,)."""
         codes = np.empty(cloud.count, dtype=np.int64)
         for first in range(0, cloud.count, _STEP):
             part = slice(first, first + _STEP)
@@ -100,12 +87,8 @@ def code(place: BlockIndex) -> int:
 
 
 def places_of(grid: BlockGrid, tile: LasFile) -> list[BlockIndex]:
-    """Return the blocks that may hold points of a tile, from south to north.
-
-    Raises
-    ------
-    BareEarthError
-        If its points lie far apart and it cannot be read.
+    """Return the blocks that may hold points of a tile, which may be read for this, from south to
+    north.
     """
     columns, rows = grid.places_in(tile.outer_box)
     if len(columns) * len(rows) <= _MOST_PLACES:
@@ -125,9 +108,8 @@ def memory_held(grid: BlockGrid, count: float) -> int:
 
 
 def least_memory(grid: BlockGrid, survey: Survey, place: BlockIndex) -> int:
-    """Return about how many bytes a block takes if its points wait on disk.
-
-    One file after the other is read.
+    """Return about how many bytes a block takes if its points wait on disk and one file is read at
+    a time.
     """
     window = grid.window([place])
     largest = max((each.count for each in survey.touching(window)), default=0)
@@ -155,16 +137,8 @@ def _share(low: float, high: float, start: float, end: float) -> float:
 def grouped(
     grid: BlockGrid, survey: Survey, places: Sequence[BlockIndex], workers: int, memory: int
 ) -> list[list[BlockIndex]]:
-    """Return blocks in groups whose files are read together, from south to north.
-
-    Parameters
-    ----------
-    places : sequence of BlockIndex
-        The blocks.
-    workers : int
-        How many groups are worked on at the same time.
-    memory : int
-        Bytes for each of them. A block that needs more is alone in its group.
+    """Return blocks in groups whose files are read together, from south to north; `workers` groups
+    have `memory` bytes each, and a block that needs more is alone.
     """
     groups, width = [[place] for place in sorted(places, key=_by_row)], 2
     while width <= _LARGEST_GROUP:

@@ -38,22 +38,12 @@ _LEVELS = 4
 
 
 class Block(NamedTuple):
-    """A square block of the plane.
-
-    Attributes
-    ----------
-    column, row : int
-        Position, counted to the east and to the north.
-    side : float
-        Side in metres.
-    start : float
-        Metres from the multiples of the side to the borders of the blocks.
-    """
+    """A square block of the plane, with its position counted to the east and to the north."""
 
     column: int
     row: int
-    side: float
-    start: float = 0.0
+    side: float  # metres
+    start: float = 0.0  # metres from the multiples of the side to the borders of the blocks
 
     @property
     def box(self) -> Box:
@@ -79,25 +69,13 @@ class Block(NamedTuple):
 
 @dataclass(frozen=True)
 class Blocks:
-    """How the plane is cut into blocks, from (0, 0) of the frame; in a survey, of the CRS.
+    """How the plane is cut into blocks, from (0, 0) of the frame; in a survey, of the CRS."""
 
-    Attributes
-    ----------
-    side, buffer : float
-        Metres.
-    most_points : int
-        A block with more points is quartered repeatedly, unless its parts would be narrower than
-        the buffer.
-    start : float
-        As in `Block`.
-    cost : Cost
-        Memory that a block takes.
-    """
-
-    side: float
-    buffer: float
+    side: float  # metres
+    buffer: float  # metres
+    # a block with more is quartered, down to the width of the buffer
     most_points: int = _MOST_POINTS
-    start: float = 0.0
+    start: float = 0.0  # as in `Block`
     cost: Cost = _COST
 
     @classmethod
@@ -107,14 +85,8 @@ class Blocks:
         return cls(side, reach, start=_START, cost=cost)
 
     def memory(self, count: float, area: float = math.inf) -> int:
-        """Return about how many bytes of memory a block takes, or the largest of its parts.
-
-        Parameters
-        ----------
-        count : float
-            Points in the block and its buffer.
-        area : float
-            Square metres in which they lie; at most the area of a whole block counts.
+        """Return about how many bytes a block takes, or the largest of its parts, by its points and
+        area (m²) with the buffer; at most the area of a whole block counts.
         """
         area = min(area, (self.side + 2.0 * self.buffer) ** 2)
         share = min(1.0, self.most_points / max(count, 1.0))
@@ -129,11 +101,9 @@ class Blocks:
         return Block(column, row, self.side, self.start)
 
     def corner(self, block: Block) -> Corner:
-        """Return the place that becomes (0, 0) while a block, or a part of one, is computed.
-
-        It is near the block, so that no digits are lost to large coordinates. It does not depend
-        on the extent of the survey, so that the results do not either.
-        """
+        """Return the place that becomes (0, 0) while a block, or a part of one, is computed."""
+        # It is near the block, so that no digits are lost to large coordinates, and does not depend
+        # on the extent of the survey, so that the results do not either.
         share = round(self.side / block.side)
         return block.column // share * self.side, block.row // share * self.side
 
@@ -200,9 +170,8 @@ class Blocks:
         progress: Progress = SILENT,
         ground_only: bool = False,
     ) -> BlockPoints:
-        """Return the points of a block and its buffer, relative to its `corner`.
-
-        If `ground_only`, only points that are ground, or are where they lie on it.
+        """Return the points of a block and its buffer relative to its `corner`; if `ground_only`,
+        those that are ground, or are where they lie on it.
         """
         box, corner = self.window(block), self.corner(block)
         leaves = store.leaves.within(box)
@@ -212,9 +181,8 @@ class Blocks:
         return store.read(leaves, part, corner, progress, ground_only)
 
     def core(self, block: Block, contents: BlockPoints, is_only: bool) -> np.ndarray:
-        """Return which points of its contents a block is to say something of; boolean, (n,).
-
-        The only block holds them all.
+        """Return which points of its contents, boolean (n,), a block is to say something of: all,
+        if it is the only one.
         """
         if is_only:
             return contents.wanted

@@ -30,22 +30,8 @@ def over_blocks(
     progress: Progress,
     is_wanted: Callable[[Block], bool] | None = None,
 ) -> Iterator[tuple[int, Any]]:
-    """Yield the number and the result of each block, in the order in which they finish.
-
-    Parameters
-    ----------
-    store : Store
-        The points.
-    blocks : Blocks
-        How they are cut.
-    work : callable
-        Returns the result, given a block, whether it is the only one, and a `Progress`.
-    resources : Resources
-        Threads, and the memory for the blocks.
-    progress : Progress
-        Used in the calling thread only.
-    is_wanted : callable, optional
-        Returns whether a block is to be computed. By default all are.
+    """Yield the number and the result of each block, in the order in which they finish; `work` gets
+    a block, whether it is the only one, and a `Progress`.
     """
     todo = [each for each in blocks.over(store) if is_wanted is None or is_wanted(each)]
     if not todo:
@@ -79,15 +65,8 @@ def fill(
     resources: Resources,
     progress: Progress,
 ) -> None:
-    """Store a value for each wanted point.
-
-    Parameters
-    ----------
-    store, blocks, resources, progress
-        As for `over_blocks`.
-    values_of : callable
-        Takes the points of a block and its buffer, which of them are wanted, the corner and a
-        `Progress`. Returns the values of the wanted points, in their order.
+    """Store what `values_of` returns for the wanted points of each block, in their order; it gets
+    the points with the buffer, which are wanted, the corner and a `Progress`.
     """
 
     def found(block: Block, is_only: bool, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
@@ -116,37 +95,12 @@ def run_jobs(
     threads: int,
     progress: Progress,
 ) -> Iterator[tuple[int, Any]]:
-    """Run jobs in threads, and yield the result of each when it is finished.
-
-    The calling thread calls `progress` ten times a second. When the user cancels, it returns at
-    once. The jobs then end at their next call of their own progress.
-
-    Parameters
-    ----------
-    jobs : sequence of callable
-        Each takes a `Progress`, whose messages are passed on in the calling thread.
-    weights : sequence of float
-        The share of each job in the whole.
-    at_once : int
-        How many jobs run at the same time.
-    threads : int
-        How many threads all jobs together may use, at least one each. If the calling thread is one
-        of `SharedThreads`, the jobs use these instead.
-    progress : Progress
-        Used in the calling thread only.
-
-    Yields
-    ------
-    tuple of (int, object)
-        Number and return value of each job, in the order in which they end.
-
-    Raises
-    ------
-    Exception
-        The error of a job.
-    Cancelled
-        If the user asked to stop.
+    """Run jobs in threads, and yield number and result of each as it ends; raise its error, or
+    `Cancelled` at once, while the jobs end when they next call their progress.
     """
+    # The calling thread calls `progress` ten times a second, and no other thread calls it. If it is
+    # one of `SharedThreads`, the jobs use these, otherwise `threads` in all, at least one each.
+    # `weights` are the shares of the jobs in the whole.
     outer = shared_threads()
     with contextlib.nullcontext() if outer is None else outer.lent():
         yield from _run(jobs, weights, at_once, outer or SharedThreads(threads), progress)

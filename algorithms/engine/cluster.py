@@ -47,21 +47,14 @@ class _Facts(NamedTuple):
 
 
 class Cluster(Workers):
-    """The workers of a running Dask scheduler.
-
-    They need the same version of this package, and the same folders under the same names. Each
-    thread of a worker runs one job at a time. If a worker dies, another one does its jobs.
-
-    Parameters
-    ----------
-    address : str
-        Address of the scheduler, such as ``tcp://host:8786``.
-    resources : Resources
-        The memory is that of one job; by default half of what is free on the computer of a worker,
-        divided by its threads. The number of threads is that of the cluster.
-    patience : float
-        Seconds after which a run ends when there is no worker any more.
+    """The workers of a running Dask scheduler, with an address such as ``tcp://host:8786``; a job
+    has `memory` of the resources, and `patience` seconds may pass without workers.
     """
+
+    # The workers need the same version of this package, and the same folders under the same names.
+    # Each thread of a worker runs one job at a time. If a worker dies, another one does its jobs.
+    # Without a limit a job has half of the memory that is free there, divided by the threads of the
+    # worker.
 
     are_local = False
 
@@ -78,12 +71,8 @@ class Cluster(Workers):
         self._pool: Executor | None = None
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Connect, and check the workers.
-
-        Raises
-        ------
-        BareEarthError
-            If there is no scheduler or no worker, or a worker lacks what it needs.
+        """Connect, and raise an error if there is no scheduler or no worker, or a worker lacks what
+        it needs.
         """
         from distributed import Client
 
@@ -124,12 +113,8 @@ class Cluster(Workers):
         return max(1, _AHEAD * sum(self._threads().values()))
 
     def _threads(self) -> dict[str, int]:
-        """Return how many threads each worker has.
-
-        Raises
-        ------
-        BareEarthError
-            If the scheduler does not answer.
+        """Return how many threads each worker has, or raise an error if the scheduler does not
+        answer.
         """
         client = self._client
         try:
@@ -175,13 +160,7 @@ class Cluster(Workers):
         return facts
 
     def submit(self, job: Job) -> Running:
-        """Begin a job.
-
-        Raises
-        ------
-        BareEarthError
-            If the scheduler is gone.
-        """
+        """Begin a job, or raise an error if the scheduler is gone."""
         try:
             # Without arguments, since Dask would search these for results of other jobs.
             future = self._pool.submit(
@@ -193,12 +172,8 @@ class Cluster(Workers):
         return Running(future, JobProgress(threading.Event()))
 
     def check(self) -> None:
-        """Check from time to time whether the scheduler answers and has workers.
-
-        Raises
-        ------
-        BareEarthError
-            If the scheduler is gone, or had no workers for too long.
+        """Raise an error if the scheduler is gone or had no workers for too long; it is asked from
+        time to time.
         """
         now = time.monotonic()
         if now - self._looked < _LOOKING:
@@ -224,10 +199,8 @@ class Cluster(Workers):
 
 
 def _check_encryption(address: str) -> None:
-    """Refuse an address for which the configuration of Dask on this computer has no keys.
-
-    Dask itself raises various errors then, and leaves threads that never end.
-    """
+    """Refuse an address for which the configuration of Dask on this computer has no keys."""
+    # Dask itself raises various errors then, and leaves threads that never end.
     from distributed.security import Security
 
     what = f"The scheduler {address} cannot be reached"

@@ -51,21 +51,11 @@ class _StoredPart(NamedTuple):
 
 
 class DiskStore:
-    """A `Store` whose points are in temporary files without a name.
-
-    The system removes the files when they are closed or the process ends, even if it is killed.
-
-    Parameters
-    ----------
-    target : Path
-        The output. The files are in its folder.
-    frame : Frame
-        Frame of the survey.
-    blocks : Blocks
-        The points are sorted by their leaves, part by part.
-    kind : type
-        Type of the value that is stored for each point.
+    """A `Store` whose points, sorted by leaves part by part, are in temporary files without a name
+    in the folder of `target`; `kind` is the type of the values.
     """
+
+    # The system removes the files when they are closed or the process ends, even if it is killed.
 
     leaves: Leaves
 
@@ -208,27 +198,11 @@ def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
 
 
 class ValuesOnDisk:
-    """Values of points in a temporary file without a name, which is mapped into memory.
-
-    Parameters
-    ----------
-    target : Path
-        The output. The file is in its folder.
-    kind : type
-        Type of the values.
-    count : int
-        Number of values.
-
-    Attributes
-    ----------
-    values : numpy.ndarray, shape (count,)
-        The values.
-
-    Raises
-    ------
-    BareEarthError
-        If the disk is full. Without this check, writing to the mapped file would end the process.
+    """Values of points, shape (count,), mapped into memory from a temporary file without a name in
+    the folder of `target`; an error says if the disk is full.
     """
+
+    # Without that check, writing to the mapped file would end the process.
 
     def __init__(self, target: Path, kind: type, count: int) -> None:
         size = max(count, 1) * np.dtype(kind).itemsize

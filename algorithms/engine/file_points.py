@@ -41,16 +41,8 @@ Parts = Iterable[tuple[slice, PointCloud]]
 
 
 def fits_in_memory(count: int, resources: Resources, record_length: int = 0) -> bool:
-    """Return whether all `count` points of a file fit into memory while it is processed.
-
-    Parameters
-    ----------
-    count : int
-        Points of the file.
-    resources : Resources
-        The memory that may be used.
-    record_length : int
-        Bytes of the records, if they are kept as well.
+    """Return whether all `count` points of a file fit into memory while it is processed, with their
+    records of `record_length` bytes if these are kept as well.
     """
     seen = _BYTES_A_POINT_SEEN * min(count, _MOST_SEEN)
     return (_BYTES_A_POINT_KEPT + record_length) * count + seen <= resources.bytes
@@ -62,31 +54,8 @@ def held_by_file(las: LasFile) -> int:
 
 
 class FilePoints:
-    """The points of one file.
-
-    Parameters
-    ----------
-    cloud : PointCloud or LasFile
-        All points, or a file that is read part by part.
-    resources : Resources
-        Threads and memory.
-    target : Path, optional
-        The output. Temporary files are made in its folder.
-    needs_records : bool
-        Whether whole records are needed for writing.
-
-    Attributes
-    ----------
-    path : Path
-        The file.
-    count : int
-        Its points.
-    cloud : PointCloud or None
-        All points, if they are in memory; otherwise some of them, after the first were read.
-    file : LasFile or None
-        The opened file.
-    resources : Resources
-        What the blocks may use.
+    """The points of one file, in memory or read part by part; temporary files go to the folder of
+    `target`.
     """
 
     def __init__(
@@ -99,6 +68,7 @@ class FilePoints:
         self.path, self.count, self.resources = cloud.path, cloud.count, resources
         self._given = resources
         self.is_in_memory = isinstance(cloud, PointCloud)
+        # all points if in memory; else some, once the first were read
         self.cloud: Any = cloud if self.is_in_memory else None
         self.file: Any = cloud.file if self.is_in_memory else cloud
         self._target, self._needs_records = target, needs_records
@@ -119,16 +89,8 @@ class FilePoints:
         needs_records: bool = True,
         progress: Progress = SILENT,
     ) -> FilePoints:
-        """Read a file, if it fits into memory.
-
-        Parameters
-        ----------
-        las : LasFile
-            The file.
-        target, resources, needs_records
-            As for the class. If they are needed, whole records are kept in memory if they fit.
-        progress : Progress
-            Receives progress and messages.
+        """Read a file if it fits into memory, with its whole records if they are needed and fit as
+        well.
         """
         if not fits_in_memory(las.count, resources):
             progress.info(
@@ -171,14 +133,8 @@ class FilePoints:
     def parts(
         self, progress: Progress = SILENT, is_last: bool = False
     ) -> Iterator[tuple[slice, PointCloud]]:
-        """Yield the points part by part with their indices; the parts are always the same.
-
-        Parameters
-        ----------
-        progress : Progress
-            Receives progress and messages.
-        is_last : bool
-            Whether they are not needed again, so that it is not worth keeping them on disk.
+        """Yield the points with their indices in parts that are always the same; after `is_last` it
+        is not worth keeping them on disk.
         """
         if self.is_in_memory:
             for where, part in self.cloud.parts():
@@ -228,21 +184,8 @@ class FilePoints:
     def gathered(
         self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress = SILENT
     ) -> list[Store]:
-        """Return for each step a store of the points that it needs.
-
-        Parameters
-        ----------
-        steps : sequence of tuple
-            Each step with its counts.
-        parts : iterable
-            All points once, as `parts` yields them; their classes may have changed.
-        progress : Progress
-            Receives progress of sorting, and messages of the steps.
-
-        Raises
-        ------
-        BareEarthError
-            If a step has no points to work on.
+        """Return a store of the points that each step, given with its counts, needs of the parts,
+        whose classes may have changed; refuse a step without points.
         """
         gather = self._in_memory if self.is_in_memory else self._on_disk
         return gather(steps, parts, progress)

@@ -28,33 +28,8 @@ _DIED = (
 
 
 class JobQueue:
-    """The jobs of a survey and their results.
-
-    Parameters
-    ----------
-    blocks : list of BlockJob
-        The blocks that are still to be done, in groups.
-    tiles : list of TileJob
-        The tiles to write.
-    workers : Workers
-        Who runs them.
-    progress : Progress
-        Used in the calling thread only.
-    kept : collection of Path
-        Results of blocks that are used later. The others are removed after their last use.
-
-    Attributes
-    ----------
-    done : list of object
-        The summaries of the tiles that were written.
-    empty_count : int
-        Number of tiles with nothing to write.
-    failures : dict of Path to str
-        Why the other tiles were not written, by their inputs.
-    lost : list of str
-        Why blocks were not done.
-    taken : list of Taken
-        What the jobs took that were done.
+    """The jobs of a survey and their results; results of blocks that are not in `kept` are removed
+    after their last use.
     """
 
     def __init__(
@@ -65,11 +40,11 @@ class JobQueue:
         progress: Progress,
         kept: Collection[Path] = (),
     ) -> None:
-        self.done: list[Any] = []
-        self.empty_count = 0
-        self.failures: dict[Path, str] = {}
-        self.lost: list[str] = []
-        self.taken: list[Taken] = []
+        self.done: list[Any] = []  # the summaries of the tiles that were written
+        self.empty_count = 0  # tiles with nothing to write
+        self.failures: dict[Path, str] = {}  # why the other tiles were not written, by their inputs
+        self.lost: list[str] = []  # why blocks were not done
+        self.taken: list[Taken] = []  # what the jobs took that were done
         self._workers, self._progress = workers, progress
         # Jobs that were running when a worker died. They are repeated one by one, to find the one
         # that kills its worker. The last one that was repeated:
@@ -107,15 +82,7 @@ class JobQueue:
             ready.append(job)
 
     def work(self) -> None:
-        """Run all jobs, and stop the workers.
-
-        Raises
-        ------
-        BareEarthError
-            If the workers are gone.
-        Cancelled
-            If the user asked to stop.
-        """
+        """Run all jobs, and stop the workers; raise an error if the workers are gone."""
         try:
             self._run()
         finally:

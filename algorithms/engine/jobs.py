@@ -35,98 +35,45 @@ from .values import BlockFiles, BlockValues, applied
 
 @dataclass(frozen=True)
 class Taken:
-    """What a job took.
+    """What a job took."""
 
-    Attributes
-    ----------
-    job : str
-        What was done: "blocks" or the name of a file.
-    seconds : float
-        Wall-clock time.
-    memory : int or None
-        Most bytes of memory at a time; None if other jobs ran in the same process, or the system
-        does not tell it.
-    planned : int
-        Bytes of memory that it was expected to take at most.
-    """
-
-    job: str
-    seconds: float
-    memory: int | None
-    planned: int
+    job: str  # "blocks" or the name of a file
+    seconds: float  # of wall-clock time
+    memory: int | None  # most bytes at a time; None if unknown, or other jobs ran in the process
+    planned: int  # most bytes that it was expected to take
 
 
 class JobResult(NamedTuple):
-    """The result of a job.
-
-    Attributes
-    ----------
-    result : object
-        The return value.
-    messages : tuple of tuple of str
-        Kind and text of each message.
-    failure : str or None
-        Why the job failed, if it did.
-    taken : Taken or None
-        What it took, if it did not fail.
-    """
+    """The return value of a job and its messages, as kind and text, or why it failed."""
 
     result: Any
     messages: tuple[tuple[str, str], ...] = ()
     failure: str | None = None
-    taken: Taken | None = None
+    taken: Taken | None = None  # None if it failed
 
 
 class Share(NamedTuple):
-    """What a job may use.
-
-    Attributes
-    ----------
-    resources : Resources
-        Threads of its own, and memory.
-    threads : SharedThreads
-        All threads of the run, of which it may use those that are free.
-    is_alone : bool
-        Whether no other job runs in the same process.
+    """What a job may use: its own threads and memory, and those of all threads of the run that are
+    free.
     """
 
     resources: Resources
     threads: SharedThreads
-    is_alone: bool = False
+    is_alone: bool = False  # no other job runs in the same process
 
 
 @dataclass(frozen=True, eq=False)
 class BlockJob:
-    """A job that works on the points of some blocks.
-
-    Attributes
-    ----------
-    grid : BlockGrid
-        The blocks of the survey.
-    places : tuple of BlockIndex
-        The blocks of this job.
-    files : tuple of Path
-        The file for the result of each block.
-    sources : tuple of Path
-        The input files that may have points for these blocks.
-    count : float
-        Estimated number of points in the blocks.
-    before : tuple of BlockFiles
-        What the steps before have found round these blocks.
-    finished : frozenset of Path
-        Those of the sources that hold this already.
-    unpacking : Unpacking or None
-        Where sources wait uncompressed, if they do.
-    """
+    """A job that works on the points of some blocks."""
 
     grid: BlockGrid
     places: tuple[BlockIndex, ...]
-    files: tuple[Path, ...]
-    sources: tuple[Path, ...]
-    count: float
-    before: tuple[BlockFiles, ...]
-    finished: frozenset[Path]
-    unpacking: Unpacking | None
+    files: tuple[Path, ...]  # for the result of each block
+    sources: tuple[Path, ...]  # that may have points for these blocks
+    count: float  # of points in the blocks, estimated
+    before: tuple[BlockFiles, ...]  # what the steps before have found round these blocks
+    finished: frozenset[Path]  # those of the sources that hold this already
+    unpacking: Unpacking | None  # where sources wait uncompressed
 
     @property
     def needs(self) -> list[Path]:
@@ -193,13 +140,7 @@ class BlockJob:
 
 @dataclass(frozen=True, eq=False)
 class PointJob(BlockJob):
-    """A job that finds a value for each point of some blocks, and stores it by block and file.
-
-    Attributes
-    ----------
-    step : PointStep
-        The step that finds the values.
-    """
+    """A job that finds a value for each point of some blocks, and stores it by block and file."""
 
     step: PointStep
 
@@ -251,46 +192,22 @@ class PointJob(BlockJob):
 
 
 class _SourcePoints(NamedTuple):
-    """What a job knows of a file, beside the points that its store holds.
-
-    Attributes
-    ----------
-    path : Path
-        The file.
-    places : numpy.ndarray of uint8, shape (n,)
-        Number of the block that holds each point, from 1; 0 for other blocks.
-    has_work : bool
-        Whether any point is to get a value.
-    """
+    """What a job knows of a file, beside the points that its store holds."""
 
     path: Path
-    places: np.ndarray
-    has_work: bool
+    places: np.ndarray  # uint8, (n,): number of the block of each point from 1, or 0
+    has_work: bool  # whether any point is to get a value
 
 
 @dataclass(frozen=True, eq=False)
 class TileJob:
-    """A job that writes a file with the values that were found for its points.
-
-    Attributes
-    ----------
-    tile : LasFile
-        The input.
-    target : Path
-        The output.
-    values : tuple of BlockFiles
-        What each step has found in the blocks that may hold its points.
-    fingerprint : Fingerprint
-        What the output is made from; written after the output.
-    unpacking : Unpacking or None
-        Where the input waits uncompressed, if it does.
-    """
+    """A job that writes a file with the values that were found for its points."""
 
     tile: LasFile
     target: Path
-    values: tuple[BlockFiles, ...]
-    fingerprint: Fingerprint
-    unpacking: Unpacking | None
+    values: tuple[BlockFiles, ...]  # of each step, in the blocks that may hold its points
+    fingerprint: Fingerprint  # what the output is made from; written after the output
+    unpacking: Unpacking | None  # where the input waits uncompressed
 
     @property
     def needs(self) -> list[Path]:
@@ -307,7 +224,9 @@ class TileJob:
         return min(held_by_file(self.tile), resources.bytes)
 
     def run(self, share: Share, progress: Progress) -> Any:
-        """Write the file. Return the summary of the step, or None if there is nothing to write."""
+        """Write the file and return the summary of the step, or None if there is nothing to
+        write.
+        """
         las, steps = self.tile, [found.step for found in self.values]
         if self.unpacking is not None:
             las = self.unpacking.of(las, progress.part(0.0, 0.3))
@@ -332,7 +251,7 @@ class TileJob:
 
 
 def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> JobResult:
-    """Run a job. Return its errors in the result instead of raising them."""
+    """Run a job and return its errors in the result instead of raising them."""
     notes = _JobMessages(progress)
     begun, memory = time.monotonic(), PeakMemory() if share.is_alone else None
     try:

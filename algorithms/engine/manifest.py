@@ -38,13 +38,7 @@ Stamp = List[Any]
 
 
 def stamp_of(path: Path) -> Stamp:
-    """Return path, size and time of a file.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read.
-    """
+    """Return path, size and time of a file that must be readable."""
     try:
         status = path.stat()
     except OSError as error:
@@ -59,20 +53,8 @@ def fingerprint_of(
     sources: Iterable[Stamp],
     target: Path,
 ) -> Fingerprint:
-    """Return everything that an output depends on.
-
-    Parameters
-    ----------
-    grids : sequence of BlockGrid
-        The blocks of each step.
-    steps : sequence of Step
-        The steps that compute it.
-    tile : Path
-        The input.
-    sources : iterable of Stamp
-        The files that affect it.
-    target : Path
-        The output.
+    """Return everything that an output depends on: the steps with their blocks, the input, the
+    files that affect it (`sources`), and its name.
     """
     return {
         "steps": _settings(grids, steps),
@@ -89,9 +71,8 @@ def block_file(
     place: BlockIndex,
     sources: Iterable[Stamp],
 ) -> Path:
-    """Return the file for the result of a block of the last of some steps.
-
-    Its name depends on all that the result depends on.
+    """Return the file for the result of a block of the last of some steps; its name depends on all
+    that the result depends on.
     """
     content = {
         "steps": _settings(grids, steps),
@@ -102,11 +83,9 @@ def block_file(
 
 
 def short_name(content: bytes) -> str:
-    """Return 12 characters for the name of a file in a work folder that depends on its content.
-
-    They are few, since Windows allows most programs 259 characters for a whole path, and hold 60
-    bits: two of a million files have the same name once in two million runs.
-    """
+    """Return 12 characters for the name of a file in a work folder that depends on its content."""
+    # They are few, since Windows allows most programs 259 characters for a whole path, and hold 60
+    # bits: two of a million files have the same name once in two million runs.
     return base64.b32encode(hashlib.sha256(content).digest())[:12].decode().lower()
 
 
@@ -127,16 +106,8 @@ def _settings(grids: Sequence[BlockGrid], steps: Sequence[Step]) -> list[dict[st
 
 
 def write_record(target: Path, fingerprint: Fingerprint, summary: dict[str, Any]) -> None:
-    """Write the record of an output, after the output was written.
-
-    Parameters
-    ----------
-    target : Path
-        The output.
-    fingerprint : Fingerprint
-        The result of `fingerprint_of` before the inputs were read.
-    summary : dict
-        The summary of the output.
+    """Write the record of an output after the output, with the `fingerprint_of` from before its
+    inputs were read.
     """
     content = {"made_of": fingerprint, "size": target.stat().st_size, "summary": summary}
     with replacing(_place(target)) as temporary:

@@ -73,14 +73,8 @@ class Resources(ParameterSet):
 
 
 class Cost(NamedTuple):
-    """Bytes of memory that a step takes; by default those of the filters.
-
-    Attributes
-    ----------
-    a_point : float
-        Bytes for each point of a block and its buffer.
-    a_square_metre : float
-        Bytes for each square metre of them.
+    """Bytes of memory that a step takes for the points and the area of a block with its buffer; by
+    default those of the filters.
     """
 
     a_point: float = 80.0
@@ -88,9 +82,8 @@ class Cost(NamedTuple):
 
 
 def give_back() -> None:
-    """Return freed memory to the system, if the C library would keep it.
-
-    glibc keeps up to 64 MB for each thread.
+    """Return freed memory to the system if the C library would keep it, as glibc does with 64 MB
+    for each thread.
     """
     if sys.platform != "linux":
         return
@@ -102,14 +95,8 @@ def give_back() -> None:
 
 
 class GivingBack(PassingOn):
-    """Passes on progress, and gives freed memory back to the system now and then.
-
-    Parameters
-    ----------
-    whole : Progress
-        Receives progress and messages.
-    also : callable, optional
-        Called then as well; it gives up other memory.
+    """Passes on progress, and now and then gives freed memory back to the system and calls `also`,
+    which gives up other memory.
     """
 
     def __init__(self, whole: Progress, also: Callable[[], None] | None = None) -> None:

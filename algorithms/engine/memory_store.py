@@ -38,17 +38,7 @@ class _MarkedCloud(NamedTuple):
 
 
 class MemoryStore:
-    """A `Store` whose points are those of clouds in memory.
-
-    Parameters
-    ----------
-    frame : Frame
-        Frame of the survey.
-    blocks : Blocks
-        The blocks in which the points will be read.
-    kind : type
-        Type of the value that is stored for each point.
-    """
+    """A `Store` whose points are those of clouds in memory; `kind` is the type of the values."""
 
     leaves: Leaves
 
@@ -109,9 +99,8 @@ class MemoryStore:
     def _sorted(
         self, number: int, side: float, progress: Progress
     ) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Sort the points of a file part by part. Return the leaves of each part with their counts.
-
-        So the points of a leaf are later read nearly in file order.
+        """Sort the points of a file part by part, so that those of a leaf are later read nearly in
+        file order, and return the leaves of each part with their counts.
         """
         cloud, order = self._parts[number].cloud, self._orders[number]
         found: list[Any] = [None] * len(parts_of(len(order), _SORTED))

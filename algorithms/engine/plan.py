@@ -45,31 +45,8 @@ class _Wanted(NamedTuple):
 
 
 class Plan:
-    """What a run of steps on many files has to do.
-
-    Parameters
-    ----------
-    survey : Survey
-        The files.
-    targets : dict of Path to Path
-        The output of each file.
-    steps : sequence of PointStep
-        The steps. Each sees what those before it have found.
-    folder : Path
-        The folder for the results of blocks.
-    progress : Progress
-        Receives progress.
-
-    Attributes
-    ----------
-    todo : list of LasFile
-        The files that are to be done.
-    kept : list of object
-        Summaries of the outputs that an earlier run finished.
-    failures : dict of Path to str
-        Files that cannot be done, and why.
-    empty_count : int
-        Number of files of which no point is to be written, according to their headers.
+    """What a run of steps on many files, each of which sees what those before it found, has
+    to do.
     """
 
     def __init__(
@@ -91,15 +68,16 @@ class Plan:
         # Those of several blocks, which many small files share.
         self._together: dict[tuple[_Wanted, ...], list[Path]] = {}
         self._files: dict[_Wanted, Path] = {}
-        self.kept: list[Any] = []
-        self.failures: dict[Path, str] = {}
+        self.kept: list[Any] = []  # summaries of the outputs that an earlier run finished
+        self.failures: dict[Path, str] = {}  # why files cannot be done
         skipped = {tile.path for tile in survey.tiles if any(step.skips(tile) for step in steps)}
+        # files of which no point is to be written, by their headers
         self.empty_count = len(skipped)
         # Their points take part only in the first step.
         self._seen = dataclasses.replace(
             survey, tiles=tuple(tile for tile in survey.tiles if tile.path not in skipped)
         )
-        self.todo: list[LasFile] = []
+        self.todo: list[LasFile] = []  # the files that are to be done
         for number, tile in enumerate(self._seen.tiles, start=1):
             try:
                 for step in steps:
@@ -111,15 +89,7 @@ class Plan:
             progress(number / len(self._seen.tiles))
 
     def keep_finished(self, resume: bool, progress: Progress) -> None:
-        """Remove files whose outputs are finished from those to do, if the run goes on.
-
-        Parameters
-        ----------
-        resume : bool
-            Whether the outputs of an earlier run are kept.
-        progress : Progress
-            Receives messages.
-        """
+        """Remove files whose outputs an earlier run finished from those to do, if `resume`."""
         todo, changed = [], 0
         for tile in self.todo:
             target = self._targets[tile.path]
@@ -142,16 +112,8 @@ class Plan:
     def jobs(
         self, workers: Workers, outputs: Path, unpacking: Unpacking | None
     ) -> tuple[list[BlockJob], list[TileJob]]:
-        """Start the workers. Return the jobs of the blocks, and those that write the files.
-
-        Parameters
-        ----------
-        workers : Workers
-            The workers.
-        outputs : Path
-            Folder of the outputs, which all workers see.
-        unpacking : Unpacking or None
-            Where sources wait uncompressed, if they do.
+        """Start the workers, which all see the folder `outputs`, and return the jobs of the blocks,
+        and those that write the files.
         """
         missing = self._missing()
         least = [
@@ -278,13 +240,7 @@ class Plan:
         ]
 
     def results(self, outputs: Survey) -> Results:
-        """Return where to read the points that rasters are made from.
-
-        Parameters
-        ----------
-        outputs : Survey
-            The outputs.
-        """
+        """Return where to read the points that rasters are made from."""
         inputs = {self._targets[tile.path].name: tile for tile in self._seen.tiles}
         wanted, read_from = set(), {}
         for output in outputs.tiles:
@@ -298,16 +254,8 @@ class Plan:
 
 
 class Results:
-    """Where to read the points of a survey with what was found for them.
-
-    Parameters
-    ----------
-    survey : Survey
-        The files that hold it.
-    inputs : mapping of Path to LasFile
-        The inputs of some of them, which can be read in place of these.
-    found : tuple of BlockFiles
-        What the steps have found for the points of the inputs.
+    """Where to read the points of a survey with what was found for them: from its files, or from
+    `inputs` that can be read in place of these.
     """
 
     def __init__(

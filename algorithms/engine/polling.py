@@ -12,18 +12,11 @@ _POLL = 0.1
 def ended(
     start: Callable[[], Collection[Future[Any]]], look: Callable[[], None]
 ) -> Iterator[Future[Any]]:
-    """Yield jobs as they end, until none is running.
-
-    Threads, processes and the workers of a cluster all have such futures. What `look` raises, such
-    as `Cancelled`, ends the loop.
-
-    Parameters
-    ----------
-    start : callable
-        Starts as many jobs as may run at once, and returns those that are running, in their order.
-    look : callable
-        Called in the calling thread ten times a second, and when a job ends, before it is yielded.
+    """Yield jobs as they end until none runs; `start` begins what may run and returns what runs,
+    `look` is called ten times a second and ends the loop if it raises.
     """
+    # Threads, processes and the workers of a cluster all have such futures. `look` is called in the
+    # calling thread, also when a job ends, before it is yielded.
     while running := start():
         done, _ = wait(running, _POLL, FIRST_COMPLETED)
         look()

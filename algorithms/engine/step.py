@@ -32,18 +32,10 @@ Allocate = Callable[[type], np.ndarray]
 
 
 class Step:
-    """Base of the steps, which are frozen dataclasses of parameters.
+    """Base of the steps, which are frozen dataclasses of parameters."""
 
-    Attributes
-    ----------
-    kind : type
-        Type of the value that a store holds for each point.
-    counts : type
-        Type of the counters that `marks` adds to.
-    """
-
-    kind: type = np.uint8
-    counts: type
+    kind: type = np.uint8  # of the value that a store holds for each point
+    counts: type  # of the counters that `marks` adds to
 
     @property
     def origin(self) -> tuple[float, float]:
@@ -56,23 +48,13 @@ class Step:
         raise NotImplementedError
 
     def marks(self, part: PointCloud, counts: Any) -> Marks:
-        """Return the flags of the points of a part of a file, and count them.
-
-        Raises
-        ------
-        BareEarthError
-            If the file is unsuitable.
+        """Return the flags of the points of a part of a file and count them, or refuse an
+        unsuitable file.
         """
         raise NotImplementedError
 
     def tell(self, counts: Any, path: Path, progress: Progress) -> None:
-        """Report what was counted in a file.
-
-        Raises
-        ------
-        BareEarthError
-            If the step has nothing to do.
-        """
+        """Report what was counted in a file, or refuse it if the step has nothing to do."""
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> Any:
         """Compute the result from the points of a store."""
@@ -85,21 +67,8 @@ class Step:
 
 
 def located(steps: Sequence[Any], place: Place, progress: Progress = SILENT) -> list[Any]:
-    """Return steps whose lines and polygons are in the CRS of the points.
-
-    Parameters
-    ----------
-    steps : sequence of Step
-        Steps that may share an area or other geometry, which is transformed once.
-    place : Place
-        Where the points lie.
-    progress : Progress
-        Receives messages.
-
-    Raises
-    ------
-    BareEarthError
-        As for `Geometry.located`.
+    """Return steps whose lines and polygons are in the CRS of the points, each transformed once;
+    errors are those of `Geometry.located`.
     """
     known: dict[int, Geometry] = {}
     found = []
@@ -116,18 +85,10 @@ def located(steps: Sequence[Any], place: Place, progress: Progress = SILENT) -> 
 
 
 class PointStep(Step):
-    """Base of the steps that find a value for each point, and write it into the file.
+    """Base of the steps that find a value for each point, and write it into the file."""
 
-    Attributes
-    ----------
-    summary_type : type
-        Type of its summaries: a frozen dataclass with `name`, `point_count` and `text`.
-    vpc_name : str
-        Name of the virtual point cloud of the results.
-    """
-
-    summary_type: type
-    vpc_name: str
+    summary_type: type  # a frozen dataclass with `name`, `point_count` and `text`
+    vpc_name: str  # of the virtual point cloud of the results
 
     @property
     def gives_classes(self) -> bool:
@@ -157,9 +118,8 @@ class PointStep(Step):
         """Count points of one of many files for `tell_of_tile`."""
 
     def tell_of_tile(self, counts: Any, path: Path, progress: Progress) -> bool:
-        """Report what was counted in one of many files, or refuse the file.
-
-        Return whether any of its points can get a result. Otherwise it is written as it is.
+        """Report what was counted in one of many files, or refuse it, and return whether any point
+        can get a result; if not, it is written as it is.
         """
         return True
 
@@ -183,15 +143,9 @@ class CountedClasses:
 
 
 class PointResult:
-    """What a step found for the points of a file, beside their classes.
+    """What a step found for the points of a file, beside their classes."""
 
-    Attributes
-    ----------
-    kept : numpy.ndarray of bool, shape (n,), or None
-        Which points are written; None for all.
-    """
-
-    kept: np.ndarray | None = None
+    kept: np.ndarray | None = None  # bool, (n,): which points are written; None for all
 
     @property
     def is_empty(self) -> bool:
@@ -199,21 +153,8 @@ class PointResult:
         return False
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Add the values of some points.
-
-        Parameters
-        ----------
-        where : slice
-            Their indices in the file.
-        part : PointCloud
-            The points.
-        values : numpy.ndarray, shape (k,)
-            Their values.
-
-        Returns
-        -------
-        PointCloud
-            The points as the step's `applied` returns them.
+        """Add the values, shape (k,), of the points at `where` in the file, and return these as
+        `applied` of the step does.
         """
         raise NotImplementedError
 
@@ -224,24 +165,14 @@ class PointResult:
         """Report what was found in a file."""
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return the changes of the file beside the classes; `cloud` holds any of its points.
-
-        Raises
-        ------
-        BareEarthError
-            If the output cannot hold the result.
+        """Return the changes of the file beside the classes, or refuse a file that cannot hold
+        them; `cloud` holds any of its points.
         """
         return Edits()
 
     def summary(self, name: str, class_counts: dict[int, int]) -> Any:
-        """Return the summary of an output, as the step's `summary_type`.
-
-        Parameters
-        ----------
-        name : str
-            Name of the output.
-        class_counts : dict of int to int
-            Points of each class in the output.
+        """Return the summary of an output, with the points of each class in it, as the step's
+        `summary_type`.
         """
         raise NotImplementedError
 
@@ -261,9 +192,8 @@ def _plain(value: Any) -> Any:
 
 
 def with_classes(part: PointCloud, classes: np.ndarray, begins: bool = False) -> PointCloud:
-    """Return points with other classes, which are remembered if the file remembers classes.
-
-    If `begins`, they are remembered in any case.
+    """Return points with other classes, which are remembered if the file remembers classes or
+    `begins` to.
     """
     remembered = None
     if begins or part.remembered is not None:

@@ -18,22 +18,12 @@ Corner = tuple[float, float]
 
 
 class Leaves(NamedTuple):
-    """Squares that hold the points of a store; smaller than blocks or equal to them.
+    """Squares that hold the points of a store; smaller than blocks or equal to them."""
 
-    Attributes
-    ----------
-    x, y : numpy.ndarray of float64, shape (n,)
-        Lower left corners in metres.
-    side : float
-        Side in metres.
-    counts : numpy.ndarray of int64, shape (n,)
-        How many points each holds.
-    """
-
-    x: np.ndarray
-    y: np.ndarray
-    side: float
-    counts: np.ndarray
+    x: np.ndarray  # float64, (n,): lower left corners in metres
+    y: np.ndarray  # as x
+    side: float  # metres
+    counts: np.ndarray  # int64, (n,): points
 
     def within(self, box: Box) -> np.ndarray:
         """Return the indices of the leaves that a box touches."""
@@ -51,51 +41,24 @@ class Leaves(NamedTuple):
 
 
 class Marks(NamedTuple):
-    """Flags of points for a step, boolean arrays of shape (n,).
+    """Flags of points for a step, boolean arrays of shape (n,)."""
 
-    Attributes
-    ----------
-    selected : numpy.ndarray
-        Which take part.
-    known : numpy.ndarray or None
-        Which of them are known ground; None for none.
-    wanted : numpy.ndarray or None
-        Which of them get a value; the others are context. None for all.
-    roads : numpy.ndarray or None
-        Which of them are ground where they lie on it; None for none.
-    """
-
-    selected: np.ndarray
-    known: np.ndarray | None = None
+    selected: np.ndarray  # which take part
+    known: np.ndarray | None = None  # which of them are known ground; None for none
+    # which of them get a value, the others are context; None for all
     wanted: np.ndarray | None = None
-    roads: np.ndarray | None = None
+    roads: np.ndarray | None = None  # which of them are ground where they lie on it; None for none
 
 
 class BlockPoints(NamedTuple):
-    """Points of a store.
-
-    Attributes
-    ----------
-    points : Points
-        Their coordinates.
-    known : numpy.ndarray of bool, shape (n,)
-        Which are known ground.
-    wanted : numpy.ndarray of bool, shape (n,)
-        Which are to be labelled; the others are context.
-    positions : numpy.ndarray of int, shape (n,)
-        Their indices in the store.
-    roads : numpy.ndarray of bool, shape (n,)
-        Which are ground where they lie on it.
-    multi_return : numpy.ndarray of bool, shape (n,)
-        Which are of pulses with several returns.
-    """
+    """Points of a store with flags, boolean arrays of shape (n,)."""
 
     points: Points
-    known: np.ndarray
-    wanted: np.ndarray
-    positions: np.ndarray
-    roads: np.ndarray
-    multi_return: np.ndarray
+    known: np.ndarray  # which are known ground
+    wanted: np.ndarray  # which are to be labelled; the others are context
+    positions: np.ndarray  # int, (n,): indices in the store
+    roads: np.ndarray  # which are ground where they lie on it
+    multi_return: np.ndarray  # which are of pulses with several returns
 
     @classmethod
     def empty(cls, count: int, kind: type) -> BlockPoints:
@@ -121,21 +84,12 @@ class BlockPoints(NamedTuple):
 
 
 class Store(Protocol):
-    """Holds points, in memory or on disk, and a value for each of them.
-
-    Points are added part by part, in any number of files. After `finish` they are read by the
-    squares in which they lie.
-
-    Attributes
-    ----------
-    leaves : Leaves
-        The squares in which the points lie; after `finish`.
-    has_known : bool
-        Whether any of them are known ground.
+    """Holds points, added part by part from any number of files and after `finish` read by the
+    squares in which they lie, and a value for each.
     """
 
-    leaves: Leaves
-    has_known: bool
+    leaves: Leaves  # after `finish`
+    has_known: bool  # whether any point is known ground
 
     def append(self, part: PointCloud, marks: Marks) -> None:
         """Add the selected points of the next part."""
@@ -151,11 +105,10 @@ class Store(Protocol):
         progress: Progress = SILENT,
         ground_only: bool = False,
     ) -> BlockPoints:
-        """Return the points of some leaves; only those in a box, if there is one.
-
-        Coordinates and box are relative to a corner. If `ground_only`, only points are returned
-        that are ground, or are where they lie on it. Several threads may call this.
+        """Return the points of some leaves, in a box if there is one, relative to a corner as the
+        box; if `ground_only`, those that are ground, or are where they lie on it.
         """
+        # Several threads may call this.
 
     def over_pieces(
         self,
@@ -164,18 +117,16 @@ class Store(Protocol):
         corner: Corner = (0.0, 0.0),
         progress: Progress = SILENT,
     ) -> list[_Result]:
-        """Return the results of a function of the points of some leaves, for one piece at a time.
-
-        So that the points need not be in memory together. Coordinates are relative to a corner.
+        """Return results of a function of the points of some leaves, relative to a corner, piece by
+        piece, so that not all need be in memory together.
         """
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:
-        """Store the values of points. Only one thread may call this."""
+        """Store the values of points; only one thread may call this."""
 
     def values(self, number: int) -> np.ndarray:
-        """Return the values of all points of a part, in its order; 0 where none was stored.
-
-        `number` is how many parts were added before it.
+        """Return the values of all points of the part that was added after `number` others, in its
+        order; 0 where none was stored.
         """
 
 
@@ -187,23 +138,11 @@ def gathered(
     progress: Progress = SILENT,
     may_be_fewer: bool = False,
 ) -> BlockPoints:
-    """Return points that are read in pieces, which are small enough for the processor's cache.
-
-    Parameters
-    ----------
-    counts : sequence of int
-        Points of each piece.
-    read : callable
-        Returns the points of a piece, given its number. Several threads may call it.
-    box : tuple of float, optional
-        Only points in this box are returned.
-    kind : type
-        Type of integer for the positions.
-    progress : Progress
-        Receives progress.
-    may_be_fewer : bool
-        Whether a piece can have fewer points than were counted.
+    """Return the points, in a box if there is one, of pieces that are small enough for the
+    processor's cache and are read by number, in several threads.
     """
+    # `kind` is the type of integer for the positions. If `may_be_fewer`, a piece can have fewer
+    # points than `counts` says.
     starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
     whole = BlockPoints.empty(starts[-1], kind)
     if box is None and not may_be_fewer:
@@ -236,19 +175,11 @@ def row_and_column(codes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Sorted(NamedTuple):
-    """Some points sorted by the leaves that hold them.
+    """Some points sorted by the leaves that hold them."""
 
-    Attributes
-    ----------
-    order : numpy.ndarray of intp, shape (n,)
-        The indices of the points; those of one leaf in their former order.
-    codes, counts : numpy.ndarray of int64, shape (m,)
-        The leaves that hold points, and their numbers of points.
-    """
-
-    order: np.ndarray
-    codes: np.ndarray
-    counts: np.ndarray
+    order: np.ndarray  # intp, (n,): indices of the points; those of one leaf in their former order
+    codes: np.ndarray  # int64, (m,): the leaves that hold points
+    counts: np.ndarray  # int64, (m,): points of each leaf
 
     @classmethod
     def of(cls, row: np.ndarray, column: np.ndarray) -> Sorted:
@@ -276,7 +207,7 @@ class LeafIndex:
         self._added.append(np.column_stack((codes, starts, counts)).astype(np.int64))
 
     def finish(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Finish adding. Return row, column and number of points of each leaf."""
+        """Finish adding, and return row, column and number of points of each leaf."""
         added = np.concatenate([np.zeros((0, 3), np.int64), *self._added])
         self._added = []
         added = added[np.argsort(added[:, 0], kind="stable")]

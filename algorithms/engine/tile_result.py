@@ -28,31 +28,18 @@ def copies_all_else(las: LasFile, target: Path, steps: Sequence[PointStep]) -> b
 
 
 class TileResult:
-    """What the steps of a run found for the points of a file.
-
-    Parameters
-    ----------
-    points : FilePoints
-        The points.
-    values : sequence of PointValues
-        What each step found, in the order of the steps.
-
-    Attributes
-    ----------
-    results : list of PointResult
-        What each step found beside the classes.
-    class_counts : numpy.ndarray of int64, shape (256,)
-        Points of each class in the output.
-    """
+    """What the steps of a run found for the points of a file, in the order of the steps."""
 
     def __init__(self, points: FilePoints, values: Sequence[PointValues]) -> None:
         self._points, self._values = points, values
         steps = [found.step for found in values]
+        # what each step found beside the classes
         self.results = [step.result(points.path, points.allocate) for step in steps]
         self.classification: np.ndarray | None = None
         if any(step.gives_classes for step in steps):
             self.classification = points.allocate(np.uint8)
         self._remembered: np.ndarray | None = None
+        # int64, (256,): points of each class in the output
         self.class_counts = np.zeros(256, dtype=np.int64)
 
     def add(self, where: slice, part: PointCloud) -> None:
@@ -69,13 +56,7 @@ class TileResult:
         self.class_counts += count_classes(classes if kept is None else classes[kept[where]])
 
     def check(self) -> None:
-        """Refuse a file without a result.
-
-        Raises
-        ------
-        BareEarthError
-            With the reason.
-        """
+        """Refuse a file without a result, with the reason."""
         for result, found in zip(self.results, self._values):
             result.check(found.failure)
 
@@ -85,13 +66,7 @@ class TileResult:
         return self.results[0].is_empty
 
     def edits(self, progress: Progress = SILENT) -> Edits:
-        """Return all changes of the file.
-
-        Raises
-        ------
-        BareEarthError
-            If the output cannot hold them.
-        """
+        """Return all changes of the file, or refuse a file that cannot hold them."""
         edits = Edits(classification=self.classification)
         if self._remembered is not None:
             dimension = ExtraDimension(REMEMBERED, "Before changes by hand", self._remembered)
@@ -103,15 +78,7 @@ class TileResult:
         return edits
 
     def write(self, target: Path, progress: Progress) -> None:
-        """Write the output.
-
-        Raises
-        ------
-        BareEarthError
-            If it cannot be written.
-        Cancelled
-            If the user asked to stop.
-        """
+        """Write the output."""
         points, edits = self._points, self.edits(progress)
         progress = points.sparing(progress)
         write_changed(points.file, target, edits, progress, points.cloud, points.memory_left)

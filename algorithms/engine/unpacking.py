@@ -18,30 +18,15 @@ from .manifest import short_name
 
 
 class Unpacking(NamedTuple):
-    """Where the records of compressed files wait uncompressed, for all local jobs of a run.
+    """Where the records of compressed files wait uncompressed, for all local jobs of a run."""
 
-    Attributes
-    ----------
-    folder : Path
-        An existing folder that is removed at the end of the run.
-    is_whole : bool
-        Whether whole records are needed for writing, or only what a cloud holds.
-    once : frozenset of Path
-        Files that are read only once more, so that unpacking them would be in vain.
-    """
-
-    folder: Path
-    is_whole: bool
+    folder: Path  # exists, and is removed when the run ends
+    is_whole: bool  # whole records, for writing, or only what a cloud holds
+    # files that are read only once more, so that unpacking them would be in vain
     once: frozenset[Path] = frozenset()
 
     def of(self, las: LasFile, progress: Progress) -> LasFile:
-        """Return a file that is read uncompressed; the file itself if the disk is full.
-
-        Raises
-        ------
-        Cancelled
-            If the user asked to stop.
-        """
+        """Return a file that is read uncompressed; the file itself if the disk is full."""
         if not las.is_compressed or las.unpacked is not None:
             return las
         columns = None if self.is_whole else needed(las)

@@ -27,20 +27,11 @@ _FAILURE = "no ground"
 
 
 class PointValues(Protocol):
-    """The value of each point of a file.
-
-    Attributes
-    ----------
-    step : PointStep
-        The step that found them.
-    failure : str
-        Why some points have none; empty if all have.
-    lost : numpy.ndarray of bool, shape (k,), or None
-        Which of the points that `of` was last asked for lie in blocks that could not be done.
-    """
+    """The value that a step found for each point of a file."""
 
     step: PointStep
-    failure: str
+    failure: str  # why some points have none; empty if all have
+    # bool, (k,): which points that `of` was last asked for lie in blocks that failed
     lost: np.ndarray | None
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
@@ -74,17 +65,7 @@ def applied(values: Sequence[PointValues], where: slice, part: PointCloud) -> Po
 
 
 class StoreValues:
-    """The values that a store holds, which has all parts of one file.
-
-    Parameters
-    ----------
-    step : PointStep
-        The step that found them.
-    store : Store
-        The store.
-    counts : sequence of int
-        Points of each part that was added to it.
-    """
+    """The values that a store holds, which has all parts of one file, with `counts` points each."""
 
     failure, lost = "", None
 
@@ -101,19 +82,9 @@ class StoreValues:
 
 @dataclass(frozen=True, eq=False)
 class BlockFiles:
-    """The files with the values that a step has found in some blocks.
+    """The files with the values that a step has found in some blocks."""
 
-    Attributes
-    ----------
-    grid : BlockGrid
-        The blocks of the step.
-    step : PointStep
-        The step.
-    files : dict of BlockIndex to Path
-        The file of each block.
-    """
-
-    grid: BlockGrid
+    grid: BlockGrid  # of the step
     step: PointStep
     files: Mapping[BlockIndex, Path]
 
@@ -137,21 +108,8 @@ class BlockFiles:
 
 
 class BlockValues:
-    """The values of a file, as the blocks stored them.
-
-    Parameters
-    ----------
-    found : BlockFiles
-        The values of its blocks.
-    las : LasFile
-        The file.
-    are_all : bool
-        Whether all blocks of the file are there. Otherwise points in the others have the value 0.
-
-    Attributes
-    ----------
-    lost : numpy.ndarray of bool, shape (k,), or None
-        As for `PointValues`; only if not all blocks need to be there.
+    """The values of a file as the blocks stored them; points in blocks that are not there, unless
+    `are_all`, have the value 0.
     """
 
     def __init__(self, found: BlockFiles, las: LasFile, are_all: bool = True) -> None:
@@ -170,12 +128,8 @@ class BlockValues:
                     self.failure = self.failure or str(kept.get(_FAILURE, ""))
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
-        """Return the values of the next points.
-
-        Raises
-        ------
-        BareEarthError
-            If points lie outside the extent in the header.
+        """Return the values of the next points, or refuse points outside the extent in the
+        header.
         """
         if where.stop > self._las.count:
             raise self._changed()

@@ -35,42 +35,19 @@ class Running(NamedTuple):
 
 
 class Workers:
-    """Base of the workers.
+    """Base of the workers, with threads and memory for all of them together."""
 
-    Parameters
-    ----------
-    resources : Resources
-        Threads and memory for all of them together.
-
-    Attributes
-    ----------
-    at_once : int
-        How many jobs run at the same time.
-    share : Resources
-        What each job may use.
-    are_local : bool
-        Whether they run on this computer.
-    """
-
-    are_local = True
+    are_local = True  # on this computer
     # How many jobs can run at the same time at most.
     most: int | None = None
 
     def __init__(self, resources: Resources = Resources()) -> None:
         self.resources = resources
-        self.at_once, self.share = 1, Resources.of(1, 0)
+        self.at_once, self.share = 1, Resources.of(1, 0)  # of each job
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Prepare for jobs.
-
-        Parameters
-        ----------
-        folder : Path
-            Folder of the outputs.
-        least : int
-            Bytes that the largest job needs.
-        blocks, tiles : int
-            Numbers of blocks and tiles to do.
+        """Prepare for jobs of which the largest needs `least` bytes, on numbers of blocks and
+        tiles, with outputs in a folder.
         """
         threads, memory = self.resources.thread_count, self.resources.bytes
         most = min(threads, self.most or threads)
@@ -84,19 +61,13 @@ class Workers:
         raise NotImplementedError
 
     def check(self) -> None:
-        """Check whether there are still workers for the running jobs.
-
-        Raises
-        ------
-        BareEarthError
-            If there are none.
-        """
+        """Raise an error if there are no workers for the running jobs any more."""
 
     def restart(self) -> None:
         """Prepare for jobs again after a worker died."""
 
     def stop(self) -> None:
-        """Stop all jobs. Running jobs remove their unfinished files."""
+        """Stop all jobs, which remove their unfinished files."""
 
 
 class Threads(Workers):
@@ -177,10 +148,9 @@ class Processes(Workers):
 
 
 class Local(Workers):
-    """Processes of this computer, or threads of this process if there is only one block.
+    """Processes of this computer, or threads of this process if there is only one block."""
 
-    The job of a single block uses all threads, and new processes would only take time to start.
-    """
+    # The job of a single block uses all threads, and new processes would only take time to start.
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Prepare for jobs."""
