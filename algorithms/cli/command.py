@@ -10,23 +10,11 @@ DONE, FAILED, USAGE = 0, 1, 2
 
 
 class Command(NamedTuple):
-    """One command.
-
-    Attributes
-    ----------
-    name : str
-        Its name in the command line.
-    help, description : str
-        What it does: in one line, and in one or two sentences.
-    add : callable
-        ``add(parser, arguments)`` adds its options to a parser. They can depend on `arguments`, the
-        whole command line.
-    run : callable
-        ``run(options)`` runs it and returns the exit code.
-    """
+    """One command."""
 
     name: str
-    help: str
-    description: str
+    help: str  # one line
+    description: str  # one or two sentences
+    # adds options to a parser; they can depend on the whole command line
     add: Callable[[argparse.ArgumentParser, Sequence[str]], None]
-    run: Callable[[argparse.Namespace], int]
+    run: Callable[[argparse.Namespace], int]  # returns the exit code

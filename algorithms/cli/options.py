@@ -53,16 +53,8 @@ def add_json(parser: argparse.ArgumentParser, what: str = "what was done ") -> N
 def add_parameters(
     parser: argparse.ArgumentParser, *declared: type[ParameterSet], titles: Sequence[str] = ()
 ) -> None:
-    """Add an option for each declared parameter.
-
-    Parameters
-    ----------
-    parser : argparse.ArgumentParser
-        The parser of the command.
-    *declared : type
-        Sets of parameters; `chosen` returns them in this order.
-    titles : sequence of str, optional
-        A title in the help for each set.
+    """Add an option for each declared parameter of some sets, which `chosen` returns in this order,
+    with a title in the help for each set.
     """
     for place, each in enumerate(declared):
         _add_options(parser.add_argument_group(titles[place]) if titles else parser, each)
@@ -70,12 +62,8 @@ def add_parameters(
 
 
 def chosen(options: argparse.Namespace) -> list[ParameterSet]:
-    """Return the sets of parameters with the values of the options.
-
-    Raises
-    ------
-    UsageError
-        If a value is not allowed.
+    """Return the sets of parameters with the values of the options, or raise `UsageError` if one is
+    not allowed.
     """
     return [_from_options(each, options) for each in options.declared]
 

@@ -70,10 +70,8 @@ def add_contours(parser: argparse.ArgumentParser) -> None:
 def contours_after(
     options: argparse.Namespace, sets: Sequence[ParameterSet]
 ) -> Iterator[tuple[RasterFiles, list[ParameterSet]]]:
-    """Yield the rasters to make, and the parameters of all but the contour lines.
-
-    Afterwards, write the contour lines, if they are wanted. Without `--dtm`, their terrain model is
-    a temporary file.
+    """Yield the rasters to make, and the parameters of all but the contour lines, then write these
+    if they are wanted; without `--dtm`, their terrain model is a temporary file.
     """
     from ..core.files import temporary_folder
     from ..products.contours import Contours, write_contours
@@ -195,12 +193,8 @@ def water_polygons_of(options: argparse.Namespace, sets: Sequence[ParameterSet])
 
 
 def constraints_of(options: argparse.Namespace, finds_water: bool = False) -> Constraints:
-    """Return the lines and polygons of the options; `finds_water`: the command can find water.
-
-    Raises
-    ------
-    UsageError
-        If water is to be found by a command that cannot.
+    """Return the lines and polygons of the options; `UsageError` if water is to be found by a
+    command that cannot (`finds_water`).
     """
     from ..products.constraints import Constraints
     from ..survey.vector_files import read_boundary, read_lines

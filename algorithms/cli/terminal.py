@@ -13,12 +13,8 @@ from ..core.progress import Progress
 
 
 class Terminal(Progress):
-    """Shows messages on standard error, and a progress bar if that is a terminal.
-
-    Parameters
-    ----------
-    verbose : bool
-        Whether to show messages also if standard error is no terminal.
+    """Shows messages on standard error, without `verbose` only warnings unless it is a terminal,
+    where there is also a progress bar.
     """
 
     def __init__(self, verbose: bool) -> None:
@@ -71,18 +67,8 @@ def _progress_bar() -> Any:
 
 
 def tell(options: argparse.Namespace, summary: Any, text: str, always: bool = False) -> None:
-    """Print the result: as JSON, or as a sentence in a terminal.
-
-    Parameters
-    ----------
-    options : argparse.Namespace
-        With `json` and `verbose`.
-    summary : object
-        The result as a dataclass, for JSON.
-    text : str
-        The sentence. With `verbose`, it is printed also if the output is no terminal.
-    always : bool
-        Whether the sentence says what was found, so that it is printed anyway.
+    """Print the result: as JSON, or as a sentence in a terminal, or anywhere with `always` or
+    `verbose`.
     """
     if options.json:
         print(json.dumps(dataclasses.asdict(summary)))

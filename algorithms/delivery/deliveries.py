@@ -1,14 +1,8 @@
 """The deliveries: which outputs a job needs, and with which settings they are made.
 
-References
-----------
-U.S. Geological Survey: Lidar Base Specification, version 2.1 and later, Digital Elevation Model
-Hydro-Flattening, and table of cell sizes.
-Toitu Te Whenua Land Information New Zealand (2020): PGF version, New Zealand National Aerial LiDAR
-Base Specification.
-IGN: LiDAR HD, modeles numeriques, https://geoservices.ign.fr/lidarhd.
-Stular, B., Eichert, S., Lozic, E. (2021): Airborne LiDAR Point Cloud Processing for Archaeology.
-Pipeline and QGIS Toolbox. Remote Sensing 13(16), 3225.
+They follow the Lidar Base Specification of USGS (version 2.1 and later: hydro-flattening, cell
+sizes), the PGF specification of LINZ (2020), LiDAR HD of IGN (https://geoservices.ign.fr/lidarhd)
+and, for archaeology, Stular, Eichert and Lozic (2021), Remote Sensing 13(16), 3225.
 """
 
 from __future__ import annotations
@@ -31,85 +25,32 @@ _ABOVE_GROUND = {3, 4, 5, 6}
 
 
 class Delivery(NamedTuple):
-    """The outputs of a job, and how they are made.
-
-    Attributes
-    ----------
-    label, about : str
-        Its name, and a sentence about it.
-    rasters : tuple of str
-        Names of rasters, as in `RASTERS` of `products/raster_files.py`.
-    pictures : tuple of str
-        The rasters that its page shows; the first is the largest.
-    finest : float
-        The smallest cell that is chosen by the density of the ground points, in metres.
-    preset : str
-        The preset of the method, unless the user chooses one.
-    values : mapping of str to object
-        Values of the method, unless the user gives them.
-    above_ground : bool
-        Whether the points above the ground get classes.
-    heights : bool
-        Whether each point gets its height above ground.
-    water : mapping of str to float, or None
-        Which water is found, flattened and delivered, where the user leaves the default; None for
-        no water.
-    water_classes : bool
-        Whether ground in the water and beside its shore gets the classes 9 and 20.
-    terrain : mapping of str to object
-        Values of the terrain model, where the user leaves the default.
-    surface : mapping of str to object
-        Values of the surface and canopy models, where the user leaves the default.
-    with_buildings : bool
-        Whether there is a terrain model on which the buildings stand.
-    contours : bool
-        Whether there are contour lines.
-    contour_metres : float or None
-        The height between them in metres; None for about twenty lines.
-    quality : tuple of str
-        The rasters of quality that are delivered.
-    specification : str
-        The specification with which the survey is compared, unless the user chooses one.
-    cell_as_specified : bool
-        Whether a specification states the cell size.
-    """
+    """The outputs of a job, and how they are made, where the user leaves the default."""
 
     label: str
-    about: str
-    rasters: tuple[str, ...]
-    pictures: tuple[str, ...]
-    finest: float
+    about: str  # a sentence
+    rasters: tuple[str, ...]  # names as in `RASTERS`
+    pictures: tuple[str, ...]  # the rasters that its page shows; the first is the largest
+    finest: float  # metres: smallest cell that is chosen by the density of ground points
     preset: str = "automatic"
-    values: Mapping[str, Any] = MappingProxyType({})
-    above_ground: bool = False
-    heights: bool = False
-    water: Mapping[str, float] | None = None
+    values: Mapping[str, Any] = MappingProxyType({})  # of the method
+    above_ground: bool = False  # whether the points above the ground get classes
+    heights: bool = False  # whether each point gets its height above ground
+    water: Mapping[str, float] | None = None  # which water is found, flattened and delivered
+    # whether ground in water and beside its shore gets the classes 9 and 20
     water_classes: bool = False
     terrain: Mapping[str, Any] = MappingProxyType({})
-    surface: Mapping[str, Any] = MappingProxyType({})
-    with_buildings: bool = False
+    surface: Mapping[str, Any] = MappingProxyType({})  # values of the surface and canopy models
+    with_buildings: bool = False  # whether there is a terrain model on which the buildings stand
     contours: bool = False
-    contour_metres: float | None = None
-    quality: tuple[str, ...] = ()
-    specification: str = "none"
-    cell_as_specified: bool = False
+    contour_metres: float | None = None  # the height between them; None for about twenty lines
+    quality: tuple[str, ...] = ()  # the rasters of quality that are delivered
+    specification: str = "none"  # with which the survey is compared
+    cell_as_specified: bool = False  # whether a specification states the cell size
 
     def cell_size(self, density: float | None, specification: str) -> float:
-        """Return the side of a cell of the terrain model in metres.
-
-        Parameters
-        ----------
-        density : float or None
-            Ground points in a square metre; None if it is not known.
-        specification : str
-            Name of the specification.
-
-        Examples
-        --------
-        >>> DELIVERIES["archaeology"].cell_size(6.0, "none")
-        0.5
-        >>> DELIVERIES["survey"].cell_size(6.0, "lbs-ql2")
-        1.0
+        """Return the side of a cell of the terrain model in metres, by ground points in a square
+        metre, if known, and the specification.
         """
         if self.cell_as_specified and specification in _STATED_CELLS:
             return _STATED_CELLS[specification]

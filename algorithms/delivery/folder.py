@@ -36,13 +36,7 @@ _LOCK = "lock"
 
 
 class DeliveryFolder:
-    """The folder of a delivery.
-
-    Parameters
-    ----------
-    path : Path
-        The folder. It is made if it is missing.
-    """
+    """The folder of a delivery, which is made if it is missing."""
 
     def __init__(self, path: Path) -> None:
         self.path = Path(path)
@@ -59,9 +53,8 @@ class DeliveryFolder:
 
     @property
     def _places_of_records(self) -> tuple[Path, Path]:
-        """Where a run has the records of many files, and where a finished delivery has them.
-
-        Whoever receives the points has no use for these.
+        """Where a run has the records of many files, and where a finished delivery has them, since
+        who receives the points has no use for these.
         """
         during = folders_of(self.points)[1]
         return during, self.path / during.name
@@ -76,12 +69,8 @@ class DeliveryFolder:
         return found if isinstance(found, dict) and isinstance(found.get("files"), list) else None
 
     def check(self, sources: Sequence[Path]) -> None:
-        """Refuse, before any work is done, a folder that is unsuitable.
-
-        Raises
-        ------
-        BareEarthError
-            If it cannot be made, holds files of the user, or holds an input.
+        """Refuse, before any work is done, a folder that cannot be made, holds files of the user,
+        or holds an input.
         """
         check_lengths(self.path, [f"{MARKS}/{QUALITY}/strip_differences.tif"])
         if not self.path.exists():
@@ -134,24 +123,12 @@ class DeliveryFolder:
         return False
 
     def take(self, made: Path, changed: Sequence[Path], record: dict[str, Any]) -> None:
-        """Put a finished delivery here in place of an earlier one: all of it, or nothing.
-
-        Parameters
-        ----------
-        made : Path
-            A temporary folder on the same disk, with the files and folders of the delivery.
-        changed : sequence of Path
-            Files in a folder of `CHANGES`, which replace those of the same names in `points`.
-        record : dict
-            What is said of it; the names of the files are added.
-
-        Raises
-        ------
-        OutputInUse
-            If another program has an old file open; the text says where the new delivery is.
-        BareEarthError
-            If the operating system refuses to write.
+        """Put a finished delivery from a temporary folder on the same disk here in place of an
+        earlier one: all of it, or nothing, and its record with the names of the files.
         """
+        # The changed files are in a folder of `CHANGES`, and replace those of the same names in
+        # `points`. `OutputInUse` says, if another program has an old file open, where the new
+        # delivery is.
         old, names = self._files, sorted(_files_in(made))
         kept = {*names, *record.get("files", ())}
         _write_record(made / RECORD, {**record, "is_finished": True, "files": sorted(kept)})

@@ -8,21 +8,11 @@ from ..core.progress import PassingOn, Progress
 
 
 class Heard(PassingOn):
-    """Passes on messages, each once, since several steps read the same files; keeps warnings.
-
-    Parameters
-    ----------
-    whole : Progress
-        Receives them.
-
-    Attributes
-    ----------
-    folders : dict of Path to Path
-        Messages name these folders in place of those that are temporary.
-    """
+    """Passes on messages, each once, since several steps read the same files; keeps warnings."""
 
     def __init__(self, whole: Progress) -> None:
         super().__init__(whole)
+        # which messages name in place of those that are temporary
         self.folders: dict[Path, Path] = {}
         self.warnings: list[str] = []
         self._said: set[str] = set()

@@ -44,18 +44,8 @@ _ABOUT = {
 
 
 def delivery_html(request: DeliveryRequest, made: Made, survey: Survey, root: Path) -> str:
-    """Return the page of a delivery.
-
-    Parameters
-    ----------
-    request : DeliveryRequest
-        What was asked for.
-    made : Made
-        What was made.
-    survey : Survey
-        The raw files.
-    root : Path
-        The folder with the files of the delivery, all but the points of many files.
+    """Return the page of a delivery of raw files, made in `root`, all but the points of
+    many files.
     """
     units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
     content = request.content

@@ -23,16 +23,8 @@ _DARKEST = 0.35
 
 
 def picture_of(raster: Path, name: str, units: Units = Units()) -> tuple[Picture, str]:
-    """Return a raster as a picture, and its legend as HTML; the legend is empty for reliefs.
-
-    Parameters
-    ----------
-    raster : Path
-        The raster, read some rows at a time.
-    name : str
-        Its name, as in `RASTERS`.
-    units : Units
-        For the legend.
+    """Return a raster, read some rows at a time, as a picture, and its legend as HTML; the legend
+    is empty for reliefs.
     """
     values, cell = _small(raster)
     known = values[~np.isnan(values)]

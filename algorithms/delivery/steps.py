@@ -44,20 +44,16 @@ _FEET_A_METRE = 4.0
 
 @dataclass
 class Made:
-    """What the steps have made so far; `cloud` is None before the points are classified.
+    """What the steps have made so far."""
 
-    `changed` is the list of many files that take the places of `files` at the end, and `waiting`
-    are these.
-    """
-
-    cloud: Path | None = None
+    cloud: Path | None = None  # None before the points are classified
     point_count: int = 0
     ground_count: int = 0
     class_counts: dict[int, int] = field(default_factory=dict)
     failures: dict[str, str] = field(default_factory=dict)
     files: list[Path] = field(default_factory=list)
-    changed: Path | None = None
-    waiting: list[Path] = field(default_factory=list)
+    changed: Path | None = None  # list of many files that take the places of `files` at the end
+    waiting: list[Path] = field(default_factory=list)  # the files of `changed`
     layers: dict[str, Path] = field(default_factory=dict)
     cell_size: float = 1.0
     constraints: Constraints | None = None
@@ -72,33 +68,15 @@ class Made:
 
 @dataclass
 class DeliverySteps:
-    """The steps of a delivery.
-
-    Attributes
-    ----------
-    request : DeliveryRequest
-        What to deliver.
-    survey : Survey
-        The raw files.
-    sources : list of Path
-        The files and folders as the user gave them.
-    is_one : bool
-        Whether they are one file.
-    work : DeliveryFolder
-        Where outputs are made that get their places at the end.
-    folder : DeliveryFolder
-        Where many files are classified at once, as finished ones stay after a cancel.
-    workers : Workers or None
-        The workers for many files.
-    """
+    """The steps of a delivery."""
 
     request: DeliveryRequest
-    survey: Survey
-    sources: list[Path]
-    is_one: bool
-    work: DeliveryFolder
-    folder: DeliveryFolder
-    workers: Workers | None
+    survey: Survey  # the raw files
+    sources: list[Path]  # files and folders as the user gave them
+    is_one: bool  # file
+    work: DeliveryFolder  # where outputs are made that get their places at the end
+    folder: DeliveryFolder  # where many files are classified, as finished ones stay after a cancel
+    workers: Workers | None  # for many files
     made: Made = field(default_factory=Made)
 
     def run(self, progress: Progress) -> Made:
@@ -213,9 +191,8 @@ class DeliverySteps:
     def _change(
         self, how: WaterClassRequest | KeyPointRequest, name: str, progress: Progress
     ) -> Any:
-        """Change the classified points. Many files stay as they are until all outputs are made.
-
-        So a run can be continued. The changed ones wait in a folder with the name.
+        """Change the classified points, of many files in a folder `name` until all outputs are
+        made, so that a run can be continued.
         """
         source = self._cloud
         if self.is_one:

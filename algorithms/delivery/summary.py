@@ -14,62 +14,26 @@ from ..products.water_files import WaterSummary
 
 @dataclass(frozen=True)
 class DeliverySummary:
-    """What a delivery holds.
-
-    Attributes
-    ----------
-    folder : str
-        Where it is.
-    delivery : str
-        Its name.
-    page : str
-        The page that shows it.
-    cloud : str
-        The classified file, or the virtual point cloud of many.
-    layers : dict of str to str
-        The files that a map shows, by their names: those of `RASTERS`, "terrain_with_buildings",
-        "contours", "water", "breaklines" and "checkpoints".
-    point_count, ground_count : int
-        Numbers of points in the classified files, and of ground points.
-    class_counts : dict of int to int
-        Points of each class.
-    cell_size : float
-        Side of a cell of the terrain model, in metres or in the unit that was asked for.
-    cell_text : str
-        The same in words, with its unit.
-    failures : dict of str to str
-        Why some of many files are left out, by their paths.
-    warnings : list of str
-        What the run warned of.
-    seconds : dict of str to float
-        How long each step took.
-    quality : Quality
-        The figures of the survey.
-    check : Check or None
-        The errors at checkpoints and at points that were held out.
-    water : WaterSummary or None
-        The water that was found; None if none was looked for.
-    interval : Interval or None
-        The height between contour lines.
-    """
+    """What a delivery holds."""
 
     folder: str
     delivery: str
-    page: str
-    cloud: str
-    layers: dict[str, str]
+    page: str  # that shows it
+    cloud: str  # the classified file, or the virtual point cloud of many
+    layers: dict[str, str]  # files that a map shows, by names of `RASTERS` and of vector layers
     point_count: int
     ground_count: int
     class_counts: dict[int, int]
-    cell_size: float
-    cell_text: str
-    failures: dict[str, str]
+    cell_size: float  # of the terrain model, in metres or in the unit asked for
+    cell_text: str  # the same in words, with its unit
+    failures: dict[str, str]  # why some of many files are left out, by their paths
     warnings: list[str]
-    seconds: dict[str, float]
+    seconds: dict[str, float]  # that each step took
     quality: Quality = field(repr=False)
+    # errors at checkpoints and at points that were held out
     check: Check | None = field(default=None, repr=False)
-    water: WaterSummary | None = None
-    interval: Interval | None = None
+    water: WaterSummary | None = None  # that was found; None if none was looked for
+    interval: Interval | None = None  # the height between contour lines
 
     @property
     def text(self) -> str:

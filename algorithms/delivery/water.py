@@ -27,34 +27,8 @@ def write_water(
     folder: Path,
     progress: Progress,
 ) -> dict[str, Path]:
-    """Write the water and the breaklines of the terrain model, with their heights in it.
-
-    Parameters
-    ----------
-    cloud : Path
-        The classified points.
-    request : DeliveryRequest
-        What was asked for, with the water and the breaklines of the user.
-    found : SurveyWater or None
-        Water that was found.
-    how : TerrainRequest
-        How the terrain model was made.
-    folder : Path
-        The folder of the files.
-    progress : Progress
-        Receives progress and messages.
-
-    Returns
-    -------
-    dict of str to Path
-        The files by the names of their layers; none if there is nothing to write.
-
-    Raises
-    ------
-    BareEarthError
-        If a file cannot be read or written.
-    Cancelled
-        If the user asked to stop.
+    """Write the water and the breaklines of the terrain model, those found and those of the user,
+    with their heights in it, and return the files by the names of their layers, if any.
     """
     own = request.constraints
     if found is None and not (own.water or own.breaklines):

@@ -261,9 +261,8 @@ def write(
     as_survey: bool | None = None,
     vpc: Path | None = None,
 ) -> Any:
-    """Do what `heights`, `key_points` and such do, as the type of the request says.
-
-    For `vpc`, see `classify`.
+    """Do what `heights`, `key_points` and such do, as the type of the request says; for `vpc`, see
+    `classify`.
     """
     paths, target = _paths(sources), Path(output)
     if _is_one(paths, as_survey):

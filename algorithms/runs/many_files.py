@@ -40,36 +40,16 @@ from .survey_checks import check_rasters, check_stems, check_survey, targets_of
 
 @dataclass(frozen=True)
 class SurveySummary:
-    """The result of a run on a survey.
+    """The result of a run on a survey."""
 
-    Attributes
-    ----------
-    tile_count : int
-        Number of files in the survey.
-    done_count : int
-        Number of finished files, of this run and of earlier ones.
-    kept_count : int
-        How many of them an earlier run finished.
-    point_count, ground_count : int
-        Numbers of all points and of ground points in the finished files.
-    failures : dict of str to str
-        Why other files could not be done, by their paths.
-    vpc : str
-        The virtual point cloud of the finished files.
-    tiles : tuple
-        The summary of each finished file.
-    jobs : tuple of Taken
-        What each job took: seconds, and bytes of memory as measured and as planned.
-    """
-
-    tile_count: int
-    done_count: int
-    kept_count: int
-    point_count: int
-    ground_count: int
-    failures: dict[str, str]
-    vpc: str
-    tiles: tuple[Any, ...] = field(default=(), repr=False)
+    tile_count: int  # files in the survey
+    done_count: int  # finished files, of this run and of earlier ones
+    kept_count: int  # those that an earlier run finished
+    point_count: int  # in the finished files
+    ground_count: int  # as point_count
+    failures: dict[str, str]  # why other files could not be done, by their paths
+    vpc: str  # the virtual point cloud of the finished files
+    tiles: tuple[Any, ...] = field(default=(), repr=False)  # their summaries
     jobs: tuple[Taken, ...] = field(default=(), repr=False)
 
     @property
@@ -102,23 +82,8 @@ def classify_files(
     vpc: Path | None = None,
     blocks: Blocks | None = None,
 ) -> SurveySummary:
-    """Classify the ground points of many files as one survey, and write each with its new classes.
-
-    Parameters
-    ----------
-    request : ClassifyRequest
-        What to do.
-    blocks : Blocks, optional
-        The blocks, if they are not those of the method.
-    sources, folder, progress, workers, vpc
-        As for `write_files`.
-
-    Raises
-    ------
-    BareEarthError
-        If no file can be classified, or the outputs cannot be written.
-    FinishedFilesStay
-        If the user asked to stop; no file is incomplete.
+    """Classify the ground points of many files as one survey, in blocks of the method if none are
+    given, and write each with its new classes, as `write_files`.
     """
     if request.explain is not None:
         raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
@@ -143,37 +108,13 @@ def write_files(
     vpc: Path | None = None,
     rasters: MakeRasters | None = None,
 ) -> SurveySummary:
-    """Run steps on many files as one survey, and write each file with the results.
-
-    The results are those of one file with all points. A file that cannot be processed does not stop
-    the others.
-
-    Parameters
-    ----------
-    sources : iterable of Path
-        Files, folders, virtual point clouds and lists, as for `open_survey`.
-    folder : Path
-        The folder for the outputs, which get the names of the inputs. It is made if it is missing.
-    steps : sequence of PointStep
-        The steps. Each sees what those before it have found.
-    request : Request
-        Options for files, format, resuming, threads and memory.
-    progress : Progress
-        Receives progress, and a line on each finished file.
-    workers : Workers, optional
-        The workers; by default threads of this process.
-    vpc : Path, optional
-        The virtual point cloud of the results; by default in the folder.
-    rasters : MakeRasters, optional
-        Rasters to make from the outputs.
-
-    Raises
-    ------
-    BareEarthError
-        If no file can be processed, or the outputs cannot be written.
-    FinishedFilesStay
-        If the user asked to stop; no file is incomplete.
+    """Run steps on many files as one survey, each step on what those before it found, and write the
+    files with the results into a folder, with the names of the inputs.
     """
+    # The results are those of one file with all points. A file that cannot be processed does not
+    # stop the others, but an error says if none can be processed, and `FinishedFilesStay` if the
+    # user asked to stop. Sources are as for `open_survey`, the workers by default threads of this
+    # process, and the virtual point cloud by default in the folder.
     run = _SurveyRun(folder, steps, request, rasters, vpc)
     with _finished_files_stay():
         run.open([Path(each) for each in sources], progress)
@@ -235,15 +176,7 @@ class _SurveyRun:
         self._failures = {each.path.name: (each.path, each.reason) for each in survey.broken}
 
     def work(self, workers: Workers, progress: Progress) -> None:
-        """Do what is to be done, in a folder of which no other run makes use meanwhile.
-
-        Raises
-        ------
-        BareEarthError
-            If the folder cannot be written, or a raster cannot be made.
-        Cancelled
-            If the user asked to stop.
-        """
+        """Do what is to be done, in a folder of which no other run makes use meanwhile."""
         resume, (_, records, waiting) = self._request.tiles.resume, folders_of(self._folder)
         plan = Plan(self._survey, self._targets, self._steps, waiting, progress.part(0.0, 0.02))
         with write_errors_told(self._folder):
@@ -337,25 +270,8 @@ def rasters_of_files(
     progress: Progress = SILENT,
     workers: Workers | None = None,
 ) -> RasterSize:
-    """Write rasters of many classified files as one survey; all of them or none.
-
-    Parameters
-    ----------
-    sources : iterable of Path
-        Files, folders, virtual point clouds and lists, as for `open_survey`.
-    request : TerrainRequest
-        What to make.
-    progress : Progress
-        Receives progress and messages.
-    workers : Workers, optional
-        The workers; by default threads of this process.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no ground, or a raster cannot be written.
-    Cancelled
-        If the user asked to stop; no output is left behind.
+    """Write rasters of many classified files, given as for `open_survey`, as one survey, in threads
+    by default; all of them or none.
     """
     recursive = request.files.recursive
     survey = open_survey(sources, recursive, progress.part(0.0, 0.05), request.stated)

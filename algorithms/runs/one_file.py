@@ -43,30 +43,14 @@ _READING, _FILTER, _STEP, _WRITING = 1.5, 5.0, 3.0, 0.8
 
 @dataclass(frozen=True)
 class Summary:
-    """The result of a classification.
-
-    Attributes
-    ----------
-    point_count : int
-        Points in the file.
-    area_count : int
-        Points in the area; all points, if there is no area.
-    selected_count : int
-        Points in the area that took part in the filter.
-    ground_count : int
-        Points of the target class in the output, in the area and outside.
-    area_ground_count : int
-        Points of the target class in the area.
-    class_counts : dict of int to int
-        Points of each class in the output, in the area and outside.
-    """
+    """The result of a classification; without an area, all points are in it."""
 
     point_count: int
     area_count: int
-    selected_count: int
-    ground_count: int
-    area_ground_count: int
-    class_counts: dict[int, int] = field(default_factory=dict)
+    selected_count: int  # in the area, took part in the filter
+    ground_count: int  # of the target class in the output, also outside
+    area_ground_count: int  # of the target class in the area
+    class_counts: dict[int, int] = field(default_factory=dict)  # in the output, also outside
 
 
 def classify_cloud(
@@ -78,39 +62,10 @@ def classify_cloud(
     resources: Resources = Resources(),
     corrections: Corrections = NO_CORRECTIONS,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Classify the points of a cloud in memory.
-
-    Parameters
-    ----------
-    cloud : PointCloud
-        The points, with their present classes.
-    parameters : ParameterSet
-        The parameters of one method. Their type chooses the method.
-    selection : Selection
-        Which points take part, and what their classes become.
-    progress : Progress
-        Receives progress and messages.
-    area : Area, optional
-        Points outside keep their class; those near it are still context for the method.
-    resources : Resources
-        How many threads to use, and how much memory.
-    corrections : Corrections
-        Polygons in which the class is known.
-
-    Returns
-    -------
-    classification : numpy.ndarray of uint8, shape (n,)
-        The new class of every point, in file order.
-    selected : numpy.ndarray of bool, shape (n,)
-        Which points in the area took part.
-
-    Raises
-    ------
-    BareEarthError
-        If no point is left to classify, or the CRS is geographic.
-    Cancelled
-        If the user asked to stop.
+    """Return the new class of every point of a cloud, uint8 (n,), and which points in the area took
+    part, bool (n,); points outside keep their class, and those near it are context.
     """
+    # An error says if no point is left to classify, or the CRS is geographic.
     step = LabelGround(parameters, selection, area, corrections=corrections)
     with may_use(resources.thread_count):
         run = _FileRun(FilePoints(cloud, resources), [step], progress)
@@ -121,31 +76,8 @@ def classify_cloud(
 
 
 class _FileRun:
-    """Steps that work on the points of one file, one after the other.
-
-    Parameters
-    ----------
-    points : FilePoints
-        The points.
-    steps : sequence of Step
-        The steps.
-    progress : Progress
-        Receives messages.
-    outputs : Outputs, optional
-        Receives the rasters, which get their names when it is closed.
-
-    Attributes
-    ----------
-    points : FilePoints
-        The points.
-    outputs : Outputs
-        The points and the rasters.
-    steps : list of Step
-        The steps, in the CRS of the points.
-    counts : list of object
-        What each step counted among the points.
-    size : RasterSize or None
-        The size of the rasters.
+    """Steps that work on the points of one file, one after the other, and rasters, which get their
+    names when `outputs` is closed.
     """
 
     def __init__(
@@ -155,14 +87,14 @@ class _FileRun:
         progress: Progress,
         outputs: Outputs | None = None,
     ) -> None:
-        self.steps: list[Any] = located(steps, points.place, progress)
-        self.counts = [step.counts() for step in self.steps]
+        self.steps: list[Any] = located(steps, points.place, progress)  # in the CRS of the points
+        self.counts = [step.counts() for step in self.steps]  # by the steps, among the points
         self.points, self.outputs = points, outputs or Outputs()
         self.size: RasterSize | None = None
         self._values: list[PointValues] = []
 
     def work(self, progress: Progress) -> None:
-        """Run the steps. Each sees what those before it have found."""
+        """Run the steps, each of which sees what those before it have found."""
         start, weights = 0, _weights(self.steps)
         total = sum(weights)
         while start < len(self.steps):
@@ -255,24 +187,8 @@ def classify_file(
     request: ClassifyRequest = ClassifyRequest(),
     progress: Progress = SILENT,
 ) -> Summary:
-    """Classify the ground points of a LAS, LAZ or COPC file, and write it with the new classes.
-
-    Parameters
-    ----------
-    source, target : Path
-        The input, and the output (.las, .laz or .copc.laz). Only the classes change, and what
-        else the request asks for.
-    request : ClassifyRequest
-        What to do.
-    progress : Progress
-        Receives progress and messages.
-
-    Raises
-    ------
-    BareEarthError
-        If the input cannot be read or an output cannot be written.
-    Cancelled
-        If the user asked to stop; no output is left behind.
+    """Classify the ground points of a LAS, LAZ or COPC file, and write it with the new classes, and
+    nothing else changed but what the request asks for.
     """
     las = _checked(source, target, request)
     request.rasters.check((source, target))
@@ -317,28 +233,8 @@ def _summary(result: TileResult, counts: Any) -> Summary:
 def write_points(
     source: Path, target: Path, request: PointRequest, progress: Progress = SILENT
 ) -> Any:
-    """Write a file with the values that a step finds for its points, such as heights.
-
-    Parameters
-    ----------
-    source, target : Path
-        The input, and the output (.las, .laz or .copc.laz).
-    request : PointRequest
-        What to find.
-    progress : Progress
-        Receives progress and messages.
-
-    Returns
-    -------
-    object
-        The summary of the step.
-
-    Raises
-    ------
-    BareEarthError
-        If the input is unsuitable or cannot be read, or the output cannot be written.
-    Cancelled
-        If the user asked to stop; no output is left behind.
+    """Write a file with the values that a step finds for its points, such as heights, and return
+    the summary of the step.
     """
     las, resources = _checked(source, target, request), request.resources.now()
     with _worked(las, target, [request.step], resources, progress.part(0.0, 0.9)) as run:
@@ -349,24 +245,7 @@ def write_points(
 def rasters_of_file(
     source: Path, request: TerrainRequest, progress: Progress = SILENT
 ) -> RasterSize:
-    """Write rasters of a classified file; all of them or none.
-
-    Parameters
-    ----------
-    source : Path
-        The file.
-    request : TerrainRequest
-        The rasters to make.
-    progress : Progress
-        Receives progress and messages.
-
-    Raises
-    ------
-    BareEarthError
-        If the input has no ground or cannot be read, or a raster cannot be written.
-    Cancelled
-        If the user asked to stop; no output is left behind.
-    """
+    """Write rasters of a classified file with ground; all of them or none."""
     resources, las = request.resources.now(), open_las(source, request.stated)
     beside = next(iter(request.rasters.wanted.values()))
     step = _placed(request.raster_step, las, progress)
@@ -375,6 +254,6 @@ def rasters_of_file(
 
 
 def _checked(source: Path, target: Path, request: Request) -> LasFile:
-    """Refuse an output that cannot be written. Return the opened input."""
+    """Refuse an output that cannot be written, and return the opened input."""
     check_cloud(source, target)
     return open_las(source, request.stated)

@@ -40,13 +40,7 @@ from ..survey.files import Survey
 
 @dataclass(frozen=True, eq=False)
 class RasterJob(BlockJob):
-    """A job that makes the rasters of some blocks.
-
-    Attributes
-    ----------
-    step : MakeRasters
-        The step that makes them.
-    """
+    """A job that makes the rasters of some blocks."""
 
     step: MakeRasters
 
@@ -98,14 +92,8 @@ def _store(file: Path, made: Sequence[BlockRasters]) -> None:
 
 
 class _StoredArrays(Mapping[str, np.ndarray]):
-    """Arrays that are read from a file each time they are used.
-
-    Parameters
-    ----------
-    file : Path
-        A file of `_store`.
-    start : str
-        Prefix of the names of the arrays in the file.
+    """Arrays that are read from a file of `_store` each time they are used, where their names have
+    the prefix `start`.
     """
 
     def __init__(self, file: Path, start: str) -> None:
@@ -150,33 +138,11 @@ def make_rasters(
     results: Results | None = None,
     unpacking: Unpacking | None = None,
 ) -> RasterSize:
-    """Make rasters of a survey of classified files.
-
-    Parameters
-    ----------
-    survey : Survey
-        The files.
-    folder : Path
-        Existing folder for the rasters of blocks, which all workers see. Those that a run left when
-        it was cancelled or killed are not made again if nothing has changed.
-    step : MakeRasters
-        Which rasters, where they go, and from which points.
-    workers : Workers
-        The workers, which are stopped at the end.
-    progress : Progress
-        Receives progress and messages.
-    results : Results, optional
-        Where to read the points; by default in the files.
-    unpacking : Unpacking, optional
-        Where files wait uncompressed.
-
-    Raises
-    ------
-    BareEarthError
-        If a block fails, there is no ground, or a raster cannot be written.
-    Cancelled
-        If the user asked to stop.
+    """Make rasters of a survey of classified files, or of `results`; an error says if a block fails
+    or there is no ground, and the workers are stopped.
     """
+    # The rasters of blocks go to an existing folder that all workers see. Those that a run left
+    # there when it was cancelled or killed are not made again if nothing has changed.
     results = results or Results(survey)
     step = step.placed(survey.crs, survey.box, progress)
     grid = BlockGrid(survey_frame(survey.crs, step.origin), step.blocks, survey.stated)

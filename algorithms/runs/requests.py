@@ -41,47 +41,24 @@ _Request = TypeVar("_Request", bound="Request")
 
 @dataclass(frozen=True)
 class Request:
-    """Base of the requests.
+    """Base of the requests."""
 
-    Attributes
-    ----------
-    files : TileInput
-        Which files of folders are used.
-    tiles : TileOutput
-        For many files: the format of the outputs, and whether finished ones are kept.
-    resources : Resources
-        Threads and memory.
-    crs : str or None
-        The CRS of the points in place of the one that files state, as for `stated_wkt`: an EPSG
-        code such as "EPSG:2230", or well-known text. Written point clouds keep their records.
-    """
-
-    files: TileInput = field(default_factory=TileInput)
+    files: TileInput = field(default_factory=TileInput)  # of folders
+    # of many files: their format, and whether finished ones are kept
     tiles: TileOutput = field(default_factory=TileOutput)
     resources: Resources = field(default_factory=Resources)
+    # as for `stated_wkt`, in place of that of files, whose records stay in outputs
     crs: str | None = None
 
     @property
     def stated(self) -> str | None:
-        """The well-known text of `crs`.
-
-        Raises
-        ------
-        BareEarthError
-            If it is not known.
-        """
+        """The well-known text of `crs`, or an error if it is not known."""
         return stated_wkt(self.crs)
 
     @classmethod
     def of(cls: type[_Request], sets: Iterable[ParameterSet], **others: Any) -> _Request:
-        """Return a request with parameter sets, given in any order.
-
-        Parameters
-        ----------
-        sets : iterable of ParameterSet
-            The type of each decides its attribute. A set of another type is that of the method.
-        **others
-            The attributes that are not parameter sets.
+        """Return a request with parameter sets in any order, as the type of each decides, where one
+        of an unknown type is the method, and with other attributes.
         """
         fields = {type(value): name for name, value in vars(cls()).items()}
         for each in sets:
@@ -95,31 +72,16 @@ class Request:
 
 @dataclass(frozen=True)
 class RasterRequest(Request):
-    """Base of the requests that make rasters.
-
-    Attributes
-    ----------
-    rasters : RasterFiles
-        The rasters to write.
-    terrain, surface : TerrainModel, SurfaceModel
-        Cell size, light, gaps, and which points make the surface.
-    constraints : Constraints
-        Breaklines, water, and areas without ground.
-    raster_output : RasterOutput
-        Whether each of many files gets its own rasters.
-    raster_target : RasterTarget
-        A raster whose grid the rasters get, and their extent.
-    area : Area or None
-        Where rasters have values, and where points are classified; None for everywhere.
-    """
+    """Base of the requests that make rasters."""
 
     rasters: RasterFiles = field(default_factory=RasterFiles)
     terrain: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
-    constraints: Constraints = NO_CONSTRAINTS
+    constraints: Constraints = NO_CONSTRAINTS  # breaklines, water, and areas without ground
+    # whether each of many files gets its own rasters
     raster_output: RasterOutput = field(default_factory=RasterOutput)
-    raster_target: RasterTarget = ANYWHERE
-    area: Area | None = None
+    raster_target: RasterTarget = ANYWHERE  # a raster whose grid they get, and their extent
+    area: Area | None = None  # where rasters have values, and points are classified
 
     def rasters_of(
         self, ground: GroundClasses, roads: tuple[int, ...], covers_ground: bool = False

@@ -27,32 +27,16 @@ _FORMATS = ("copc.laz", "laz", "las")
 
 
 class MapFiles(NamedTuple):
-    """The files to make; None for those that are not wanted.
+    """The files to make; None for those that are not wanted."""
 
-    Attributes
-    ----------
-    cloud : Path or None
-        The classified point cloud. For many files it is a folder of this name, without its ending.
-    rasters : RasterFiles
-        Terrain model, surface model and so on.
-    contours : Path or None
-        Contour lines.
-    """
-
-    cloud: Path | None
+    cloud: Path | None  # for many files a folder of this name, without its ending
     rasters: RasterFiles
     contours: Path | None = None
 
 
 @dataclass(frozen=True)
 class MapRequest(ClassifyRequest):
-    """A request for all steps from a point cloud to maps, of an area only if there is one.
-
-    Attributes
-    ----------
-    contours : Contours
-        How contour lines are made.
-    """
+    """A request for all steps from a point cloud to maps, of an area only if there is one."""
 
     terrain: MapTerrain = field(default_factory=MapTerrain)
     contours: Contours = field(default_factory=Contours)
@@ -68,50 +52,20 @@ class MapRequest(ClassifyRequest):
 
 
 class MapSummary(NamedTuple):
-    """What a run made.
+    """What a run made."""
 
-    Attributes
-    ----------
-    cloud : Path
-        The classified file, or the virtual point cloud of them.
-    point_count, ground_count : int
-        Numbers of points, those of the area if there is one, and of ground points.
-    class_counts : dict of int to int
-        Points of each class.
-    contour_interval : Interval or None
-        Height between contour lines; None where none were wanted.
-    """
-
-    cloud: Path
-    point_count: int
+    cloud: Path  # the classified file, or the virtual point cloud of them
+    point_count: int  # those of the area if there is one
     ground_count: int
     class_counts: dict[int, int]
-    contour_interval: Interval | None = None
+    contour_interval: Interval | None = None  # None if no contour lines were wanted
 
 
 def make_maps(
     sources: Sequence[Path], files: MapFiles, request: MapRequest, progress: Progress = SILENT
 ) -> MapSummary:
-    """Classify the ground of a point cloud, and make maps of its terrain.
-
-    Parameters
-    ----------
-    sources : sequence of Path
-        A .las, .laz or .copc.laz file, or the files of a survey: many files, folders, virtual point
-        clouds and lists.
-    files : MapFiles
-        The files to make.
-    request : MapRequest
-        How to make them.
-    progress : Progress
-        Receives progress and messages.
-
-    Raises
-    ------
-    BareEarthError
-        If the input cannot be read or has no ground, or an output cannot be written.
-    Cancelled
-        If the user asked to stop.
+    """Classify the ground of a point cloud, of one file or of the files of a survey, and make maps
+    of its terrain.
     """
     wanted = [files.cloud, *files.rasters.wanted.values(), files.contours]
     folders = [path.parent for path in wanted if path]

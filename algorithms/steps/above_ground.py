@@ -31,23 +31,13 @@ _BLOCKS = Blocks.of(100.0, Cost(350.0, 120.0))
 
 @dataclass(frozen=True, order=True)
 class AboveGroundSummary(CountedClasses):
-    """The classes of the points above the ground of a file.
+    """The classes of the points above the ground of a file."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the output.
-    point_count, ground_count, changed_count : int
-        Numbers of all points, of ground points, and of points with another class than before.
-    class_counts : dict of int to int
-        Points of each class in the output.
-    """
-
-    name: str
+    name: str  # of the output
     point_count: int
     ground_count: int
-    changed_count: int
-    class_counts: dict[int, int] = field(default_factory=dict)
+    changed_count: int  # points with another class than before
+    class_counts: dict[int, int] = field(default_factory=dict)  # in the output
 
     @property
     def text(self) -> str:
@@ -61,23 +51,12 @@ class AboveGroundSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class ClassifyAboveGround(PointStep):
-    """Finds the classes of points above the ground.
-
-    Attributes
-    ----------
-    parameters : AboveGround
-        Which classes are wanted.
-    ground : GroundClasses
-        Which points are ground.
-    area : Area or None
-        Where points can change; everywhere if it is None.
-    corrections : Corrections
-        Points in these polygons keep the class that they have by hand.
-    """
+    """Finds the classes of points above the ground."""
 
     parameters: AboveGround = field(default_factory=AboveGround)
     ground: GroundClasses = field(default_factory=GroundClasses)
-    area: Area | None = None
+    area: Area | None = None  # where points can change; None for everywhere
+    # points in these polygons keep the class that they have by hand
     corrections: Corrections = NO_CORRECTIONS
 
     counts = GroundCounts
@@ -86,9 +65,8 @@ class ClassifyAboveGround(PointStep):
     vpc_name = "above_ground.vpc"
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
-        """Return the points that are ground or stand on it, and which of them can change.
-
-        What has a meaning, such as water, wires or noise, is neither.
+        """Return the points that are ground or stand on it, not those with a meaning, such as
+        water, wires or noise, and which of them can change.
         """
         ground = self.ground.of(part, counts)
         roads = self.ground.points_of(part, ROADS) & ~ground
@@ -132,13 +110,7 @@ class ClassifyAboveGround(PointStep):
 
 
 class ChangedClasses(PointResult):
-    """The numbers of points of a file whose class changes.
-
-    Parameters
-    ----------
-    step : ClassifyAboveGround
-        The step.
-    """
+    """The numbers of points of a file whose class changes."""
 
     def __init__(self, step: ClassifyAboveGround) -> None:
         self._step, self._count, self._changed_count = step, 0, 0

@@ -26,9 +26,8 @@ def described(rules: tuple[str, ...]) -> str:
 
 
 def rules_in(description: str) -> dict[int, str]:
-    """Return the names of the rules in the description of a band, by their numbers.
-
-    It is empty for bands of other rasters.
+    """Return the names of the rules in the description of a band, by their numbers; none for bands
+    of other rasters.
     """
     if not description.startswith(_MEANING):
         return {}
@@ -37,24 +36,12 @@ def rules_in(description: str) -> dict[int, str]:
 
 
 class ExplainedCells(NamedTuple):
-    """The cells of some points; arrays of shape (cells,).
+    """The cells of some points; arrays of shape (cells,)."""
 
-    Attributes
-    ----------
-    row, column : numpy.ndarray of int64
-        Counted from (0, 0) of the frame, in cells.
-    code : numpy.ndarray of uint8
-        As in `Decisions`.
-    size : float
-        Side of a cell in metres.
-    rules : tuple of str
-        Names of the rules.
-    """
-
-    row: np.ndarray
-    column: np.ndarray
-    code: np.ndarray
-    size: float
+    row: np.ndarray  # int64, counted from (0, 0) of the frame, in cells
+    column: np.ndarray  # as row
+    code: np.ndarray  # uint8, as in `Decisions`
+    size: float  # metres
     rules: tuple[str, ...]
 
     @classmethod
@@ -69,9 +56,8 @@ class ExplainedCells(NamedTuple):
         return cls(row, column, decided.codes[first], size, decided.rules)
 
     def in_cells_of(self, size: float) -> ExplainedCells:
-        """Return the same in smaller cells; each gets the code of the cell that holds its centre.
-
-        Sparse parts of a survey have larger cells than others.
+        """Return the same in smaller cells, as parts of a survey that are not sparse have; each
+        gets the code of the cell that holds its centre.
         """
         if size == self.size:
             return self
@@ -99,12 +85,8 @@ class Explanation:
         self._parts.append(cells)
 
     def write(self, path: Path, frame: Frame, progress: Progress) -> None:
-        """Write the codes of all cells as a raster; its band lists the names of the rules.
-
-        Raises
-        ------
-        BareEarthError
-            If no rule works on cells, the cells spread too far, or the file cannot be written.
+        """Write the codes of all cells, if rules work on cells, as a raster whose band lists the
+        names of the rules.
         """
         parts = [part for part in self._parts if part.code.any()]
         if not parts:

@@ -68,31 +68,8 @@ def label_ground(
     progress: Progress = SILENT,
     explanation: Explanation | None = None,
 ) -> None:
-    """Label every wanted point of a store with a `Label`, or 0.
-
-    Parameters
-    ----------
-    store : Store
-        The points.
-    parameters : ParameterSet
-        The parameters of one method.
-    blocks : Blocks
-        How the survey is cut, as `blocks_of` returns it.
-    selection : Selection
-        Decides which labels there are.
-    resources : Resources
-        Threads, and the memory for the blocks.
-    progress : Progress
-        Used in the calling thread only.
-    explanation : Explanation, optional
-        Receives which rule decided each cell.
-
-    Raises
-    ------
-    BareEarthError
-        If no block has ground.
-    Cancelled
-        If the user asked to stop.
+    """Label every wanted point of a store with a `Label`, or 0, in blocks as of `blocks_of`; refuse
+    a survey without ground in any.
     """
     method = method_of(parameters)
     if store.has_known and not method.takes_known_ground:
@@ -122,9 +99,8 @@ def _label(
     contents: BlockPoints,
     progress: Progress,
 ) -> tuple[np.ndarray, Decisions | None]:
-    """Return the label of each point of a window, and the rules that decided if they are wanted.
-
-    All points in the box are here, and some of those round it.
+    """Return the label of each point of a window, and the rules that decided if they are wanted;
+    all points in the box are here, and some of those round it.
     """
     method, finds_low = method_of(parameters), selection.low_noise_class
     end = 1.0 - _LOW_SHARE if finds_low else 1.0
@@ -200,11 +176,9 @@ def _labels(
     reach: float,
     progress: Progress,
 ) -> tuple[np.ndarray, Decisions | None]:
-    """Return the label of each wanted point of a window, and the rules that decided.
-
-    Groups of points that are farther apart than the reach of the filter do not affect each other,
-    and are filtered separately. Otherwise a stray point would extend the grid of all others.
-    """
+    """Return the label of each wanted point of a window, and the rules that decided."""
+    # Groups of points that are farther apart than the reach of the filter do not affect each other,
+    # and are filtered separately. Otherwise a stray point would extend the grid of all others.
     groups, count = apart(contents.points, reach)
     progress(0.1)
     progress = progress.part(0.1, 1.0)
@@ -231,20 +205,13 @@ def _labels(
 
 
 class _BlockMessages(Notes):
-    """Passes on the progress of a block, and collects its messages until all blocks are done.
-
-    Attributes
-    ----------
-    count : int
-        Number of points to label in the block.
-    failure : BareEarthError or None
-        Why the block has no ground.
-    """
+    """Passes on the progress of a block, and collects its messages until all blocks are done."""
 
     def __init__(self, whole: Progress, count: int, is_only: bool) -> None:
         super().__init__()
+        # points to label in the block
         self._whole, self._is_only, self.count = whole, is_only, count
-        self.failure: BareEarthError | None = None
+        self.failure: BareEarthError | None = None  # why the block has no ground
 
     def report(self, fraction: float) -> None:
         self._whole(fraction)

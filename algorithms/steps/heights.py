@@ -51,32 +51,16 @@ class HeightOutput(ParameterSet):
 
 @dataclass(frozen=True, order=True)
 class HeightSummary(CountedClasses):
-    """The heights above ground of a file.
+    """The heights above ground of a file, in the vertical unit of the CRS."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the output.
-    point_count, ground_count : int
-        Numbers of all points and of ground points.
-    minimum, maximum : float
-        The lowest and the highest height, in the vertical unit of the CRS.
-    unit : str
-        Name of that unit.
-    unit_size : float
-        Metres in it.
-    class_counts : dict of int to int
-        Points of each class in the output.
-    """
-
-    name: str
+    name: str  # of the output
     point_count: int
     ground_count: int
-    minimum: float
-    maximum: float
-    unit: str
-    unit_size: float = 1.0
-    class_counts: dict[int, int] = field(default_factory=dict)
+    minimum: float  # height
+    maximum: float  # height
+    unit: str  # name of the unit
+    unit_size: float = 1.0  # metres in it
+    class_counts: dict[int, int] = field(default_factory=dict)  # in the output
 
     @property
     def text(self) -> str:
@@ -87,27 +71,13 @@ class HeightSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class MeasureHeights(PointStep):
-    """Measures the height of each point above the ground.
-
-    Attributes
-    ----------
-    ground : GroundClasses
-        Which points are ground.
-    output : HeightOutput
-        Whether the heights are an extra dimension or replace z; both in the vertical unit.
-    area : Area or None
-        Where heights are wanted; everywhere if it is None.
-    roads : tuple of int
-        Classes whose points are ground as well, where they lie on it.
-    dtm : HeightRaster or None
-        Heights are measured above this raster, and not above the ground points.
-    """
+    """Measures the height of each point above the ground."""
 
     ground: GroundClasses = field(default_factory=GroundClasses)
     output: HeightOutput = field(default_factory=HeightOutput)
-    area: Area | None = None
-    roads: tuple[int, ...] = ()
-    dtm: HeightRaster | None = None
+    area: Area | None = None  # where heights are wanted; None for everywhere
+    roads: tuple[int, ...] = ()  # classes that are ground as well, where they lie on it
+    dtm: HeightRaster | None = None  # heights are measured above it, not above the ground points
 
     counts = GroundCounts
     kind = np.float64
@@ -154,24 +124,14 @@ class MeasureHeights(PointStep):
 
 
 class HeightsOfPoints(PointResult):
-    """The heights above ground of the points of a file.
-
-    Parameters
-    ----------
-    step : MeasureHeights
-        The step.
-    allocate : callable
-        Returns an array of one value for each point.
-
-    Attributes
-    ----------
-    heights : numpy.ndarray of float, shape (n,)
-        In the vertical unit of the CRS, in file order; NaN far from any ground.
+    """The heights above ground of the points of a file; `allocate` returns an array of one value
+    for each point.
     """
 
     def __init__(self, step: MeasureHeights, allocate: Allocate) -> None:
         self._step, self._as_z = step, step.output.output_as == "z"
         # Single precision is enough for a dimension. Heights that replace z are rounded as z is.
+        # float, (n,): vertical unit of the CRS; NaN far from ground
         self.heights = allocate(np.float64 if self._as_z else np.float32)
         self._lowest, self._highest = np.inf, -np.inf
         self._ground_count, self._unit, self._unknown_count = 0, 1.0, 0
@@ -194,12 +154,8 @@ class HeightsOfPoints(PointResult):
         return part
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return the heights as z or as a dimension.
-
-        Raises
-        ------
-        BareEarthError
-            If they do not fit into z, or no point lies on the raster.
+        """Return the heights as z or as a dimension, or refuse heights that do not fit into z, and
+        a raster without any point.
         """
         dtm = self._step.dtm
         if dtm is not None:
@@ -250,11 +206,11 @@ def _above_raster(part: PointCloud, raster: HeightSampler) -> np.ndarray:
 
 
 def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return heights as integers in the scale of the file, and their offset.
-
-    The offset is that of the file if the heights fit. It suits elevations: with a fine scale,
-    heights far from it would need larger integers.
+    """Return heights as integers in the scale of the file, and their offset, that of the file if
+    they fit.
     """
+    # That offset suits elevations: with a fine scale, heights far from it would need larger
+    # integers.
     if np.isnan(heights).any():
         raise BareEarthError(
             f"Some points of {cloud.path} are kilometres from any ground, so that they have no"
@@ -274,9 +230,8 @@ def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:
 def _measured(
     store: Store, blocks: Blocks, block: Block, is_only: bool, progress: Progress
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the positions of the wanted points of a block, and their heights in metres.
-
-    Only the ground is in memory as a whole.
+    """Return the positions of the wanted points of a block, and their heights in metres; only the
+    ground is in memory as a whole.
     """
     corner = blocks.corner(block)
     ground = blocks.contents(block, store, progress.part(0.0, 0.1), ground_only=True)

@@ -58,23 +58,13 @@ class KeyPointMark(ParameterSet):
 
 @dataclass(frozen=True, order=True)
 class KeyPointSummary(CountedClasses):
-    """The numbers of key points of a file.
+    """The numbers of key points of a file."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the output.
-    point_count, ground_count, key_point_count : int
-        Numbers of all points, of ground points, and of key points.
-    class_counts : dict of int to int
-        Points of each class in the output.
-    """
-
-    name: str
+    name: str  # of the output
     point_count: int
     ground_count: int
     key_point_count: int
-    class_counts: dict[int, int] = field(default_factory=dict)
+    class_counts: dict[int, int] = field(default_factory=dict)  # in the output
 
     @property
     def text(self) -> str:
@@ -87,21 +77,11 @@ class KeyPointSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class FindKeyPoints(PointStep):
-    """Finds the few ground points whose TIN is as good as that of all of them.
-
-    Attributes
-    ----------
-    parameters : ModelKeyPoints
-        How closely they follow the ground.
-    ground : GroundClasses
-        Which points are ground.
-    mark : KeyPointMark
-        Whether key points get a class or a flag.
-    """
+    """Finds the few ground points whose TIN is as good as that of all of them."""
 
     parameters: ModelKeyPoints = field(default_factory=ModelKeyPoints)
     ground: GroundClasses = field(default_factory=GroundClasses)
-    mark: KeyPointMark = field(default_factory=KeyPointMark)
+    mark: KeyPointMark = field(default_factory=KeyPointMark)  # a class or a flag
 
     counts = GroundCounts
     summary_type = KeyPointSummary
@@ -153,14 +133,8 @@ class FindKeyPoints(PointStep):
 
 
 class KeyPointsOfPoints(PointResult):
-    """The key points among the points of a file.
-
-    Parameters
-    ----------
-    step : FindKeyPoints
-        The step.
-    allocate : callable
-        Returns an array of one value for each point.
+    """The key points among the points of a file; `allocate` returns an array of one value for each
+    point.
     """
 
     def __init__(self, step: FindKeyPoints, allocate: Allocate) -> None:

@@ -35,30 +35,13 @@ from .output import Output
 
 @dataclass(frozen=True, order=True)
 class ClassifiedSummary:
-    """The result for one file of a survey.
+    """The result for one file of a survey."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the output.
-    point_count, ground_count : int
-        Numbers of all points and of points of the target class. If only the area is written,
-        only points in the area count.
-    area_count, by_hand_count : int
-        Numbers of points in the area, and of points whose class is known by hand.
-    overlap_count : int
-        Number of points of overlap.
-    input_class_counts, class_counts : dict of int to int
-        Points of each class in the input, and in the output.
-    found_ground : bool
-        Whether any ground was found.
-    """
-
-    name: str
-    point_count: int
-    ground_count: int
+    name: str  # of the output
+    point_count: int  # only points in the area if only it is written
+    ground_count: int  # points of the target class; as point_count
     area_count: int = 0
-    by_hand_count: int = 0
+    by_hand_count: int = 0  # points whose class is known by hand
     overlap_count: int = 0
     input_class_counts: dict[int, int] = field(default_factory=dict)
     class_counts: dict[int, int] = field(default_factory=dict)
@@ -79,33 +62,15 @@ class ClassifiedSummary:
 
 @dataclass(frozen=True)
 class LabelGround(PointStep):
-    """Finds the ground, low outliers and bridge decks.
+    """Finds the ground, low outliers and bridge decks."""
 
-    Attributes
-    ----------
-    parameters : ParameterSet
-        The parameters of one method. Their type chooses the method.
-    selection : Selection
-        Which points take part, and what their classes become.
-    area : Area or None
-        Where points are classified. Points outside keep their class; those near it are context.
-    output : Output
-        Which points are written.
-    cut : Blocks or None
-        The blocks, if they are not those of the method.
-    corrections : Corrections
-        Corrections by hand, beside those that the files remember.
-    explanation : Explanation or None
-        Receives which rule decided each cell.
-    """
-
-    parameters: ParameterSet
+    parameters: ParameterSet  # of one method, which their type chooses
     selection: Selection = field(default_factory=Selection)
-    area: Area | None = None
-    output: Output = field(default_factory=Output)
-    cut: Blocks | None = None
-    corrections: Corrections = NO_CORRECTIONS
-    explanation: Explanation | None = field(default=None, compare=False)
+    area: Area | None = None  # points outside keep their class; those near it are context
+    output: Output = field(default_factory=Output)  # which points are written
+    cut: Blocks | None = None  # the blocks, if not those of the method
+    corrections: Corrections = NO_CORRECTIONS  # beside those that the files remember
+    explanation: Explanation | None = field(default=None, compare=False)  # receives the rules
 
     counts = PointCounts
     summary_type = ClassifiedSummary
@@ -160,11 +125,9 @@ class LabelGround(PointStep):
         self.chooser.choose(part, counts)
 
     def tell_of_tile(self, counts: PointCounts, path: Path, progress: Progress) -> bool:
-        """Report how many points took part; refuse a file none of whose returns does.
-
-        If an area is given, a file need not have points in it. Others need not have points that can
-        be ground, such as a file of water only.
-        """
+        """Report how many points took part; refuse a file none of whose returns does."""
+        # If an area is given, a file need not have points in it. Others need not have points that
+        # can be ground, such as a file of water only.
         if self.area is None and not (counts.eligible or self.output.ground_only):
             classes = np.flatnonzero(counts.classes).tolist()
             words = "class" if len(classes) == 1 else "classes"
@@ -188,9 +151,8 @@ class LabelGround(PointStep):
         return not self.area.may_touch(tile.outer_box)
 
     def tell_of_survey(self, done: Sequence[ClassifiedSummary], progress: Progress) -> None:
-        """Tell which classes stay; warn if no point lies in the area or in the corrections.
-
-        Files without points that can be ground are refused if there are no others.
+        """Tell which classes stay, warn if no point lies in the area or in the corrections, and
+        refuse files none of which has points that can be ground.
         """
         if self.area is None and done and not any(each.found_ground for each in done):
             raise BareEarthError(
@@ -228,29 +190,15 @@ class LabelGround(PointStep):
 
 
 class ClassifiedPoints(PointResult):
-    """The numbers of classified points of a file, and which points are written.
-
-    Parameters
-    ----------
-    step : LabelGround
-        The step.
-    path : Path
-        The file.
-    allocate : callable
-        Returns an array of one value for each point.
-
-    Attributes
-    ----------
-    kept : numpy.ndarray of bool, shape (n,), or None
-        Which points are written; None for all.
-    area_count, area_ground_count, area_low_count, area_deck_count, area_high_count : int
-        Numbers of points in the area: of all, with the class of the ground, of low outliers, on
-        bridge decks, and of high outliers.
+    """The numbers of classified points of a file, in its area and in all, and which points are
+    written; `allocate` returns an array of one value for each point.
     """
 
     def __init__(self, step: LabelGround, path: Path, allocate: Allocate) -> None:
         self._step, self._path, output = step, path, step.output
+        # bool, (n,); None for all
         self.kept = allocate(bool) if output.ground_only or output.area_only else None
+        # with the class of the ground
         self.area_count = self.area_ground_count = self.area_low_count = 0
         self.area_deck_count = self.area_high_count = 0
         self._count = self._ground_count = self._by_hand_count = self._overlap_count = 0
@@ -289,9 +237,8 @@ class ClassifiedPoints(PointResult):
         return not (self.area_ground_count if self._step.output.ground_only else self.area_count)
 
     def check(self, why: str = "") -> None:
-        """Refuse to write a file without ground.
-
-        A file at the border of an area is allowed to have none: few of its points may be in it.
+        """Refuse to write a file without ground, unless it is at the border of an area, where few
+        of its points may be.
         """
         if self._has_ground:
             return
@@ -318,12 +265,8 @@ class ClassifiedPoints(PointResult):
             progress.info(f"{counted(self.area_deck_count, *words)} not ground.")
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return which points are written.
-
-        Raises
-        ------
-        BareEarthError
-            If no point would be written, or no height can be measured.
+        """Return which points are written, or refuse an output without any point or without heights
+        that are wanted.
         """
         output, count, ground = self._step.output, self._count, self._ground_count
         if output.area_only:

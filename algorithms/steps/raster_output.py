@@ -41,15 +41,7 @@ AROUND_AREA = 1000.0
 
 @dataclass(frozen=True)
 class RasterSize:
-    """The size of rasters.
-
-    Attributes
-    ----------
-    ground_count, surface_count : int
-        Points that terrain and surface were made from.
-    columns, rows : int
-        Size of the rasters.
-    """
+    """The size of rasters, and the points that terrain and surface were made from."""
 
     ground_count: int
     surface_count: int
@@ -65,27 +57,8 @@ def write_rasters(
     progress: Progress = SILENT,
     files: Mapping[str, Box] | None = None,
 ) -> RasterSize:
-    """Write the rasters of a survey; they get their names when `outputs` is closed.
-
-    Parameters
-    ----------
-    made : sequence of BlockRasters
-        The rasters of its blocks.
-    frame : Frame
-        Frame of the survey, with the origin of the step.
-    step : MakeRasters
-        Which rasters, and where they go.
-    outputs : Outputs
-        Receives the files.
-    progress : Progress
-        Receives progress and messages.
-    files : mapping of str to Box, optional
-        Names and extents, in units of the CRS, of the files that get their own rasters.
-
-    Raises
-    ------
-    BareEarthError
-        If there are no points, or a raster cannot be written.
+    """Write the rasters of the blocks of a survey, or of `files` with extents in units of the CRS,
+    with names when `outputs` is closed; refuse no points.
     """
     cell, wanted = step.cell, step.files.wanted
     window, area = _window_of(made, cell), None

@@ -48,64 +48,28 @@ _BYTES_A_POINT, _BYTES_A_CELL = 130.0, 120.0
 
 @dataclass
 class RasterCounts(GroundCounts):
-    """Counts of points so far, beside those of `GroundCounts`.
+    """Counts of points so far, beside those of `GroundCounts`."""
 
-    Attributes
-    ----------
-    top : int
-        Points of the surface.
-    excluded : int
-        Ground points that the constraints exclude.
-    """
-
-    top: int = 0
-    excluded: int = 0
+    top: int = 0  # points of the surface
+    excluded: int = 0  # ground points that the constraints exclude
 
 
 @dataclass(frozen=True)
 class MakeRasters(Step):
-    """Makes rasters from classified points.
-
-    Attributes
-    ----------
-    files : RasterFiles
-        Which rasters, and where they go.
-    model : TerrainModel
-        Cell size and light.
-    surface : SurfaceModel
-        Which points make the surface, and which gaps stay open.
-    ground : GroundClasses
-        Which points are ground.
-    roads : tuple of int
-        Classes whose points are ground as well, where they lie on it.
-    covers_ground : bool
-        Whether the rasters cover the ground. Otherwise they cover all points without noise.
-    constraints : Constraints
-        Breaklines, water, and areas without ground.
-    per_file : bool
-        Whether each of many files gets its own rasters.
-    fixed : FixedTerrain or None
-        The vertices that follow from the constraints; `seeing` finds these.
-    target : RasterTarget
-        A grid or an extent that the rasters must have.
-    cells : CellGrid or None
-        Where the cells lie; `placed` finds this.
-    area : Area or None
-        Where the rasters have values, if not everywhere. Points outside still take part.
-    """
+    """Makes rasters from classified points."""
 
     files: RasterFiles = field(default_factory=RasterFiles)
     model: TerrainModel = field(default_factory=TerrainModel)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
     ground: GroundClasses = field(default_factory=GroundClasses)
-    roads: tuple[int, ...] = ()
-    covers_ground: bool = False
-    constraints: Constraints = NO_CONSTRAINTS
-    per_file: bool = False
-    fixed: FixedTerrain | None = None
-    target: RasterTarget = ANYWHERE
-    cells: CellGrid | None = None
-    area: Area | None = None
+    roads: tuple[int, ...] = ()  # classes that are ground as well, where they lie on it
+    covers_ground: bool = False  # not all points without noise
+    constraints: Constraints = NO_CONSTRAINTS  # breaklines, water, and areas without ground
+    per_file: bool = False  # each of many files gets its own rasters
+    fixed: FixedTerrain | None = None  # the vertices of the constraints; `seeing` finds these
+    target: RasterTarget = ANYWHERE  # a grid or an extent that the rasters must have
+    cells: CellGrid | None = None  # where the cells lie; `placed` finds this
+    area: Area | None = None  # without values outside, where points still take part
 
     counts = RasterCounts
 
@@ -141,16 +105,8 @@ class MakeRasters(Step):
     def seeing(
         self, clouds: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
     ) -> MakeRasters:
-        """Return the step with the vertices of its constraints.
-
-        Parameters
-        ----------
-        clouds : iterable of PointCloud
-            All points with their classes, part by part; see `fixed_terrain`.
-        frame : Frame
-            Frame of the survey.
-        progress : Progress
-            Receives warnings.
+        """Return the step with the vertices of its constraints among all points, with their
+        classes, part by part; see `fixed_terrain`.
         """
         cell = self.cell / VERTICES_A_SIDE
         fixed = fixed_terrain(self.constraints, clouds, frame, self.ground, cell, progress)

@@ -29,14 +29,8 @@ def near(box: Box) -> Box:
 
 
 def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
-    """Return the points of a block and its buffer, without most of those that are far from it.
-
-    Parameters
-    ----------
-    contents : BlockPoints
-        The points.
-    box : tuple of float
-        The result of `near`.
+    """Return the points of a block and its buffer, without most of those far from `box`, the result
+    of `near`.
     """
     if not contents.points.count or contents.points.are_within(box):
         return contents

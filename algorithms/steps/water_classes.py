@@ -21,23 +21,13 @@ from ..survey.ground_classes import GroundClasses, GroundCounts
 
 @dataclass(frozen=True, order=True)
 class WaterClassSummary(CountedClasses):
-    """The points of a file that became water or ignored ground.
+    """The points of a file that became water or ignored ground."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the output.
-    point_count, water_count, ignored_count : int
-        Numbers of all points, and of those that became water, and ignored ground.
-    class_counts : dict of int to int
-        Points of each class in the output.
-    """
-
-    name: str
+    name: str  # of the output
     point_count: int
     water_count: int
     ignored_count: int
-    class_counts: dict[int, int] = field(default_factory=dict)
+    class_counts: dict[int, int] = field(default_factory=dict)  # in the output
 
     @property
     def text(self) -> str:
@@ -50,17 +40,7 @@ class WaterClassSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class ClassifyWater(PointStep):
-    """Finds the ground points in water, and those beside its shore.
-
-    Attributes
-    ----------
-    parameters : WaterClasses
-        The classes, and the distance from the shore.
-    ground : GroundClasses
-        Which points are ground.
-    water : WaterPolygons
-        The water.
-    """
+    """Finds the ground points in water, and those beside its shore."""
 
     parameters: WaterClasses = field(default_factory=WaterClasses)
     ground: GroundClasses = field(default_factory=GroundClasses)
@@ -72,7 +52,7 @@ class ClassifyWater(PointStep):
     vpc_name = "water_classes.vpc"
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
-        """Count the ground points. No point needs others, so none is marked."""
+        """Count the ground points, and mark none, since no point needs others."""
         self.check_tile(part)
         self.ground.of(part, counts)
         none = np.zeros(part.count, dtype=bool)
@@ -111,13 +91,7 @@ class ClassifyWater(PointStep):
 
 
 class WaterOfPoints(PointResult):
-    """The numbers of points of a file that become water or ignored ground.
-
-    Parameters
-    ----------
-    step : ClassifyWater
-        The step.
-    """
+    """The numbers of points of a file that become water or ignored ground."""
 
     def __init__(self, step: ClassifyWater) -> None:
         self._step, self._count = step, 0

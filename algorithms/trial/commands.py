@@ -16,16 +16,8 @@ _MANY_FILES = "bareearth:classifytiles"
 
 
 def commands_for(paths: Sequence[Path], setting: Setting, crs: str | None = None) -> Commands:
-    """Return the commands that run a setting on all points of the inputs.
-
-    Parameters
-    ----------
-    paths : sequence of Path
-        One file, or the inputs of a survey.
-    setting : Setting
-        Method and preset.
-    crs : str, optional
-        The CRS that the user states in place of that of the files.
+    """Return the commands that run a setting on all points of one file, or of the inputs of a
+    survey.
     """
     method, preset, is_one = setting.method.name, setting.preset, is_one_file(paths)
     output, options = _output(paths[0], setting, is_one), ["--method", method, "--preset", preset]

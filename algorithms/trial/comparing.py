@@ -24,28 +24,14 @@ from .window import Outcome, figures_of, line_across
 
 @dataclass(frozen=True)
 class TrialSummary:
-    """The result of a comparison.
+    """The result of a comparison."""
 
-    Attributes
-    ----------
-    page : str
-        The page that was written.
-    read_count, point_count : int
-        Numbers of points that were read, and of points in the window.
-    window : tuple of float
-        The window: smallest x and y, largest x and y in units of the CRS.
-    context : float
-        Metres that were read round the window.
-    settings : list of dict
-        `Figures` and `Commands` of each setting, as dicts.
-    """
-
-    page: str
+    page: str  # that was written
     read_count: int
-    point_count: int
-    window: Box
-    context: float
-    settings: list[dict[str, Any]]
+    point_count: int  # in the window
+    window: Box  # in units of the CRS
+    context: float  # metres that were read round the window
+    settings: list[dict[str, Any]]  # `Figures` and `Commands` of each setting
 
     def lines(self) -> list[str]:
         """Return the figures as lines of text for a terminal or a log."""

@@ -15,22 +15,10 @@ USUAL_CONTEXT = 50.0
 
 
 class Setting(NamedTuple):
-    """A ground filter with one of its presets.
+    """A ground filter with one of its presets."""
 
-    Attributes
-    ----------
-    name : str
-        Method and preset, such as ``slope:town``.
-    label : str
-        The text that is shown.
-    method : Method
-        The ground filter.
-    preset : str
-        The preset.
-    """
-
-    name: str
-    label: str
+    name: str  # method and preset, such as slope:town
+    label: str  # the text that is shown
     method: Method
     preset: str
 

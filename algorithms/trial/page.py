@@ -33,42 +33,18 @@ h3 { margin: 1.6em 0 .3em; font-size: 1.05em; }
 
 
 class Commands(NamedTuple):
-    """Commands that run a setting on all points.
+    """Commands that run a setting on all points."""
 
-    Attributes
-    ----------
-    shell : str
-        The command line.
-    qgis : str
-        The call in the Python console of QGIS; empty if there is none.
-    """
-
-    shell: str
-    qgis: str
+    shell: str  # the command line
+    qgis: str  # the call in the Python console of QGIS; empty if there is none
 
 
 class TrialPage(NamedTuple):
-    """The contents of the page.
-
-    Attributes
-    ----------
-    sources : sequence
-        The inputs.
-    where : str
-        The window in words.
-    notes : sequence of str
-        Notes that help to judge the pictures.
-    window : Window
-        The points.
-    outcomes, figures, commands : sequence
-        Result, figures and commands of each setting.
-    profile : Profile
-        The profile.
-    """
+    """The contents of the page, with result, figures and commands of each setting."""
 
     sources: Sequence[object]
-    where: str
-    notes: Sequence[str]
+    where: str  # the window in words
+    notes: Sequence[str]  # that help to judge the pictures
     window: Window
     outcomes: Sequence[Outcome]
     figures: Sequence[Figures]

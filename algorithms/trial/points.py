@@ -35,41 +35,21 @@ _WIDEST = 1000.0
 
 
 class Labelled(NamedTuple):
-    """The points as classified with a setting.
+    """The points as classified with a setting."""
 
-    Attributes
-    ----------
-    names : tuple of str
-        Name and label of the setting.
-    classes : numpy.ndarray of uint8, shape (n,)
-        Classes.
-    ground, selected : numpy.ndarray of bool, shape (n,)
-        Which points are ground, and which took part.
-    """
-
-    names: tuple[str, str]
-    classes: np.ndarray
-    ground: np.ndarray
-    selected: np.ndarray
+    names: tuple[str, str]  # name and label of the setting
+    classes: np.ndarray  # uint8, (n,)
+    ground: np.ndarray  # bool, (n,)
+    selected: np.ndarray  # bool, (n,): which points took part
 
 
 @dataclass(frozen=True)
 class TrialPoints:
-    """The points in and round a window.
+    """The points in and round a window."""
 
-    Attributes
-    ----------
-    clouds : tuple of PointCloud
-        The points of each file that has any.
-    crs : Crs
-        CRS of the survey.
-    box : tuple of float
-        The window, in units of the CRS.
-    """
-
-    clouds: tuple[PointCloud, ...]
+    clouds: tuple[PointCloud, ...]  # the points of each file that has any
     crs: Crs
-    box: Box
+    box: Box  # the window, in units of the CRS
 
     @property
     def count(self) -> int:
@@ -102,25 +82,8 @@ class TrialPoints:
     def labelled(
         self, setting: Setting, resources: Resources, progress: Progress, is_first: bool = True
     ) -> Labelled:
-        """Classify the points with a setting.
-
-        Parameters
-        ----------
-        setting : Setting
-            Method and preset.
-        resources : Resources
-            Threads and memory.
-        progress : Progress
-            Receives progress and messages; a warning if there is no ground.
-        is_first : bool
-            Whether messages are reported that are the same for all settings.
-
-        Raises
-        ------
-        BareEarthError
-            If no point takes part, or the CRS is geographic.
-        Cancelled
-            If the user asked to stop.
+        """Classify the points with a setting, and warn if there is no ground; messages that all
+        settings have in common are only reported for the first.
         """
         step = LabelGround(setting.parameters)
         counts = step.counts()
@@ -155,29 +118,10 @@ def read_trial_points(
     progress: Progress = SILENT,
     stated: str | None = None,
 ) -> TrialPoints:
-    """Read the points in and round a window.
-
-    Parameters
-    ----------
-    paths : sequence of Path
-        One file, or the inputs of a survey.
-    box : tuple of float or None
-        The window: smallest x and y, largest x and y in units of the CRS. None for the middle of
-        the survey; a message says where it is.
-    context : float
-        Metres to read round it.
-    progress : Progress
-        Receives progress, and warnings about the files.
-    stated : str, optional
-        The CRS that the user states in place of that of the files, as well-known text.
-
-    Raises
-    ------
-    BareEarthError
-        If the window is invalid, too wide or empty, or a file cannot be read.
-    Cancelled
-        If the user asked to stop.
+    """Read the points in a window, in units of the CRS, or in the middle of the survey, which a
+    message tells, and in `context` metres round it.
     """
+    # An error says if the window is invalid, too wide or empty.
     area, reading = None if box is None else Area(tuple(map(float, box))), progress
     if is_one_file(paths):
         las = open_las(paths[0], stated)

@@ -26,25 +26,13 @@ _SPACE, _LEAST_RANGE = 0.04, 2.0
 
 
 class Profile(NamedTuple):
-    """Position and points of a profile, the same for all settings.
-
-    Attributes
-    ----------
-    line : Line
-        The line of the profile.
-    near : numpy.ndarray of int, shape (k,)
-        Indices of the points that are shown.
-    distance : numpy.ndarray of float64, shape (k,)
-        Distances of these points along the line, in metres.
-    lowest, highest : float
-        Heights at the lower and at the upper edge, in metres.
-    """
+    """Position and points of a profile, the same for all settings."""
 
     line: Line
-    near: np.ndarray
-    distance: np.ndarray
-    lowest: float
-    highest: float
+    near: np.ndarray  # int, (k,): indices of the points that are shown
+    distance: np.ndarray  # float64, (k,): their distances along the line in metres
+    lowest: float  # height at the lower edge in metres
+    highest: float  # height at the upper edge in metres
 
     @classmethod
     def of(cls, window: Window, line: Line, shown: np.ndarray) -> Profile:

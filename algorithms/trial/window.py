@@ -24,25 +24,13 @@ _NEAR = 20.0
 
 
 class Window(NamedTuple):
-    """The points on which settings are tried.
+    """The points on which settings are tried, in a window and around it."""
 
-    Attributes
-    ----------
-    points : Points
-        Points in the window and around it, in metres from the lower left corner of the window.
-    inside : numpy.ndarray of bool, shape (n,)
-        Which points lie in the window.
-    width, height : float
-        Size of the window in metres.
-    units : Units
-        The units of the survey.
-    """
-
-    points: Points
-    inside: np.ndarray
-    width: float
-    height: float
-    units: Units = Units()
+    points: Points  # in metres from the lower left corner of the window
+    inside: np.ndarray  # bool, (n,)
+    width: float  # metres
+    height: float  # metres
+    units: Units = Units()  # of the survey
 
     @property
     def size(self) -> str:
@@ -71,28 +59,14 @@ class Window(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """The result of a setting.
-
-    Attributes
-    ----------
-    name, label : str
-        Name and label of the setting.
-    classes : numpy.ndarray of uint8, shape (n,)
-        Classes of all points.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which points are ground.
-    terrain : numpy.ndarray of float64, shape (rows, columns)
-        Heights in metres from north to south; NaN where there is none.
-    confidence : float
-        Mean probability in the window that the terrain is right, 0 to 1.
-    """
+    """The result of a setting."""
 
     name: str
     label: str
-    classes: np.ndarray
-    ground: np.ndarray
-    terrain: np.ndarray
-    confidence: float
+    classes: np.ndarray  # uint8, (n,)
+    ground: np.ndarray  # bool, (n,)
+    terrain: np.ndarray  # float64, (rows, columns): metres, from north to south; NaN for none
+    confidence: float  # mean probability in the window that the terrain is right, 0 to 1
 
 
 def outcome_of(
@@ -102,18 +76,8 @@ def outcome_of(
     ground: np.ndarray,
     selected: np.ndarray,
 ) -> Outcome:
-    """Return the result of a setting, with terrain and confidence.
-
-    Parameters
-    ----------
-    window : Window
-        The points.
-    names : tuple of str
-        Name and label of the setting.
-    classes, ground
-        As in `Outcome`.
-    selected : numpy.ndarray of bool, shape (n,)
-        Which points took part.
+    """Return the result of a setting, given its name and label, with terrain and confidence;
+    `selected` says which points took part, bool (n,).
     """
     terrain = _terrain(window, ground)
     return Outcome(*names, classes, ground, terrain, _confidence(window, ground, selected))
@@ -145,33 +109,17 @@ def _confidence(window: Window, ground: np.ndarray, selected: np.ndarray) -> flo
 
 
 class Figures(NamedTuple):
-    """Figures of a setting for the points and cells in the window.
-
-    Attributes
-    ----------
-    name, label : str
-        Name and label of the setting.
-    point_count, ground_count : int
-        Number of points, and of ground points.
-    ground_share : float
-        Share of ground points in percent.
-    confidence : float
-        Mean confidence in percent.
-    gained, lost : int
-        Points that are ground, but not with the first setting; and the reverse.
-    terrain_difference : float or None
-        Mean absolute difference in metres from the terrain of the first setting; None if there is
-        no terrain.
-    """
+    """Figures of a setting for the points and cells in the window."""
 
     name: str
     label: str
     point_count: int
     ground_count: int
-    ground_share: float
-    confidence: float
-    gained: int
-    lost: int
+    ground_share: float  # percent
+    confidence: float  # mean, in percent
+    gained: int  # points that are ground, but not with the first setting
+    lost: int  # the reverse
+    # mean absolute, in metres, from the first setting; None without terrain
     terrain_difference: float | None
 
 
@@ -214,9 +162,8 @@ class Line(NamedTuple):
         return x * east + y * north, y * east - x * north
 
     def cells(self, window: Window) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return distances along the line, and row and column of the terrain cell at each.
-
-        The distance between them is the side of a cell. Places outside the window are left out.
+        """Return distances along the line, one side of a cell apart, and row and column of the
+        terrain cell at each, without places outside the window.
         """
         cell = window.cell_size
         distance = np.arange(0.0, self.length, cell) + 0.5 * min(cell, self.length)
