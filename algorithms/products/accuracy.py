@@ -1,9 +1,7 @@
 """Figures of the vertical accuracy of heights, and the statement of the ASPRS standard.
 
-References
-----------
-ASPRS (2023): Positional Accuracy Standards for Digital Geospatial Data, edition 2, version 1.0:
-the checkpoints, the error of their survey, land cover, and how accuracy is stated.
+The checkpoints, the error of their survey, land cover, and how accuracy is stated follow ASPRS
+(2023): Positional Accuracy Standards for Digital Geospatial Data, edition 2, version 1.0.
 """
 
 from __future__ import annotations
@@ -49,31 +47,17 @@ class Accuracy(ParameterSet):
 
 @dataclass(frozen=True)
 class Figures:
-    """Errors of heights in metres: height of the data minus that of the checkpoint.
+    """Errors of heights in metres: height of the data minus that of the checkpoint."""
 
-    Attributes
-    ----------
-    count : int
-        Number of errors, at least one.
-    rmse : float
-        Root mean square of the errors.
-    total_rmse : float
-        The same with the error of the checkpoints.
-    mean, median, standard_deviation, minimum, maximum : float
-        Of the errors; the standard deviation of one error is 0.
-    percentile_95 : float
-        The absolute error that 95 % of the errors do not exceed.
-    """
-
-    count: int
-    rmse: float
-    total_rmse: float
+    count: int  # at least one
+    rmse: float  # root mean square
+    total_rmse: float  # the same with the error of the checkpoints
     mean: float
     median: float
-    standard_deviation: float
+    standard_deviation: float  # 0 for one error
     minimum: float
     maximum: float
-    percentile_95: float
+    percentile_95: float  # the absolute error that 95 % of the errors do not exceed
 
     @property
     def text(self) -> str:
@@ -82,13 +66,7 @@ class Figures:
 
     @classmethod
     def of(cls, errors: np.ndarray, survey_error: float = 0.0) -> Figures | None:
-        """Return the figures of errors, shape (n,); None if there are none.
-
-        Examples
-        --------
-        >>> Figures.of(np.array([0.03, -0.03]), survey_error=0.04).total_rmse
-        0.05
-        """
+        """Return the figures of errors in metres, shape (n,); None if there are none."""
         if not len(errors):
             return None
         square = float(np.mean(errors**2))
@@ -101,14 +79,8 @@ class Figures:
 
 
 def statement(nva: Figures | None, vva: Figures | None, accuracy_class: float | None) -> str:
-    """Return the statement on the accuracy of data, in the words of the standard.
-
-    Parameters
-    ----------
-    nva, vva : Figures or None
-        Errors at checkpoints without and with vegetation.
-    accuracy_class : float or None
-        The class to meet, in metres; None for no class.
+    """Return the statement on the accuracy of data without (`nva`) and with vegetation, in the
+    words of the standard, for a class in metres if there is one.
     """
     if nva is None:
         return (

@@ -22,16 +22,8 @@ blockquote { margin: 1em 0; padding: .4em 1em; border-left: 4px solid #888; back
 
 
 def checkpoint_html(check: Check, found: Residuals | None, survey: Survey) -> str:
-    """Return the page of a comparison with checkpoints.
-
-    Parameters
-    ----------
-    check : Check
-        The figures.
-    found : Residuals or None
-        The checkpoints with their errors; None if there are none.
-    survey : Survey
-        The files that were checked.
+    """Return the page of a comparison of files with checkpoints, which have their errors if there
+    are any.
     """
     files = [each.path for each in survey.tiles]
     more = f" and {len(files) - 1:,} more" if files[1:] else ""

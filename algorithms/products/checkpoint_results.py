@@ -32,36 +32,17 @@ REASONS = {
 
 
 class Residuals(NamedTuple):
-    """The checkpoints with their errors, one value for each.
-
-    Attributes
-    ----------
-    checkpoints : Checkpoints
-        The checkpoints in the CRS of the points.
-    vegetated : numpy.ndarray of bool, shape (n,)
-        Which have a land cover that is vegetated.
-    unknown_covers : dict of str to int
-        Land covers that are not known, and how many checkpoints have them.
-    states : tuple of str
-        "counted", or a key of `REASONS`.
-    ground, dtm : numpy.ndarray of float64, shape (n,)
-        Heights of the TIN and of the terrain model, in the unit of the heights of the points; NaN
-        where there is none.
-    errors, dtm_errors : numpy.ndarray of float64, shape (n,)
-        These heights minus those of the checkpoints, in metres.
-    unit : float
-        Metres in a unit of the heights.
-    """
+    """The checkpoints, in the CRS of the points, with their errors, one value for each."""
 
     checkpoints: Checkpoints
-    vegetated: np.ndarray
-    unknown_covers: dict[str, int]
-    states: tuple[str, ...]
-    ground: np.ndarray
-    dtm: np.ndarray
-    errors: np.ndarray
-    dtm_errors: np.ndarray
-    unit: float
+    vegetated: np.ndarray  # bool, (n,): by their land cover
+    unknown_covers: dict[str, int]  # land covers, and how many checkpoints have them
+    states: tuple[str, ...]  # "counted", or a key of `REASONS`
+    ground: np.ndarray  # float64, (n,): heights of the TIN in the unit of the points; NaN for none
+    dtm: np.ndarray  # the same of the terrain model
+    errors: np.ndarray  # float64, (n,): heights of the TIN minus those of checkpoints, metres
+    dtm_errors: np.ndarray  # the same of the terrain model
+    unit: float  # metres in a unit of the heights
 
     @property
     def counted(self) -> np.ndarray:
@@ -83,61 +64,30 @@ class Residuals(NamedTuple):
 
 @dataclass(frozen=True)
 class Check:
-    """The result of a comparison with checkpoints; all errors are in metres.
-
-    Attributes
-    ----------
-    checkpoint_count, counted : int
-        Checkpoints that were given, and those that are counted.
-    nva, vva : Figures or None
-        Errors of the TIN of the ground points, on land without and with vegetation.
-    dtm_nva, dtm_vva : Figures or None
-        The same of the terrain model.
-    not_counted : dict of str to list of str
-        The names of the other checkpoints, by the reason as in `REASONS`.
-    unknown_covers : dict of str to int
-        Land covers that are not known, and how many checkpoints have them. They are counted as
-        land without vegetation.
-    doubt : str
-        Why no accuracy can be stated, such as another vertical datum; empty if it can be.
-    largest : list of dict
-        Names and errors of the counted checkpoints with the largest errors of the TIN.
-    shift : float or None
-        The mean error on land without vegetation, which a shift of the heights by its negative
-        would remove; None if there is a doubt. Nothing is shifted.
-    needed : int
-        Fewest checkpoints without vegetation for a test by the standard.
-    accuracy_class : float or None
-        The class to meet.
-    meets_class : bool or None
-        Whether the TIN meets it; None if no class is given, no checkpoint without vegetation is
-        counted, or there is a doubt.
-    scale : float
-        Error in metres at which the colours of maps and bars end.
-    statement, dtm_statement : str
-        The statements for the points and for the terrain model; empty if there is nothing to state.
-    hold_out : HoldOut or None
-        The errors at ground points that were left out, if they were asked for.
-    """
+    """The result of a comparison with checkpoints; all errors are in metres."""
 
     checkpoint_count: int = 0
     counted: int = 0
-    nva: Figures | None = None
-    vva: Figures | None = None
-    dtm_nva: Figures | None = None
+    nva: Figures | None = None  # errors of the TIN of ground points on land without vegetation
+    vva: Figures | None = None  # the same with vegetation
+    dtm_nva: Figures | None = None  # the same of the terrain model
     dtm_vva: Figures | None = None
-    not_counted: dict[str, list[str]] | None = None
+    not_counted: dict[str, list[str]] | None = None  # names by the reason as in `REASONS`
+    # how many checkpoints, counted as without vegetation, have which
     unknown_covers: dict[str, int] | None = None
-    doubt: str = ""
+    doubt: str = ""  # why no accuracy can be stated, such as another vertical datum; or empty
+    # names and errors of those counted with the largest errors of the TIN
     largest: list[dict[str, Any]] | None = None
+    # mean error without vegetation, None in doubt; nothing is shifted by it
     shift: float | None = None
-    needed: int = NEEDED
-    accuracy_class: float | None = None
+    needed: int = NEEDED  # fewest checkpoints without vegetation for a test by the standard
+    accuracy_class: float | None = None  # to meet
+    # by the TIN; None without a class or counted `nva`, or in doubt
     meets_class: bool | None = None
-    scale: float = 1.0
-    statement: str = ""
-    dtm_statement: str = ""
-    hold_out: HoldOut | None = None
+    scale: float = 1.0  # metres at which the colours of maps and bars end
+    statement: str = ""  # for the points; empty if there is nothing to state
+    dtm_statement: str = ""  # for the terrain model
+    hold_out: HoldOut | None = None  # errors at ground points that were left out
 
     @property
     def nva_rmse(self) -> float | None:
@@ -214,11 +164,7 @@ class Check:
 
 
 def listed(names: Sequence[str]) -> str:
-    """Return names in a sentence: the first ones, and the number of the others.
-
-    >>> listed(["P1", "P2"])
-    'P1, P2'
-    """
+    """Return names in a sentence: the first ones, and the number of the others."""
     more = len(names) - _MOST_NAMES
     return ", ".join(names[:_MOST_NAMES]) + (f" and {more:,} more" if more > 0 else "")
 

@@ -1,8 +1,7 @@
 """Compares the ground of a survey, and a terrain model, with checkpoints.
 
-References
-----------
-ASPRS (2023): Positional Accuracy Standards for Digital Geospatial Data, edition 2, version 1.0.
+The method is that of ASPRS (2023): Positional Accuracy Standards for Digital Geospatial Data,
+edition 2, version 1.0.
 """
 
 from __future__ import annotations
@@ -212,11 +211,9 @@ def _with_fitting_heights(
     up: float,
     progress: Progress,
 ) -> Checkpoints:
-    """Return checkpoints with the heights of another column, if only these can be meant.
-
-    Those of one column are metres off, all alike, and those of the other are not: one of both is in
-    another unit or above the ellipsoid.
-    """
+    """Return checkpoints with the heights of another column, if only these can be meant."""
+    # Those of one column are metres off, all alike, and those of the other are not: one of both is
+    # in another unit or above the ellipsoid.
 
     def offset_of(z: np.ndarray) -> str:
         return offset_in_words(heights[counted], z[counted] * up)
@@ -243,7 +240,9 @@ def _raster(source: str | None, ground: SurveyGround) -> HeightRaster | None:
 def _sampled(
     raster: HeightRaster | None, x: np.ndarray, y: np.ndarray, up: float | None = None
 ) -> np.ndarray | None:
-    """Return values of a raster at places; heights in units of `up` metres. None for no raster."""
+    """Return values of a raster at places, as heights in units of `up` metres if that is given;
+    None for no raster.
+    """
     if raster is None:
         return None
     values = HeightSampler(raster).heights(x, y)

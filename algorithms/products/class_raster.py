@@ -21,18 +21,10 @@ _MOST_CELLS = 4_000_000
 
 
 class ClassCells:
-    """Classes of cells; points can be added in parts.
+    """Classes of cells, to which points can be added in parts."""
 
-    A cell is ground if at least half of its points are ground. Otherwise it has the highest class
-    of its other points, so that classes with a meaning are shown rather than unclassified points.
-
-    Parameters
-    ----------
-    cell_count : int
-        Number of cells.
-    ground_class : int
-        The class of the ground.
-    """
+    # A cell is ground if at least half of its points are ground. Otherwise it has the highest class
+    # of its other points, so that classes with a meaning are shown rather than unclassified points.
 
     def __init__(self, cell_count: int, ground_class: int = GROUND) -> None:
         self._ground_class = ground_class
@@ -41,15 +33,7 @@ class ClassCells:
         self._highest = np.zeros(cell_count, dtype=np.uint8)
 
     def add(self, cells: np.ndarray, classes: np.ndarray) -> None:
-        """Add points.
-
-        Parameters
-        ----------
-        cells : numpy.ndarray of int64, shape (n,)
-            Number of the cell of each point.
-        classes : numpy.ndarray of uint8, shape (n,)
-            Their classes.
-        """
+        """Add points, by the number of their cell, int64 (n,), and their class, uint8 (n,)."""
         is_ground = classes == self._ground_class
         for counts, those in ((self._points, cells), (self._ground, cells[is_ground])):
             if len(those):
@@ -77,35 +61,11 @@ def write_class_raster(
     crs: str | None = None,
     in_units: bool = False,
 ) -> list[int]:
-    """Write the classes of a point cloud, or of the files of a survey, as a raster.
-
-    Parameters
-    ----------
-    source : Path
-        A .las, .laz or .copc.laz file, or a virtual point cloud (.vpc).
-    target : Path
-        The GeoTIFF to make; cells without points are `NO_CLASS`.
-    cell_size : float
-        Side of a cell in metres; larger if there would be too many cells.
-    ground_class : int
-        The class of the ground.
-    progress : Progress
-        Receives progress.
-    crs : str, optional
-        The CRS that the user states in place of that of the files, as for `open_las`.
-    in_units : bool
-        Whether the cell size is in units of the CRS.
-
-    Returns
-    -------
-    list of int
-        The classes of its cells, sorted.
-
-    Raises
-    ------
-    BareEarthError
-        If the input cannot be read or the output cannot be written.
+    """Write the classes of a point cloud, or of a virtual one, as a GeoTIFF with `NO_CLASS` in
+    cells without points, and return its classes, sorted.
     """
+    # The side of a cell is in metres, or in units of the CRS with `in_units`; it is larger if there
+    # would be too many cells. `crs` is as for `open_las`.
     survey = open_survey([source], stated=crs)
     cell_size *= survey.crs.horizontal_unit if in_units else 1.0
     grid = _grid_of(survey, cell_size)

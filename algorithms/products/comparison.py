@@ -44,19 +44,11 @@ class AssessmentOptions(ParameterSet):
 
 
 class Comparison(NamedTuple):
-    """Errors point by point.
+    """Errors point by point, boolean arrays of shape (n,)."""
 
-    Attributes
-    ----------
-    counted : numpy.ndarray of bool, shape (n,)
-        Points that are not ignored.
-    rejected, accepted : numpy.ndarray of bool, shape (n,)
-        Errors among these: rejected ground (type I), and accepted other points (type II).
-    """
-
-    counted: np.ndarray
-    rejected: np.ndarray
-    accepted: np.ndarray
+    counted: np.ndarray  # points that are not ignored
+    rejected: np.ndarray  # ground among these that was rejected (type I)
+    accepted: np.ndarray  # other points among these that were accepted (type II)
 
     @classmethod
     def of(
@@ -70,19 +62,14 @@ class Comparison(NamedTuple):
 
 @dataclass(frozen=True)
 class Assessment:
-    """Agreement of a classification with a reference.
-
-    Type I error is the share of reference ground that was rejected, type II error the share of
-    reference non-ground that was accepted, and total error the share of all points that are wrong.
-    Kappa is Cohen's kappa. All are in percent, and NaN if there are no points to count. Points that
-    only one of the files has (`classified_only`, `reference_only`) are not counted.
-
-    References
-    ----------
-    Sithole, G., Vosselman, G. (2004): Experimental comparison of filter algorithms for bare-Earth
-    extraction from airborne laser scanning point clouds. ISPRS Journal 59, section 3.2.
-    Cohen, J. (1960): A coefficient of agreement for nominal scales.
+    """Agreement of a classification with a reference, in percent; NaN if there are no points to
+    count.
     """
+
+    # Sithole and Vosselman (2004), ISPRS Journal 59, section 3.2: type I error is the share of
+    # reference ground that was rejected, type II error the share of reference non-ground that was
+    # accepted, and total error the share of all points that are wrong. Kappa is that of Cohen
+    # (1960).
 
     point_count: int
     ground_as_ground: int
@@ -94,8 +81,8 @@ class Assessment:
     total_error: float
     kappa: float
     classes: dict[int, dict[str, int]] = field(default_factory=dict)
-    classified_only: int = 0
-    reference_only: int = 0
+    classified_only: int = 0  # points that only this file has, which are not counted
+    reference_only: int = 0  # as classified_only
 
     def as_dict(self) -> dict[str, Any]:
         """Return all figures for JSON; NaN becomes None."""
@@ -132,26 +119,7 @@ class Assessment:
 def compare(
     ground: np.ndarray, reference: np.ndarray, options: AssessmentOptions = AssessmentOptions()
 ) -> Assessment:
-    """Compare a ground mask with reference classes of the same points.
-
-    Parameters
-    ----------
-    ground : numpy.ndarray of bool, shape (n,)
-        Which points were classified as ground.
-    reference : numpy.ndarray of int, shape (n,)
-        Reference class of each point.
-    options : AssessmentOptions
-        Which reference classes are ground, and which are left out.
-
-    Returns
-    -------
-    Assessment
-
-    Examples
-    --------
-    >>> compare(np.array([True, False]), np.array([2, 1])).total_error
-    0.0
-    """
+    """Compare a ground mask, bool (n,), with the reference classes of the same points."""
     counted, rejected, accepted = Comparison.of(ground, reference, options)
     truth = np.isin(reference, options.ground_classes)
     b, c = int(np.count_nonzero(rejected)), int(np.count_nonzero(accepted))

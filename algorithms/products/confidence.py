@@ -34,17 +34,9 @@ _TINY = 1e-6
 
 
 class Weights(NamedTuple):
-    """The weight of each piece of `Evidence` in the logit of the confidence.
+    """The weight of each piece of `Evidence` in the logit of the confidence."""
 
-    Attributes
-    ----------
-    level : float
-        The logit on smooth ground without a gap.
-    holes, roughness, gap, gap_at_step, doubtful : float
-        Factors of the pieces of evidence of these names.
-    """
-
-    level: float = 5.7
+    level: float = 5.7  # the logit on smooth ground without a gap
     holes: float = -2.4
     roughness: float = -4.2
     gap: float = -0.33
@@ -53,69 +45,31 @@ class Weights(NamedTuple):
 
 
 class Evidence(NamedTuple):
-    """The evidence for the confidence of each cell; grids of float32, shape (rows, columns).
+    """The evidence for the confidence of each cell; grids of float32, shape (rows, columns)."""
 
-    Attributes
-    ----------
-    holes : numpy.ndarray
-        Share of the cells with points within 2 m that have no ground.
-    roughness : numpy.ndarray
-        Mean distance in metres of the ground near the cell from the mean of the 3 x 3 cells round
-        it.
-    gap : numpy.ndarray
-        Square of log(1 + d), where d is the distance in metres to the nearest cell with ground.
-    gap_at_step : numpy.ndarray
-        log(1 + d) times the steepest rise over run of the ground within 8 m.
-    doubtful : numpy.ndarray
-        Share of the cells with points within 8 m whose lowest point is not ground, although it lies
-        below the ground or at most 1 m above it.
-    """
-
-    holes: np.ndarray
+    holes: np.ndarray  # share of the cells with points within 2 m that have no ground
+    # mean distance, metres, of ground near the cell from means of 3 x 3 cells
     roughness: np.ndarray
-    gap: np.ndarray
-    gap_at_step: np.ndarray
+    gap: np.ndarray  # square of log(1 + d) with the distance d to the nearest ground cell in metres
+    gap_at_step: np.ndarray  # log(1 + d) times the steepest rise over run of the ground within 8 m
+    # share of the cells with points within 8 m whose lowest point is not ground, although it lies
+    # below the ground or at most 1 m above it
     doubtful: np.ndarray
 
 
 class Confidence(NamedTuple):
-    """The confidence of a terrain model.
+    """The confidence of a terrain model."""
 
-    Attributes
-    ----------
-    cells : Cells
-        Cells of 1 m over all points.
-    values : numpy.ndarray of float32, shape (rows, columns)
-        Probability from 0 to 1.
-    """
-
-    cells: Cells
-    values: np.ndarray
+    cells: Cells  # of 1 m over all points
+    values: np.ndarray  # float32, (rows, columns): probability from 0 to 1
 
 
 def confidence(points: Points, ground: np.ndarray) -> Confidence:
-    """Return the probability that the terrain made of ground points is right, for cells of 1 m.
-
-    It is right if the TIN of the ground points, at the middle of a cell, differs from the true
-    terrain by at most 0.3 m plus half of the terrain's rise over the cell.
-
-    Parameters
-    ----------
-    points : Points
-        All points that took part, at least one.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which points were taken for ground, by any method.
-
-    Returns
-    -------
-    Confidence
-        0 everywhere if there is no ground.
-
-    Raises
-    ------
-    BareEarthError
-        If the points spread too far for a grid.
+    """Return the probability that the terrain made of ground points is right, 0 everywhere without
+    any, for cells of 1 m over all points that took part.
     """
+    # It is right if the TIN of the ground points, at the middle of a cell, differs from the true
+    # terrain by at most 0.3 m plus half of the terrain's rise over the cell.
     cells = Cells.over(points, CELL)
     if not ground.any():
         return Confidence(cells, np.zeros(cells.shape, dtype=np.float32))
@@ -123,19 +77,8 @@ def confidence(points: Points, ground: np.ndarray) -> Confidence:
 
 
 def probability(pieces: Sequence[np.ndarray], weights: Weights = Weights()) -> np.ndarray:
-    """Return the confidence from pieces of evidence, in the order of `Evidence`.
-
-    Parameters
-    ----------
-    pieces : sequence of numpy.ndarray of float
-        All of the same shape.
-    weights : Weights
-        By default the fitted weights.
-
-    Returns
-    -------
-    numpy.ndarray of float32
-        The logistic function of the weighted sum, in the same shape.
+    """Return the confidence, the logistic function of the weighted sum of pieces of evidence in the
+    order of `Evidence`, as float32 in their shape.
     """
     logit = np.full(pieces[0].shape, weights.level, dtype=np.float32)
     for weight, values in zip(weights[1:], pieces):
@@ -144,16 +87,8 @@ def probability(pieces: Sequence[np.ndarray], weights: Weights = Weights()) -> n
 
 
 def evidence(cells: Cells, z: np.ndarray, ground: np.ndarray) -> Evidence:
-    """Return the evidence for the confidence of each cell.
-
-    Parameters
-    ----------
-    cells : Cells
-        Cells of 1 m over all points.
-    z : numpy.ndarray of float, shape (n,)
-        Their heights in metres.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which are ground, at least one.
+    """Return the evidence for the confidence of each cell of 1 m, from the heights in metres of all
+    points, and which are ground, at least one.
     """
     from scipy import ndimage
 

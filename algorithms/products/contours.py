@@ -36,21 +36,11 @@ _FIELDS = {"ID": int, "ELEV": float, "INDEX": int}
 
 
 class ContourLine(NamedTuple):
-    """A line to write.
+    """A line to write."""
 
-    Attributes
-    ----------
-    height : float
-        In the unit of the raster.
-    is_index : bool
-        Whether it is an index contour, drawn thick.
-    corners : numpy.ndarray of float64, shape (n, 2)
-        x and y.
-    """
-
-    height: float
-    is_index: bool
-    corners: np.ndarray
+    height: float  # in the unit of the raster
+    is_index: bool  # drawn thick
+    corners: np.ndarray  # float64, (n, 2): x and y
 
 
 @dataclass(frozen=True)
@@ -110,25 +100,13 @@ class Contours(ParameterSet):
 
 @dataclass(frozen=True)
 class Interval:
-    """The height between contour lines.
+    """The height between contour lines."""
 
-    Attributes
-    ----------
-    height : float
-        In the unit of the raster.
-    unit : str
-        Symbol of that unit; empty if the raster does not state it.
-    """
-
-    height: float
-    unit: str = ""
+    height: float  # in the unit of the raster
+    unit: str = ""  # symbol of that unit; empty if the raster does not state it
 
     def text(self, lines: int = 1) -> str:
-        """Return the height between a number of lines, with its unit.
-
-        >>> Interval(2.0, "m").text(5)
-        '10 m'
-        """
+        """Return the height between a number of lines, with its unit, such as 10 m."""
         return f"{lines * self.height:g} {self.unit}".rstrip()
 
 
@@ -231,11 +209,11 @@ def _lines_of(
 
 
 def _is_level(heights: np.ndarray, half: int) -> np.ndarray:
-    """Return which cells are as high as a square near them that has exactly one height.
-
-    Such squares are water that was flattened. Smoothing would draw the lines of its banks into it.
-    `half` is half the side of the square; up to three times as far cells matter.
+    """Return which cells are as high as a square near them, of twice the side `half`, that has
+    exactly one height; up to three times as far cells matter.
     """
+    # Such squares are water that was flattened. Smoothing would draw the lines of its banks into
+    # it.
     low, high = (within_square(each, heights, half) for each in (np.minimum, np.maximum))
     levels = np.where(low == high, heights, -np.inf)
     return within_square(np.maximum, levels, 2 * half) == heights

@@ -33,47 +33,21 @@ PER_CELL = 4.0
 
 @dataclass(frozen=True, eq=False)
 class FixedTerrain:
-    """Constraints as vertices of the terrain.
+    """Constraints as vertices of the terrain, in metres and in the frame of the survey."""
 
-    Attributes
-    ----------
-    edges, inside : numpy.ndarray of float64, shape (n, 3)
-        Places along lines and borders, and inside of water: metres, in the frame of the survey.
-    cell : float
-        Side in metres of the cells in which points are thinned.
-    waters : tuple of LevelWater
-        The water in the frame of the survey, if its level is known.
-    """
-
-    edges: np.ndarray
-    inside: np.ndarray
-    cell: float
-    waters: tuple[LevelWater, ...] = ()
+    edges: np.ndarray  # float64, (n, 3): along lines and borders
+    inside: np.ndarray  # float64, (n, 3): in water
+    cell: float  # metres: side of the cells in which points are thinned
+    waters: tuple[LevelWater, ...] = ()  # the water, if its level is known
 
     def added_to(
         self, points: Points, ground: np.ndarray, corner: tuple[float, float]
     ) -> tuple[Points, np.ndarray, np.ndarray]:
-        """Return points with the vertices near them.
-
-        Ground points that share a cell of the lattice with a vertex are no longer ground: they may
-        lie on the other side of a line.
-
-        Parameters
-        ----------
-        points : Points
-            Relative to a corner.
-        ground : numpy.ndarray of bool, shape (n,)
-            Which are ground.
-        corner : tuple of float
-            x and y in the frame of the survey.
-
-        Returns
-        -------
-        points : Points
-            All, the vertices last.
-        ground, edges : numpy.ndarray of bool, shape (n + m,)
-            Which of them are ground, and which of these lie on lines.
+        """Return points relative to a corner in the frame with the vertices near them last, and
+        which of all are ground, and which of these lie on lines, bool (n + m,).
         """
+        # Ground points that share a cell of the lattice with a vertex are no longer ground: they
+        # may lie on the other side of a line.
         low = np.array(points.box[:2]) + corner - _BEYOND
         high = np.array(points.box[2:]) + corner + _BEYOND
         edges, inside = (
@@ -103,31 +77,11 @@ def fixed_terrain(
     cell: float,
     progress: Progress = SILENT,
 ) -> FixedTerrain | None:
-    """Return constraints as vertices. Missing heights are taken from the ground nearby.
-
-    Parameters
-    ----------
-    constraints : Constraints
-        The constraints.
-    clouds : iterable of PointCloud
-        All points of the survey, part by part. They are read only if there are lines or water,
-        to find the ground near these.
-    frame : Frame
-        That of the survey.
-    ground : GroundClasses
-        Which points are ground.
-    cell : float
-        Side in metres of the cells in which points are thinned.
-    progress : Progress
-        Receives a warning about what cannot be used.
-
-    Raises
-    ------
-    BareEarthError
-        If a file cannot be read.
-    Cancelled
-        If the user asked to stop.
+    """Return constraints as vertices; missing heights are taken from the ground nearby, and a
+    warning tells what cannot be used.
     """
+    # All points of the survey, part by part, are read only if there are lines or water, to find the
+    # ground near these. `cell` is the side in metres of the cells in which points are thinned.
     if not constraints.any:
         return None
     step = cell / PER_CELL
@@ -141,21 +95,11 @@ def fixed_terrain(
 
 
 class GivenTerrain(NamedTuple):
-    """Lines and water in metres, in the frame of the survey, and the ground near them.
+    """Lines and water in metres, in the frame of the survey, and the ground near them."""
 
-    Attributes
-    ----------
-    lines : list of numpy.ndarray of float64, shape (n, 3)
-        The corners of each breakline; z is NaN where there is none, or one that cannot be.
-    waters : list of LevelWater
-        The water; its level is not known if no ground is near it.
-    ground : NearestHeights
-        The ground near breaklines and water.
-    """
-
-    lines: list[np.ndarray]
-    waters: list[LevelWater]
-    ground: NearestHeights
+    lines: list[np.ndarray]  # float64, (n, 3) each; z is NaN for none, or one that cannot be
+    waters: list[LevelWater]  # without a level if no ground is near
+    ground: NearestHeights  # near breaklines and water
 
     @classmethod
     def of(

@@ -21,25 +21,13 @@ _NOT_ZERO = 0.5
 
 
 class WrongHeights(NamedTuple):
-    """Numbers of corners of lines.
+    """Numbers of corners of lines."""
 
-    Attributes
-    ----------
-    corners : int
-        Those with a height.
-    none : int
-        Those whose height stands for none, such as -9999.
-    zero, far : int
-        Those whose height is 0, or another one, far from the ground.
-    farthest : float
-        How far from the ground, in metres.
-    """
-
-    corners: int = 0
-    none: int = 0
-    zero: int = 0
-    far: int = 0
-    farthest: float = 0.0
+    corners: int = 0  # with a height
+    none: int = 0  # whose height stands for none, such as -9999
+    zero: int = 0  # whose height is 0, far from the ground
+    far: int = 0  # with another height far from the ground
+    farthest: float = 0.0  # from the ground, in metres
 
     def tell(self, progress: Progress) -> None:
         """Warn of them."""
@@ -62,21 +50,8 @@ class WrongHeights(NamedTuple):
 def without_wrong_heights(
     lines: Sequence[np.ndarray], ground: NearestHeights, unit: float
 ) -> tuple[list[np.ndarray], WrongHeights]:
-    """Return lines with NaN in place of heights that cannot be.
-
-    Parameters
-    ----------
-    lines : sequence of numpy.ndarray of float64, shape (n, 3)
-        Corners in metres.
-    ground : NearestHeights
-        The ground near them.
-    unit : float
-        Metres in the unit in which their heights are written.
-
-    Returns
-    -------
-    lines : list of numpy.ndarray of float64, shape (n, 3)
-    wrong : WrongHeights
+    """Return lines, corners in metres of shape (n, 3), with NaN in place of heights that cannot be;
+    `unit` is metres in the unit in which these are written.
     """
     if not lines:
         return [], WrongHeights()

@@ -21,23 +21,12 @@ _GRADE = "given"
 
 
 class GivenWater(NamedTuple):
-    """Water and breaklines of the user.
+    """Water and breaklines of the user, in the CRS of the points."""
 
-    Attributes
-    ----------
-    polygons : tuple of polygon
-        The water in coordinates of the CRS, as it was given.
-    waters : tuple of LevelWater
-        Its levels.
-    breaklines : tuple of (int, numpy.ndarray of float64, shape (n, 3))
-        The number of each, and its corners in metres. Those that were given without heights come
-        twice: once for each side.
-    crs : Crs
-        The CRS of the points.
-    """
-
-    polygons: tuple[Polygon, ...]
-    waters: tuple[LevelWater, ...]
+    polygons: tuple[Polygon, ...]  # as given
+    waters: tuple[LevelWater, ...]  # the levels of the polygons
+    # number, and corners in metres, float64 (n, 3); twice, for either side, if given without
+    # heights
     breaklines: tuple[tuple[int, np.ndarray], ...]
     crs: Crs
 
@@ -50,23 +39,8 @@ class GivenWater(NamedTuple):
         ground: GroundClasses,
         cell: float,
     ) -> GivenWater:
-        """Return water and breaklines with the heights that `fixed_terrain` gives them.
-
-        Parameters
-        ----------
-        constraints : Constraints
-            In the CRS of the points.
-        clouds, ground, cell
-            As for `fixed_terrain`.
-        crs : Crs
-            The CRS of the points.
-
-        Raises
-        ------
-        BareEarthError
-            If a file cannot be read.
-        Cancelled
-            If the user asked to stop.
+        """Return water and breaklines, in the CRS of the points, with the heights that
+        `fixed_terrain` gives them.
         """
         given = GivenTerrain.of(constraints, clouds, survey_frame(crs), ground, cell / PER_CELL)
         lines = (

@@ -20,21 +20,8 @@ _ON_GROUND = 1.0
 def with_roads(
     points: Points, ground: np.ndarray, roads: np.ndarray, progress: Progress = SILENT
 ) -> np.ndarray:
-    """Return which points are ground, with the points of roads that lie on it.
-
-    Parameters
-    ----------
-    points : Points
-        All points.
-    ground, roads : numpy.ndarray of bool, shape (n,)
-        Which points are ground, and which lie on roads and rails, also on those of bridges.
-    progress : Progress
-        Receives progress.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
-        The ground, and points of roads that are at most 1 m above or below the TIN of the ground.
+    """Return which points are ground, with those on roads and rails, also of bridges, that are at
+    most 1 m above or below the TIN of the ground; bool (n,).
     """
     if not (roads.any() and ground.any()):
         return ground
@@ -48,33 +35,12 @@ def height_above_ground(
     progress: Progress = SILENT,
     wanted: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Return the height of each point above the ground.
-
-    Parameters
-    ----------
-    points : Points
-        All points.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which points are ground; at least one.
-    progress : Progress
-        Receives progress.
-    wanted : numpy.ndarray of bool, shape (n,), optional
-        Which heights are wanted; the others are 0. By default, all.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (n,)
-        0 for ground points. For other points, metres above the TIN of the ground points, negative
-        below it. Outside the convex hull, metres above the nearest ground point. The TIN has one
-        vertex in each square of 0.5 m, or in smaller squares where ground points are dense.
-
-    Examples
-    --------
-    >>> x, y = np.array([0.0, 4.0, 0.0, 1.0]), np.array([0.0, 0.0, 4.0, 1.0])
-    >>> points = Points(x, y, np.array([10.0, 10.0, 10.0, 12.5]))
-    >>> float(height_above_ground(points, np.array([True, True, True, False]))[3])
-    2.5
+    """Return the height in metres above the TIN of the ground points, float64 (n,): 0 for ground
+    and for points that are not wanted, negative below the TIN.
     """
+    # There must be a ground point. Outside of their convex hull, heights are above the nearest one.
+    # The TIN has one vertex in each square of 0.5 m, or in smaller squares where ground points are
+    # dense.
     heights = np.zeros(points.count)
     surface = GroundSurface(points.take(ground), progress.part(0.0, 0.2))
     which = np.flatnonzero(~ground if wanted is None else ~ground & wanted)
@@ -83,15 +49,7 @@ def height_above_ground(
 
 
 class GroundSurface:
-    """The TIN of ground points, as `height_above_ground` uses it.
-
-    Parameters
-    ----------
-    ground : Points
-        The ground points, at least one.
-    progress : Progress
-        Receives progress.
-    """
+    """The TIN of ground points, at least one, as `height_above_ground` uses it."""
 
     def __init__(self, ground: Points, progress: Progress = SILENT) -> None:
         apart = min(_SPACINGS * spacing(ground, _LEAST / _SPACINGS), _MOST)

@@ -19,12 +19,8 @@ _DEVIATION = 1.4826
 
 
 def offset_in_words(heights: np.ndarray, checkpoints: np.ndarray) -> str:
-    """Return a sentence on what makes all heights differ alike; empty if nothing does.
-
-    Parameters
-    ----------
-    heights, checkpoints : numpy.ndarray of float64, shape (n,)
-        Heights of the data, and of the checkpoints there, in metres.
+    """Return a sentence on what makes all heights, in metres, differ alike from those of
+    checkpoints; empty if nothing does.
     """
     errors = heights - checkpoints
     if not len(errors):

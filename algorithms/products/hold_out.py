@@ -28,41 +28,22 @@ _MIX = tuple(
 
 @dataclass(frozen=True)
 class HoldOut:
-    """Errors at ground points that were left out of the TIN.
-
-    Attributes
-    ----------
-    share : float
-        The share of the ground points that was left out.
-    left_out : int
-        Their number.
-    no_height : int
-        Points at which errors would be measured, but no short triangle of the others holds them.
-    all, open, under_trees, steep : Figures or None
-        Errors (the TIN minus the point), of all and by land: where the slope is more than 20
-        degrees; elsewhere where the pulse of the point had several returns; and the rest. At most
-        10,000 points are measured.
-    single : bool
-        Whether no point that was left out is of a pulse with several returns.
+    """Errors (the TIN minus the point) at up to 10,000 ground points that were left out of
+    the TIN.
     """
 
-    share: float
-    left_out: int
-    no_height: int
+    share: float  # of the ground points, that was left out
+    left_out: int  # points
+    no_height: int  # points that no short triangle of the others holds
     all: Figures | None
-    open: Figures | None
-    under_trees: Figures | None
-    steep: Figures | None
-    single: bool = False
+    open: Figures | None  # neither steep nor under trees
+    under_trees: Figures | None  # not steep, of pulses with several returns
+    steep: Figures | None  # where the slope is more than 20 degrees
+    single: bool = False  # no point that was left out is of a pulse with several returns
 
     def limits(self, void_share: float | None = None, distance: float = 0.0) -> str:
-        """Return what the errors do not tell, in sentences.
-
-        Parameters
-        ----------
-        void_share : float, optional
-            Share of the area that is farther than `distance` metres from a ground point.
-        distance : float
+        """Return what the errors do not tell, in sentences, such as of the share of the area
+        farther than `distance` metres from a ground point.
         """
         said = [f"This tells {AGREEMENT}."]
         if void_share:
@@ -81,29 +62,11 @@ class HoldOut:
 def hold_out(
     ground: SurveyGround, share: float, max_edge: float, progress: Progress = SILENT
 ) -> HoldOut:
-    """Leave out a share of the ground points, and measure how well the others predict them.
-
-    The points are chosen by their coordinates alone. So a survey has the same ones in each run,
-    however it is cut into files.
-
-    Parameters
-    ----------
-    ground : SurveyGround
-        The points.
-    share : float
-        The share to leave out, 0 to 1.
-    max_edge : float
-        Longest edge of a triangle in metres.
-    progress : Progress
-        Receives progress.
-
-    Raises
-    ------
-    BareEarthError
-        If a file cannot be read, or there is no ground.
-    Cancelled
-        If the user asked to stop.
+    """Leave out a share, 0 to 1, of the ground points, and measure how well the TIN of the others
+    predicts them, without triangles with edges longer than `max_edge` metres.
     """
+    # The points are chosen by their coordinates alone. So a survey has the same ones in each run,
+    # however it is cut into files.
     limit = np.uint64(min(int(share * 2.0**64), 2**64 - 1))
     # x, y, z, and whether their pulses had several returns.
     kept = np.empty((4, 0))

@@ -1,7 +1,5 @@
 """Which checkpoints lie on vegetated land, by what surveys write in several languages.
 
-References
-----------
 ASPRS (2023): Positional Accuracy Standards for Digital Geospatial Data, edition 2, version 1.0:
 land without vegetation (NVA) is bare earth, sand, rock, short grass and urban land; vegetated land
 (VVA) is tall weeds and crops, brush and forest.
@@ -146,38 +144,14 @@ _POINT = _keys(
 
 
 class LandCovers(NamedTuple):
-    """Tells whether checkpoints lie on vegetated land, by what is written of them.
+    """Tells whether checkpoints lie on vegetated land, by what is written of them."""
 
-    Attributes
-    ----------
-    words : tuple of str
-        Land covers that have one of these words are vegetated, and no others; empty for those that
-        are known.
-    """
-
+    # land covers with one of these are vegetated, others not; empty: the known
     words: tuple[str, ...] = ()
 
     def kind(self, use: str, cover: str) -> str | None:
-        """Return the kind of a checkpoint.
-
-        Parameters
-        ----------
-        use : str
-            What it is used for, such as Control, Check or NVA; may be empty.
-        cover : str
-            Its land cover; may be empty.
-
-        Returns
-        -------
-        str or None
-            `NVA`, `VVA`, `CONTROL`, or `UNKNOWN` for a land cover that is not known. None if
-            nothing is written.
-
-        Examples
-        --------
-        >>> covers = ("Mixed forest", "TALL_GRASS", "Waldweg", "Woodward Street", "Moon")
-        >>> [LandCovers().kind("", each) for each in covers]
-        ['VVA', 'VVA', 'NVA', 'NVA', '']
+        """Return `NVA`, `VVA`, `CONTROL`, `UNKNOWN` for a land cover that is not known, or None if
+        nothing is written, by use, such as Check or NVA, and land cover.
         """
         used = [_key(each) for each in parts_of(use) if each.isalpha()]
         named = [_key(each) for each in parts_of(cover) if each.isalpha()]
@@ -243,9 +217,8 @@ class LandCovers(NamedTuple):
 def kinds_of(
     checkpoints: Checkpoints, covers: LandCovers, progress: Progress
 ) -> tuple[list[str], dict[str, int]]:
-    """Return the kind of each checkpoint, and the land covers that are not known, which are told.
-
-    If nothing is written of any, their names may begin with NVA or VVA.
+    """Return the kind of each checkpoint, by their names if nothing else is written of any, and the
+    land covers that are not known, which are told.
     """
     uses = checkpoints.types or [""] * checkpoints.count
     found = [covers.kind(*each) for each in zip(uses, checkpoints.covers)]

@@ -21,19 +21,12 @@ _ON_SHORE = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class LevelWater:
-    """A polygon of water with its level, in metres.
+    """A polygon of water with its level, in metres."""
 
-    Attributes
-    ----------
-    rings : tuple of numpy.ndarray of float64, shape (n, 3)
-        Shore and islands, closed. z is the level, which falls evenly between two corners; NaN if it
-        is not known.
-    rivers : tuple of numpy.ndarray of float64, shape (m, 3)
-        The parts of rivers in it, downstream.
-    """
-
+    # float64, (n, 3): shore and islands, closed; z is the level, which falls evenly between two
+    # corners; NaN if it is not known
     rings: tuple[np.ndarray, ...]
-    rivers: tuple[np.ndarray, ...] = ()
+    rivers: tuple[np.ndarray, ...] = ()  # float64, (m, 3): parts of rivers in it, downstream
 
     @property
     def levels(self) -> tuple[float, float]:
@@ -64,17 +57,7 @@ class LevelWater:
         )
 
     def level_at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return the level at places in the water: that of the TIN of its shore and rivers.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray of float64, shape (k,)
-            Places in metres.
-
-        Returns
-        -------
-        numpy.ndarray of float64, shape (k,)
-        """
+        """Return the level at places in the water: that of the TIN of its shore and rivers."""
         high, low = self.levels
         if not high > low:
             return np.full(len(x), high)
@@ -108,16 +91,8 @@ class _CellsOfWater(NamedTuple):
 
 
 class WaterCells:
-    """The cells of rasters whose centres lie in water with a level.
-
-    Parameters
-    ----------
-    waters : sequence of LevelWater
-        The water, in the frame of the rasters.
-    window : CellWindow
-        All cells.
-    cell : float
-        Side of a cell in metres.
+    """The cells of rasters, with a side in metres, whose centres lie in water with a level, in the
+    frame of the rasters.
     """
 
     def __init__(self, waters: Sequence[LevelWater], window: CellWindow, cell: float) -> None:
@@ -136,16 +111,8 @@ class WaterCells:
         return found
 
     def burn(self, heights: np.ndarray, strip: CellWindow, kept: np.ndarray | None = None) -> None:
-        """Set the heights of cells in water to its level, in place.
-
-        Parameters
-        ----------
-        heights : numpy.ndarray of float, shape (rows, columns)
-            Heights of the cells of a strip in metres, rows from the south.
-        strip : CellWindow
-            The cells.
-        kept : numpy.ndarray of bool, shape (rows, columns), optional
-            Cells that keep their height.
+        """Set the heights in metres of cells in water to its level, in place, but for those `kept`;
+        rows of the strip go from the south.
         """
         for where, cells, water, part in self._among(strip):
             rows, columns = np.nonzero(cells if kept is None else cells & ~kept[where])

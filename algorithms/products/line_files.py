@@ -33,71 +33,35 @@ _KINDS = {"Point Z": 1001, "LineString": 2, "LineString Z": 1002, "Polygon": 3}
 
 
 class Layer(NamedTuple):
-    """What the features of a file have in common.
+    """What the features of a file have in common."""
 
-    Attributes
-    ----------
-    name : str
-        The name of the layer, in formats with several layers.
-    kind : str
-        "LineString", "LineString Z", "Polygon" or "Point Z".
-    fields : mapping of str to type
-        The names of the fields, and the types of their values: int, float or str.
-    wkt : str or None
-        The CRS as well-known text.
-    epsg : int or None
-        Its EPSG code.
-    """
-
-    name: str
-    kind: str
-    fields: Mapping[str, type]
+    name: str  # in formats with several layers
+    kind: str  # "LineString", "LineString Z", "Polygon" or "Point Z"
+    fields: Mapping[str, type]  # names, and types of the values: int, float or str
     wkt: str | None
     epsg: int | None
 
 
 class Feature(NamedTuple):
-    """A line, a point or a polygon to write.
+    """A line, a point or a polygon to write."""
 
-    Attributes
-    ----------
-    values : tuple
-        One value for each field; NaN and None for none.
-    corners : numpy.ndarray of float64, shape (n, 2) or (n, 3), or sequence of such
-        x and y of a line, and z if its kind has z; x, y and z of a point, shape (1, 3). The closed
-        rings of a polygon, x and y, the outer one first.
-    """
-
-    values: tuple[Any, ...]
+    values: tuple[Any, ...]  # one for each field; NaN and None for none
+    # float64, (n, 2) or (n, 3): x, y and z if the kind has it; (1, 3) for a point; of a polygon the
+    # closed rings, x and y, the outer one first
     corners: Any
 
 
 def check_features(target: Path, sources: tuple[Path, ...] = ()) -> None:
-    """Refuse, before any work is done, a vector layer that could not be written at the end.
-
-    Raises
-    ------
-    BareEarthError
-        If the name or folder is unsuitable, or a library is missing.
+    """Refuse, before any work is done, a vector layer that could not be written at the end: its
+    name or folder is unsuitable, or a library is missing.
     """
     check_output(target, sources)
     feature_writer(target)
 
 
 def feature_writer(target: Path) -> Callable[..., int]:
-    """Return the function that writes features: ``write(target, features, layer, progress)``.
-
-    It returns the number of features.
-
-    Parameters
-    ----------
-    target : Path
-        The file to make.
-
-    Raises
-    ------
-    BareEarthError
-        If the format is not known, or there is no library to write it.
+    """Return the function that writes features, ``write(target, features, layer, progress)``, and
+    returns their number; refuse a format that no library writes.
     """
     suffix = target.suffix.lower()
     if suffix not in FORMATS:

@@ -1,12 +1,8 @@
 """Local relief: the height of the terrain above its surroundings, which shows small features.
 
 Burial mounds, old paths, ditches and field banks of some decimetres cannot be seen in a terrain
-model with a range of some hundred metres. They stand out when the trend of the land is removed.
-
-References
-----------
-Hesse, R. (2010): LiDAR-derived Local Relief Models - a new tool for archaeological prospection.
-Archaeological Prospection 17, 67-72. This is its first step: the terrain minus a smoothed one.
+model with a range of some hundred metres. They stand out when the trend of the land is removed: the
+first step of Hesse (2010), LiDAR-derived Local Relief Models, Archaeological Prospection 17, 67-72.
 """
 
 from __future__ import annotations
@@ -56,24 +52,11 @@ class LocalRelief(ParameterSet):
 def local_relief(
     heights: np.ndarray, cell_metres: tuple[float, float], radius: float
 ) -> np.ndarray:
-    """Return the height of a surface above the mean of its surroundings.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Heights in any unit; NaN where there is none.
-    cell_metres : tuple of float
-        Distance between neighbours in a row, and in a column, in metres.
-    radius : float
-        Radius of the surroundings in metres. The mean is weighted by a normal distribution whose
-        standard deviation is half the radius.
-
-    Returns
-    -------
-    numpy.ndarray of float32, shape (rows, columns)
-        In the unit of the heights; NaN where these are NaN. A cell depends on others up to
-        `relief_reach`.
+    """Return the height of a surface, in its unit as float32, above the mean of its surroundings of
+    a radius in metres; NaN where the surface is.
     """
+    # The mean is weighted by a normal distribution whose standard deviation is half the radius. A
+    # cell depends on others up to `relief_reach`.
     sigma = radius / 2 / cell_metres[1], radius / 2 / cell_metres[0]
     # At an edge the trend is that of a plane, because otherwise a slope would be visible there.
     return (heights - local_trend(heights, sigma)).astype(np.float32)
@@ -87,18 +70,13 @@ def relief_reach(cell_metres: tuple[float, float], radius: float) -> int:
 def multi_scale_relief(
     heights: np.ndarray, cell_metres: tuple[float, float], radius: float
 ) -> np.ndarray:
-    """Return the mean of local reliefs with half of a radius, the radius, twice and four times it.
-
-    So what is narrow and what is wide are visible in one picture. Arguments and result are as for
-    `local_relief`; a cell depends on others up to `multi_scale_reach`.
-
-    References
-    ----------
-    Orengo, H. A. and Petrie, C. A. (2018): Multi-scale relief model (MSRM): a new algorithm for the
-    visualization of subtle topographic change of variable size in digital elevation models. Earth
-    Surface Processes and Landforms 43, 1361-1369. The idea of it. There, the differences between
-    successive means are summed, which is the difference between the first and the last.
+    """Return the mean of local reliefs with half of a radius, the radius, twice and four times it,
+    so that what is narrow and what is wide are visible in one picture.
     """
+    # A cell depends on others up to `multi_scale_reach`. The idea is that of Orengo and Petrie
+    # (2018), Multi-scale relief model, Earth Surface Processes and Landforms 43, 1361-1369. There,
+    # the differences between successive means are summed, which is the difference between the first
+    # and the last.
     reliefs = [local_relief(heights, cell_metres, scale * radius) for scale in _SCALES]
     return sum(reliefs[1:], reliefs[0]) / np.float32(len(_SCALES))
 

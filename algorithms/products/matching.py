@@ -27,47 +27,21 @@ _EVERYWHERE = (-1e300, -1e300, 1e300, 1e300)
 
 
 class Matched(NamedTuple):
-    """The points that two files have in common, in the same order.
+    """The points that two files have in common, in the same order."""
 
-    Attributes
-    ----------
-    clouds : tuple of PointCloud
-        The points of both files, perhaps without some that are not common.
-    orders : tuple of slice or numpy.ndarray of int64, shape (n,)
-        The common points of each cloud.
-    alone : tuple of int
-        Number of points of each file that the other file does not have.
-    """
-
-    clouds: tuple[PointCloud, PointCloud]
+    clouds: tuple[PointCloud, PointCloud]  # of both files, perhaps without some that are not common
+    # of each cloud, the common points, int64 (n,)
     orders: tuple[slice | np.ndarray, slice | np.ndarray]
-    alone: tuple[int, int]
+    alone: tuple[int, int]  # points of each file that the other file does not have
 
 
 def match_files(one: Path, other: Path, progress: Progress, crs: str | None = None) -> Matched:
-    """Find the points that two files have in common, in any order.
-
-    Points are the same if their coordinates, return numbers and GPS times are. Times do not count
-    where a file has none, or for most points another one. Of several equal points, each is used
-    once. If the scales of the files differ, coordinates are compared in steps of the coarser one.
-
-    Parameters
-    ----------
-    one, other : Path
-        The files. One can be a part of the other, or both can overlap. Of the one with more points
-        only the extent of the other is kept.
-    progress : Progress
-        Receives progress and messages.
-    crs : str, optional
-        The CRS that the user states in place of their records, as well-known text.
-
-    Raises
-    ------
-    BareEarthError
-        If a file cannot be read, or hardly a point is common.
-    Cancelled
-        If the user asked to stop.
-    """
+    """Find the points that two files have in common, in any order; refuse files with hardly any."""
+    # Points are the same if their coordinates, return numbers and GPS times are. Times do not count
+    # where a file has none, or for most points another one. Of several equal points, each is used
+    # once. If the scales of the files differ, coordinates are compared in steps of the coarser one.
+    # One file can be a part of the other, or both can overlap. Of the one with more points only the
+    # extent of the other is kept.
     files = open_las(one, crs), open_las(other, crs)
     left = progress
     # COPC has an order of its own.
@@ -192,17 +166,8 @@ def _edges(columns: Sequence[np.ndarray]) -> np.ndarray:
 
 
 def _equal(one: Sequence[np.ndarray], other: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the rows of two tables that are equal; several equal rows are paired in order.
-
-    Parameters
-    ----------
-    one, other : sequence of numpy.ndarray of int64, shape (n,) and (m,)
-        The columns of the tables.
-
-    Returns
-    -------
-    tuple of numpy.ndarray of int64, shape (k,)
-        The rows of each table; no row is used twice.
+    """Return the rows of two tables, given as columns of int64, that are equal, int64 (k,) each;
+    several equal rows are paired in order, and none is used twice.
     """
     first_count = len(one[0])
     columns = [np.concatenate(pair) for pair in zip(one, other)]

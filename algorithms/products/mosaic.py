@@ -24,24 +24,12 @@ _ROWS = 256
 
 
 class Mosaic:
-    """A layer of all blocks of a survey.
-
-    Parameters
-    ----------
-    made : sequence of BlockRasters
-        The rasters of the blocks. Cells outside all of them have no value.
-    layer : str
-        Name of the layer.
-    window : CellWindow
-        All cells.
-    cell : float
-        Side of a cell in metres.
-    outline : Outline, optional
-        Cells outside have no value.
-    water : WaterCells
-        Cells that have the level of water: in the terrain all of them, in the surface those without
-        a point. The confidence has no value there.
+    """A layer of all blocks of a survey, without values outside of these and of the outline; a cell
+    has a side in metres.
     """
+
+    # Cells of `water` have its level: in the terrain all of them, in the surface those without a
+    # point. The confidence has no value there.
 
     def __init__(
         self,
@@ -72,11 +60,8 @@ class Mosaic:
         return part
 
     def rows(self, start: int, end: int, kind: type = np.float32) -> np.ndarray:
-        """Return rows of the raster, from north to south; rows beyond it are NaN, or 0.
-
-        Returns
-        -------
-        numpy.ndarray of `kind`, shape (end - start, columns)
+        """Return rows of the raster, from north to south, shape (end - start, columns); rows beyond
+        it are NaN, or 0.
         """
         whole = self.window
         strip = whole.strip(start, end)
@@ -119,14 +104,8 @@ class Mosaic:
         return np.logical_and.reduce([each.rows(start, end, *columns) for each in self._outlines])
 
     def fill_gaps(self, points: np.ndarray, progress: Progress = SILENT) -> None:
-        """Fill cells without a height inside the outline, from a TIN over the gaps.
-
-        Parameters
-        ----------
-        points : numpy.ndarray of float64, shape (n, 3)
-            Vertices of the TIN, beside the cells along the gaps.
-        progress : Progress
-            Receives progress.
+        """Fill cells without a height inside the outline, from a TIN over the gaps, of the cells
+        along them and of more vertices, shape (n, 3).
         """
         vertices = [points]
         for start, end in _strips(self.window):
@@ -177,22 +156,11 @@ def gathered_strips(
     margin: int,
     progress: Progress,
 ) -> Iterator[np.ndarray]:
-    """Yield a raster made from mosaics, strip by strip from north to south.
-
-    Parameters
-    ----------
-    mosaics : sequence of Mosaic
-        One or more mosaics with the same cells.
-    window : CellWindow
-        The cells to make. Those beyond the mosaics have no value.
-    make : callable
-        Returns rows of the raster, given as many rows of each mosaic; the first axis of the result
-        may be bands.
-    margin : int
-        Number of rows and columns beyond a strip that affect it.
-    progress : Progress
-        Receives progress.
+    """Yield a raster, strip by strip from north to south, that `make` makes of as many rows of each
+    mosaic, all with the same cells; the first axis may be bands.
     """
+    # `margin` is the number of rows and columns beyond a strip that affect it. Cells of the window
+    # beyond the mosaics have no value.
     whole = mosaics[0].window
     north = whole.row + whole.rows - window.row - window.rows
     left = window.column - whole.column

@@ -1,7 +1,5 @@
 """Removes buildings, trees and other objects from the raster of a surface.
 
-References
-----------
 Lindsay, J. B. (2018): A new method for the removal of off-terrain objects from LiDAR-derived raster
 surface models. doi:10.13140/RG.2.2.21226.62401. WhiteboxTools: RemoveOffTerrainObjects.
 """
@@ -63,18 +61,10 @@ class OffTerrain(ParameterSet):
 
 @dataclass(frozen=True)
 class Removal:
-    """Numbers of cells.
+    """Numbers of cells."""
 
-    Attributes
-    ----------
-    cell_count : int
-        Cells with a height.
-    removed_count : int
-        Cells of removed objects.
-    """
-
-    cell_count: int
-    removed_count: int
+    cell_count: int  # with a height
+    removed_count: int  # of removed objects
 
     @property
     def text(self) -> str:
@@ -89,26 +79,10 @@ def remove_objects_file(
     parameters: OffTerrain = OffTerrain(),
     progress: Progress = SILENT,
 ) -> Removal:
-    """Write the raster of a surface without the objects on it.
-
-    Parameters
-    ----------
-    source : str or Path
-        A raster that GDAL can read.
-    target : Path
-        GeoTIFF file to make: same grid, CRS and unit, float32.
-    parameters : OffTerrain
-        What counts as an object.
-    progress : Progress
-        Receives progress and messages.
-
-    Raises
-    ------
-    BareEarthError
-        If the raster cannot be read or written, has no heights, or the CRS is geographic.
-    Cancelled
-        If the user asked to stop; no output is left behind.
+    """Write the raster of a surface, one that GDAL can read, without the objects on it, as a
+    GeoTIFF of float32 with the same grid, CRS and unit.
     """
+    # An error says if the raster has no heights, or its CRS is geographic.
     check_raster_output(target, (Path(source),))
     raster = read_raster(source, parameters.band, progress)
     progress(0.1)
@@ -133,28 +107,12 @@ def remove_objects(
     parameters: OffTerrain = OffTerrain(),
     progress: Progress = SILENT,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Remove objects with steep edges from a grid of heights.
-
-    The white top-hat (heights above the opening with a disc as wide as the largest object) is
-    compared between neighbours. Cells that gentle steps reach from the terrain belong to hills; the
-    rest are objects. Cells of objects are filled smoothly from the cells around them.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Heights in metres; NaN where there is none.
-    cell_metres : tuple of float
-        Distance between neighbours in a row, and in a column, in metres.
-    parameters, progress
-        As for `remove_objects_file`.
-
-    Returns
-    -------
-    heights : numpy.ndarray of float32, shape (rows, columns)
-        The terrain; NaN where `heights` was NaN.
-    removed : numpy.ndarray of bool, shape (rows, columns)
-        Which cells belong to objects.
+    """Return heights in metres without the objects with steep edges as float32, NaN where they
+    were, and which cells belong to objects, bool (rows, columns).
     """
+    # The white top-hat (heights above the opening with a disc as wide as the largest object) is
+    # compared between neighbours. Cells that gentle steps reach from the terrain belong to hills;
+    # the rest are objects. Cells of objects are filled smoothly from the cells around them.
     known = np.isfinite(heights)
     if not known.any():
         return heights.astype(np.float32), np.zeros(heights.shape, dtype=bool)

@@ -35,18 +35,8 @@ _COLUMNS = 512
 
 
 class Held:
-    """What the cells of a survey hold, from the layer `HELD` of all blocks.
-
-    Parameters
-    ----------
-    made : sequence of BlockRasters
-        The rasters of the blocks.
-    window : CellWindow
-        All cells.
-    cell : float
-        Side of a cell in metres.
-    water : WaterCells
-        Cells of water, which count as cells with points and ground.
+    """What the cells of a survey, with a side in metres, hold, from the layer `HELD` of all blocks;
+    cells of water count as cells with points and ground.
     """
 
     def __init__(
@@ -118,11 +108,9 @@ class Held:
 
 
 def _apart(counts: np.ndarray, side: int, area: int) -> float:
-    """Return the usual distance of cells, of which squares of some cells hold so many.
-
-    It is never more than if they were spread evenly over the `area`, in cells, of the raster: a
-    small raster is only a part of a square.
-    """
+    """Return the usual distance of cells, of which squares of some cells hold so many."""
+    # It is never more than if they were spread evenly over the `area`, in cells, of the raster: a
+    # small raster is only a part of a square.
     if not counts.any():
         return 1.0
     widest = math.sqrt(area / int(counts.sum()))
@@ -140,15 +128,7 @@ def _radius(cells: float) -> float:
 
 
 class Outlines:
-    """The outlines of the rasters of a survey, made when they are needed.
-
-    Parameters
-    ----------
-    held : Held
-        What the cells hold.
-    step : RasterStep
-        How the rasters are made.
-    """
+    """The outlines of the rasters of a survey, made when they are needed."""
 
     def __init__(self, held: Held, step: RasterStep) -> None:
         window, cell = held.window, step.cell
@@ -194,11 +174,9 @@ class Outlines:
         return closed | points(start, end)
 
     def _refine(self, cells: np.ndarray, start: int) -> None:
-        """Take away cells along the border whose centre lies beyond the ground points, in place.
-
-        A cell along the border may hold points on one side only. Its centre is inside if all of its
-        quarters are in the closing of the quarters.
-        """
+        """Take away cells along the border whose centre lies beyond the ground points, in place."""
+        # A cell along the border may hold points on one side only. Its centre is inside if all of
+        # its quarters are in the closing of the quarters.
         outside = np.pad(~cells, 1, constant_values=True)
         border = cells & within_square(np.maximum, outside, 1)[1:-1, 1:-1]
         radius = _radius(2.0 * self._near_ground)
@@ -224,21 +202,7 @@ def mosaics_of(
     outlines: Outlines,
     progress: Progress = SILENT,
 ) -> dict[str, Mosaic]:
-    """Return the layers of all blocks inside their outlines, with the gaps there filled.
-
-    Parameters
-    ----------
-    made : sequence of BlockRasters
-        The rasters of the blocks.
-    window : CellWindow
-        All cells.
-    step : RasterStep
-        How the rasters are made.
-    outlines : Outlines
-        The outlines of the same cells.
-    progress : Progress
-        Receives progress.
-    """
+    """Return the layers of all blocks inside their outlines, with the gaps there filled."""
     parts = iter(progress.shares(*[1.0] * (2 * len(step.layers) + 1)))
     survey, mosaics = outlines.survey(next(parts)), {}
     for name in step.layers:

@@ -31,12 +31,8 @@ img { width: 100%; image-rendering: pixelated; border: 1px solid #bbb; box-sizin
 
 
 class Units(NamedTuple):
-    """The units of a survey, for pages: lengths and heights are computed in metres.
-
-    Attributes
-    ----------
-    horizontal, vertical : float
-        Metres in one unit.
+    """The units of a survey, for pages, as metres in one unit; lengths and heights are computed in
+    metres.
     """
 
     horizontal: float = 1.0
@@ -53,21 +49,15 @@ class Units(NamedTuple):
         return _symbol(self.vertical)
 
     def length(self, metres: float, digits: int = 3) -> str:
-        """Return a length in the unit of the survey, with metres if these are another unit.
-
-        >>> Units().length(50.0), Units(0.3048).length(50.0)
-        ('50 m', '164 ft (50 m)')
+        """Return a length in the unit of the survey, with metres if these are another unit, such as
+        164 ft (50 m).
         """
         if self.horizontal == 1.0:
             return f"{metres:g} m"
         return f"{metres / self.horizontal:.{digits}g} {self.across} ({metres:g} m)"
 
     def height(self, metres: float) -> str:
-        """Return a height difference in the unit of the survey.
-
-        >>> Units(vertical=0.3048).height(0.5)
-        '1.64 ft'
-        """
+        """Return a height difference in the unit of the survey, such as 1.64 ft."""
         return f"{metres / self.vertical:.2f} {self.up}"
 
 
@@ -79,12 +69,8 @@ def _symbol(metres: float) -> str:
 
 
 def check_page(target: Path, sources: tuple[Path, ...] = ()) -> None:
-    """Refuse, before any work is done, a page that could not be written at the end.
-
-    Raises
-    ------
-    BareEarthError
-        If it is not named .html, or as for `check_output`.
+    """Refuse, before any work is done, a page that could not be written at the end, or is not named
+    .html.
     """
     check_output(target, sources)
     if target.suffix.lower() not in (".html", ".htm"):
@@ -92,17 +78,7 @@ def check_page(target: Path, sources: tuple[Path, ...] = ()) -> None:
 
 
 def page_html(title: str, body: str, style: str = "") -> str:
-    """Return a page.
-
-    Parameters
-    ----------
-    title : str
-        Title and headline, as plain text.
-    body : str
-        HTML below the headline.
-    style : str
-        Additional CSS.
-    """
+    """Return a page with a title and headline in plain text, and the HTML of its body."""
     from ..core.version import __version__
 
     title = text(title)
@@ -134,18 +110,8 @@ def data_uri(pixels: np.ndarray) -> str:
 
 
 def map_figure(picture: Picture, name: str, caption: str = "", units: Units = Units()) -> str:
-    """Return a map with a scale bar below it.
-
-    Parameters
-    ----------
-    picture : Picture
-        The map.
-    name : str
-        Alternative text for the picture, as plain text.
-    caption : str
-        Caption above the map, as plain text.
-    units : Units
-        The unit of the scale bar.
+    """Return a map with a scale bar below it; name, the alternative text, and caption are plain
+    text.
     """
     width = picture.pixels.shape[1] * picture.cell_size / units.horizontal
     length = round_length(width / 4)

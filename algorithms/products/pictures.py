@@ -29,48 +29,24 @@ NOWHERE = "#ffffff"
 
 @dataclass(frozen=True)
 class Picture:
-    """A map.
+    """A map."""
 
-    Attributes
-    ----------
-    pixels : numpy.ndarray of uint8, shape (rows, columns, 3)
-        Red, green and blue, from north to south.
-    cell_size : float
-        Side of a pixel in metres.
-    """
-
-    pixels: np.ndarray
-    cell_size: float
+    pixels: np.ndarray  # uint8, (rows, columns, 3): red, green and blue, from north to south
+    cell_size: float  # metres
 
 
 @dataclass(frozen=True)
 class Relief:
-    """The shaded relief of the highest points.
+    """The shaded relief of the highest points."""
 
-    Attributes
-    ----------
-    place : numpy.ndarray of int64, shape (n,)
-        The pixel of each point, counted row by row from north to south, and from west to east.
-    shade : numpy.ndarray of float64, shape (rows, columns)
-        Grey, 0 to 255; white far from points.
-    cell_size : float
-        Side of a pixel in metres.
-    """
-
-    place: np.ndarray
-    shade: np.ndarray
-    cell_size: float
+    place: np.ndarray  # int64, (n,): pixel of each point, counted row by row from the northwest
+    shade: np.ndarray  # float64, (rows, columns): grey, 0 to 255; white far from points
+    cell_size: float  # metres
 
     @classmethod
     def of(cls, points: Points, longest_side: int = LONGEST_SIDE) -> Relief:
-        """Return the relief of points.
-
-        Parameters
-        ----------
-        points : Points
-            At least one point.
-        longest_side : int
-            Greatest number of pixels along the longer side.
+        """Return the relief of points, at least one, with so many pixels at most along the longer
+        side.
         """
         width, height = points.sides
         spacing = _SPACINGS * np.sqrt(width * height / points.count)
@@ -88,17 +64,8 @@ class Relief:
         colours: tuple[str, str],
         counted: np.ndarray | None = None,
     ) -> Picture:
-        """Return the relief with marked points.
-
-        Parameters
-        ----------
-        first, second : numpy.ndarray of bool, shape (n,)
-            Which points are marked. A pixel has the colour of the more frequent mark. The colour is
-            stronger if a larger share of the points is marked.
-        colours : tuple of str
-            Colours of the first and the second mark, such as ``#d1157f``.
-        counted : numpy.ndarray of bool, shape (n,), optional
-            The points of which the share is computed. By default, all points.
+        """Return the relief with points marked in two colours, such as ``#d1157f``; a pixel has
+        that of the more frequent mark, stronger for a larger share of those counted.
         """
         ones, others = self._counts(first), self._counts(second)
         every = self._counts(np.ones(len(first), dtype=bool) if counted is None else counted)
@@ -126,20 +93,8 @@ def _shade(place: np.ndarray, z: np.ndarray, shape: tuple[int, int], cell: float
 
 
 def ramped(values: np.ndarray, colours: Sequence[str], low: float, high: float) -> np.ndarray:
-    """Return the pixels of values, coloured by a ramp.
-
-    Parameters
-    ----------
-    values : numpy.ndarray of float, shape (rows, columns)
-        The values; NaN for none.
-    colours : sequence of str
-        From the least to the greatest value, such as ``#d1157f``.
-    low, high : float
-        The values at both ends of the ramp.
-
-    Returns
-    -------
-    numpy.ndarray of uint8, shape (rows, columns, 3)
+    """Return the pixels of values, uint8 (rows, columns, 3), coloured by a ramp of colours such as
+    ``#d1157f`` from `low` to `high`; NaN for none.
     """
     ramp = np.array([rgb(each) for each in colours], dtype=np.float64)
     share = np.clip((np.nan_to_num(values, nan=low) - low) / (high - low), 0.0, 1.0)
@@ -150,16 +105,8 @@ def ramped(values: np.ndarray, colours: Sequence[str], low: float, high: float) 
 
 
 def reduced(values: np.ndarray, step: int, is_worst: bool = False) -> np.ndarray:
-    """Return the mean, or the greatest value, of each square of cells; NaN is left out.
-
-    Parameters
-    ----------
-    values : numpy.ndarray of float, shape (rows, columns)
-        The cells.
-    step : int
-        Side of the squares in cells.
-    is_worst : bool
-        Whether the greatest value is wanted.
+    """Return the mean, or with `is_worst` the greatest value, of each square with a side of `step`
+    cells; NaN is left out.
     """
     rows, columns = values.shape
     padded = np.pad(values, ((0, -rows % step), (0, -columns % step)), constant_values=np.nan)
@@ -180,17 +127,8 @@ def rgb(colour: str) -> tuple[int, ...]:
 
 
 def png(pixels: np.ndarray) -> bytes:
-    """Return a picture as PNG.
-
-    Parameters
-    ----------
-    pixels : numpy.ndarray of uint8, shape (rows, columns, 3)
-        Red, green and blue.
-
-    References
-    ----------
-    ISO/IEC 15948:2004: Portable Network Graphics, sections 5.3, 11.2.2 and 12.8.
-    """
+    """Return a picture, uint8 (rows, columns, 3) in red, green and blue, as PNG."""
+    # ISO/IEC 15948:2004: Portable Network Graphics, sections 5.3, 11.2.2 and 12.8.
     rows, columns, _ = pixels.shape
 
     def chunk(kind: bytes, data: bytes) -> bytes:

@@ -42,19 +42,8 @@ _NEAR = 0.5
 
 
 class Store:
-    """Makes arrays, in memory or in files of a folder if they are large.
-
-    Parameters
-    ----------
-    folder : Path
-        A temporary folder.
-    cells, points : int
-        Number of cells and of points of the survey.
-
-    Raises
-    ------
-    BareEarthError
-        If there are too many cells, or the disk has no space for them.
+    """Makes arrays, in memory or in files of a temporary folder if cells and points are many; an
+    error says if there are too many, or the disk has no space for them.
     """
 
     def __init__(self, folder: Path, cells: int, points: int) -> None:
@@ -80,21 +69,13 @@ class Store:
 
 
 class Sizes(NamedTuple):
-    """The grids of a survey, with cells that are counted from (0, 0) of the CRS.
+    """The grids of a survey, with cells that are counted from (0, 0) of the CRS."""
 
-    Attributes
-    ----------
-    cell, spacing : float
-        Side in metres of a cell, and of the cells in which first returns are looked for.
-    fine, coarse, filled : CellWindow
-        Cells of that side; of twice that side; and the cells in which first returns are looked for.
-    """
-
-    cell: float
-    spacing: float
-    fine: CellWindow
-    coarse: CellWindow
-    filled: CellWindow
+    cell: float  # metres
+    spacing: float  # metres: side of the cells in which first returns are looked for
+    fine: CellWindow  # cells of side `cell`
+    coarse: CellWindow  # cells of twice that side
+    filled: CellWindow  # cells of side `spacing`
 
     @classmethod
     def over(cls, box: tuple[float, float, float, float], cell: float, spacing: float) -> Sizes:
@@ -105,22 +86,12 @@ class Sizes(NamedTuple):
 
 
 class Marks(NamedTuple):
-    """What the flags of points say; boolean arrays, shape (n,).
+    """What the flags of points say; boolean arrays, shape (n,)."""
 
-    Attributes
-    ----------
-    used : numpy.ndarray
-        Not withheld.
-    synthetic, flagged : numpy.ndarray
-        Made and not measured; of overlap. Withheld points are neither.
-    real : numpy.ndarray
-        Measured: neither withheld nor synthetic, and no noise.
-    """
-
-    used: np.ndarray
-    synthetic: np.ndarray
-    flagged: np.ndarray
-    real: np.ndarray
+    used: np.ndarray  # not withheld
+    synthetic: np.ndarray  # made and not measured; not withheld
+    flagged: np.ndarray  # of overlap; not withheld
+    real: np.ndarray  # measured: neither withheld nor synthetic, and no noise
 
     @classmethod
     def of(cls, part: PointCloud, all_synthetic: bool = False) -> Marks:
@@ -133,32 +104,17 @@ class Marks(NamedTuple):
 
 @dataclass
 class Counts:
-    """What is counted of all points.
-
-    Attributes
-    ----------
-    points, withheld : int
-        All points, and those that the producer excluded.
-    synthetic, flagged : int
-        Points that were made and not measured, and points of overlap (by their flag, or by class 12
-        in point formats 0 to 5); withheld points left out.
-    shared, duplicates : int
-        Points that another file holds as well, and others that repeat one of their file.
-    classes, returns : numpy.ndarray of int64, shape (256,)
-        Points of each class, and of each return number; withheld points left out.
-    strips : set of int
-        Flight strips (point source ids).
-    """
+    """What is counted of all points, without those withheld but in `points` and `withheld`."""
 
     points: int = 0
-    withheld: int = 0
-    synthetic: int = 0
-    flagged: int = 0
-    shared: int = 0
-    duplicates: int = 0
+    withheld: int = 0  # excluded by the producer
+    synthetic: int = 0  # made and not measured
+    flagged: int = 0  # of overlap, by the flag, or by class 12 in point formats 0 to 5
+    shared: int = 0  # that another file holds as well
+    duplicates: int = 0  # others that repeat one of their file
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     returns: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
-    strips: set[int] = field(default_factory=set)
+    strips: set[int] = field(default_factory=set)  # point source ids
 
     def add(self, part: PointCloud, marks: Marks) -> None:
         """Count the points of a part."""
@@ -174,41 +130,22 @@ class Counts:
 
 
 class QualityCells:
-    """The cells of a survey.
-
-    Parameters
-    ----------
-    sizes : Sizes
-        Their grids.
-    store : Store
-        Makes their arrays.
-    ground : GroundClasses
-        Which points are ground.
-    repeated : RepeatedPoints
-        Finds the points that repeat others.
-    all_synthetic : bool
-        Whether all points are synthetic, as those of images, and count nevertheless.
-
-    Attributes
-    ----------
-    counts : Counts
-        What is counted of all points.
-    points, first, ground_points, low : numpy.ndarray of uint32, shape (rows, columns)
-        Numbers of points, first returns, ground points and points of low vegetation in each cell;
-        rows from south to north, as everywhere here. Noise, withheld and synthetic points are left
-        out, and points that repeat others. Points of overlap are left out of points and first
-        returns.
-    highest : numpy.ndarray of float32, shape (rows / 2, columns / 2)
-        Height of the highest point in metres, minus infinity for none; withheld points left out.
-    filled : numpy.ndarray of uint8
-        `PULSE`, `WET` and `FLAGGED`, in the cells of `Sizes.filled`.
-    marks : numpy.ndarray of uint8, shape (rows / 2, columns / 2)
-        `PULSE`, `WET`, `FLAGGED` and `ROUGH`.
-    strip, strip_low, strip_points, strip_sum : numpy.ndarray, shape (4, rows / 2, columns / 2)
-        Up to four strips of a cell (point source id + 1, 0 for none), with the height of their
-        lowest last return, and with number and sum of the heights of last returns near to it, in
-        metres above the common plane of the ground.
+    """The cells of a survey, on the grids of `sizes`; synthetic points count if all are, as those
+    of images.
     """
+
+    # points, first, ground_points, low: uint32 (rows, columns), numbers of points, first returns,
+    # ground points and points of low vegetation in each cell; rows from south to north, as
+    # everywhere here. Noise, withheld and synthetic points are left out, and points that repeat
+    # others. Points of overlap are left out of points and first returns.
+    # highest: float32 (rows / 2, columns / 2), height of the highest point in metres that is not
+    # withheld, minus infinity for none.
+    # filled: uint8, `PULSE`, `WET` and `FLAGGED`, in the cells of `Sizes.filled`. marks: uint8
+    # (rows / 2, columns / 2), `PULSE`, `WET`, `FLAGGED` and `ROUGH`.
+    # strip, strip_low, strip_points, strip_sum: (4, rows / 2, columns / 2), up to four strips of a
+    # cell (point source id + 1, 0 for none), with the height of their lowest last return, and with
+    # number and sum of the heights of last returns near to it, in metres above the common plane of
+    # the ground.
 
     def __init__(
         self,

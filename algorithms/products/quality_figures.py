@@ -27,96 +27,49 @@ _STEEPEST, _FEWEST_CELLS = 10.0, 30
 
 
 class Line(NamedTuple):
-    """A line of the comparison with a specification.
+    """A line of the comparison with a specification."""
 
-    Attributes
-    ----------
-    name, found, asked : str
-        What is compared, what was found, and what is asked for.
-    state : str
-        `PASS`, `FAIL` or `LOOK` (a person must decide).
-    source : str
-        Where the specification says it.
-    """
-
-    name: str
+    name: str  # what is compared
     found: str
-    asked: str
-    state: str
-    source: str
+    asked: str  # what is asked for
+    state: str  # `PASS`, `FAIL` or `LOOK` (a person must decide)
+    source: str  # where the specification says it
 
 
 @dataclass(frozen=True)
 class Quality:
-    """The figures of a survey; withheld points are left out, and noise is left out of densities.
-
-    Attributes
-    ----------
-    specification : str
-        Name of the specification.
-    points, withheld : int
-        All points, and those that the producer excluded.
-    shared, duplicates, synthetic, flagged : int
-        Points that do not count as pulses: those that another file holds as well, those that repeat
-        one of their file, those that were not measured, and those with the flag of overlap.
-    flagged_area : float
-        Area in m2 in which all first returns have the flag of overlap; densities leave it out.
-    classes, returns : dict of int to int
-        Number of points of each class, and of each return number.
-    strips : list of int
-        Point source ids.
-    area : float
-        Area in m2 to which the figures refer.
-    pulse_density, point_density, ground_density : float or None
-        First returns, all returns and ground points in 1/m2; None without such an area.
-    dense_share : float or None
-        Share of cells of twice the cell size that reach the demanded density.
-    filled_share : float or None
-        Share of cells of twice the pulse spacing that hold a first return.
-    void_count : int or None
-        Squares of four times the pulse spacing without first returns, outside water. They overlap.
-    ground_void_share : float or None
-        Share of cells that are farther from the ground than the given distance.
-    overlap_share : float or None
-        Share of cells of twice the cell size in which several strips lie.
-    overlapping, compared : int
-        Number of these cells, and of those on even, open land in which strips are compared.
-    strip_rms, strip_largest : float or None
-        Root mean square and largest difference between strips there, in metres.
-    strip_shares : list of float, or None
-        Shares of all cells with several strips whose difference is below 8, below 16, and over
-        16 cm.
-    files : list of dict
-        Name, points, version, point format, CRS and extent of each file.
-    lines : list of Line
-        The comparison with the specification.
-    """
+    """The figures of a survey; withheld points are left out, and noise is left out of densities."""
 
     specification: str
-    points: int
-    withheld: int
-    shared: int
-    duplicates: int
-    synthetic: int
-    flagged: int
+    points: int  # all, also those withheld
+    withheld: int  # excluded by the producer
+    shared: int  # points that another file holds as well
+    duplicates: int  # points that repeat one of their file
+    synthetic: int  # points that were not measured
+    flagged: int  # points with the flag of overlap
     classes: dict[int, int]
     returns: dict[int, int]
-    strips: list[int]
-    area: float
+    strips: list[int]  # point source ids
+    area: float  # m2 to which the figures refer
+    # m2 in which all first returns have the flag of overlap; densities leave it out
     flagged_area: float = 0.0
-    pulse_density: float | None = None
-    point_density: float | None = None
-    ground_density: float | None = None
-    dense_share: float | None = None
-    filled_share: float | None = None
+    pulse_density: float | None = None  # first returns in 1/m2; None without such an area
+    point_density: float | None = None  # all returns in 1/m2
+    ground_density: float | None = None  # ground points in 1/m2
+    dense_share: float | None = None  # of cells of twice the size with the density asked for
+    filled_share: float | None = None  # of cells of twice the pulse spacing with a first return
+    # squares of four times the spacing without first returns, outside water; they overlap
     void_count: int | None = None
+    # of cells farther from the ground than the given distance
     ground_void_share: float | None = None
-    overlap_share: float | None = None
-    overlapping: int = 0
-    compared: int = 0
-    strip_rms: float | None = None
-    strip_largest: float | None = None
+    overlap_share: float | None = None  # of cells of twice the size, with several strips
+    overlapping: int = 0  # these cells
+    compared: int = 0  # those on even, open land, in which strips are compared
+    strip_rms: float | None = None  # of differences between strips there, in metres
+    strip_largest: float | None = None  # in metres
+    # of cells with several strips: below 8, below 16, over 16 cm
     strip_shares: list[float] | None = None
+    # name, points, version, format, CRS, extent
     files: list[dict[str, Any]] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
 
@@ -200,26 +153,14 @@ def _metres(value: float | None) -> str:
 
 
 class Extent(NamedTuple):
-    """Where the survey lies, in its coarse cells.
+    """Where the survey lies, in its coarse cells; boolean."""
 
-    Attributes
-    ----------
-    inside : numpy.ndarray of bool
-        All cells of the survey, with gaps that it encloses.
-    inner : numpy.ndarray of bool
-        Those of which figures are made: without the squares of 10 m along the edge, which points
-        fill in part only.
-    dry : numpy.ndarray of bool
-        Those of `inner` in squares of 10 m without points of water.
-    pulses : numpy.ndarray of bool
-        Those of `inner` without squares in which all first returns have the flag of overlap. Where
-        this flag marks all points of an overlap, not only those of one strip, nothing would be left
-        to count.
-    """
-
-    inside: np.ndarray
-    inner: np.ndarray
-    dry: np.ndarray
+    inside: np.ndarray  # all cells of the survey, with gaps that it encloses
+    inner: np.ndarray  # those for figures: without squares of 10 m along the edge, partly filled
+    dry: np.ndarray  # those of `inner` in squares of 10 m without points of water
+    # those of `inner` without squares in which all first returns have the flag of overlap. Where
+    # this flag marks all points of an overlap, not only those of one strip, nothing would be left
+    # to count.
     pulses: np.ndarray
 
     @classmethod
@@ -256,18 +197,8 @@ def _spread(squares: np.ndarray, side: int, shape: tuple[int, int]) -> np.ndarra
 def figures_of(
     cells: QualityCells, extent: Extent, asked: Specification, void: float
 ) -> dict[str, Any]:
-    """Return the figures of cells, by the names of `Quality`.
-
-    Parameters
-    ----------
-    cells : QualityCells
-        The counted cells.
-    extent : Extent
-        Where the survey lies.
-    asked : Specification
-        The spacing and density that it asks for.
-    void : float
-        Distance in metres from which on ground is missing.
+    """Return the figures of cells, by the names of `Quality`; ground is missing from `void` metres
+    on.
     """
     side = 2 * cells.sizes.cell
     sums, far, dry, dense = np.zeros(3), 0.0, 0, 0

@@ -54,22 +54,8 @@ def quality_html(
     void: float,
     survey: Survey,
 ) -> str:
-    """Return the page about the quality of a survey.
-
-    Parameters
-    ----------
-    found : Quality
-        Its figures.
-    cells : QualityCells
-        Its cells.
-    extent : Extent
-        Where it lies.
-    asked : Specification
-        With what it is compared.
-    void : float
-        Distance in metres from which on ground is missing.
-    survey : Survey
-        The files.
+    """Return the page about the quality of a survey, of which ground is missing from `void` metres
+    on.
     """
     parts = [_comparison(found, asked), _figures(found), _maps(cells, extent, void, survey)]
     return page_html("Quality of the survey", "\n".join([*parts, _files(found, survey)]), _STYLE)

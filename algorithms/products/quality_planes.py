@@ -27,21 +27,8 @@ class Sums(NamedTuple):
 def planes(
     sums: Sums, size: float, wanted: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return planes through the ground round cells: height at their centre, and two slopes.
-
-    Parameters
-    ----------
-    sums : Sums
-        The ground of each cell, shape (rows, columns).
-    size : float
-        Side of a cell in metres.
-    wanted : numpy.ndarray of bool, shape (rows, columns)
-        The cells whose planes are wanted.
-
-    Returns
-    -------
-    height, rise_x, rise_y : numpy.ndarray of float64, shape (n,)
-        Of the wanted cells; NaN where there is no ground within ten cells.
+    """Return planes through the ground round the n wanted cells of a size in metres: height at
+    their centre, slope to the east and north; NaN without ground within ten cells.
     """
     places = np.flatnonzero(wanted)
     height = np.full(len(places), np.nan)
@@ -63,20 +50,10 @@ def planes(
 
 
 def plane_of(sums: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the planes of least squares with these sums, and whether there are enough points.
-
-    Parameters
-    ----------
-    sums : numpy.ndarray of float64, shape (9, n)
-        n, and the sums of x, y, z, x x, x y, y y, x z and y z.
-
-    Returns
-    -------
-    is_good : numpy.ndarray of bool, shape (n,)
-        Whether the points are enough and not on a line.
-    values : numpy.ndarray of float64, shape (3, n)
-        Height at (0, 0) and slopes to the east and north; level where they are not good.
+    """Return whether points are enough and not on a line, bool (n,), and their planes of least
+    squares: height at (0, 0), slopes to the east and north, (3, n), else level.
     """
+    # `sums`, shape (9, n), are n, and the sums of x, y, z, x x, x y, y y, x z and y z.
     n, sx, sy, sz, sxx, sxy, syy, sxz, syz = sums
     safe = np.maximum(n, 1.0)
     mx, my, mz = sx / safe, sy / safe, sz / safe

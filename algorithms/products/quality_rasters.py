@@ -32,30 +32,17 @@ _TOGETHER = 1 << 21
 
 
 class QualityRaster(NamedTuple):
-    """The declaration of a raster.
+    """The declaration of a raster."""
 
-    Attributes
-    ----------
-    label, shows : str
-        Its title, and what its cells mean.
-    make : callable
-        ``make(cells, rows, inside, void)`` returns some rows, as floats with NaN for no value:
-        `rows` is a slice of rows, `inside` says which of all cells lie in the survey, and `void` is
-        the distance in metres from which on ground is missing.
-    is_coarse : bool
-        Whether its cells have twice the size.
-    kind : str
-        "float32" or "uint8".
-    is_height : bool
-        Whether its values are written in the vertical unit of the CRS; they are made in metres.
-    """
-
-    label: str
-    shows: str
+    label: str  # its title
+    shows: str  # what its cells mean
+    # ``make(cells, rows, inside, void)`` returns some rows, as floats with NaN for no value: `rows`
+    # is a slice of rows, `inside` says which of all cells lie in the survey, and `void` is the
+    # distance in metres from which on ground is missing.
     make: Callable[[QualityCells, slice, np.ndarray, float], np.ndarray]
-    is_coarse: bool = False
-    kind: str = "float32"
-    is_height: bool = False
+    is_coarse: bool = False  # its cells have twice the size
+    kind: str = "float32"  # "float32" or "uint8"
+    is_height: bool = False  # written in the vertical unit of the CRS; made in metres
 
 
 def _density(name: str) -> Callable[[QualityCells, slice, np.ndarray, float], np.ndarray]:
@@ -133,11 +120,9 @@ def _of_even_strips(cells: QualityCells, rows: slice, steepest: float) -> np.nda
 def _is_even(
     cells: QualityCells, row: np.ndarray, column: np.ndarray, steepest: float
 ) -> np.ndarray:
-    """Return where each strip of some cells is even; boolean, shape (4, n).
-
-    A plane through the lowest points of the strip itself, in the 3 x 3 cells around, tells. So
-    strips that are far apart count as even, and what rises in single cells does not.
-    """
+    """Return where each strip of some cells is even; boolean, shape (4, n)."""
+    # A plane through the lowest points of the strip itself, in the 3 x 3 cells around, tells. So
+    # strips that are far apart count as even, and what rises in single cells does not.
     rows, columns = cells.sizes.coarse.shape
     size = 2 * cells.sizes.cell
     names, own = cells.strip[:, row, column], cells.strip_low[:, row, column]
@@ -221,29 +206,8 @@ def write_rasters(
     outputs: Outputs,
     progress: Progress = SILENT,
 ) -> None:
-    """Write all rasters; they get their names when `outputs` is closed.
-
-    Parameters
-    ----------
-    folder : Path
-        Where they are written.
-    cells : QualityCells
-        The counted cells.
-    inside : numpy.ndarray of bool
-        Which of the coarse cells lie in the survey.
-    void : float
-        Distance in metres from which on ground is missing.
-    frame : Frame
-        The frame of the survey.
-    outputs : Outputs
-        Receives the files.
-    progress : Progress
-        Receives progress and messages.
-
-    Raises
-    ------
-    BareEarthError
-        If a raster cannot be written.
+    """Write all rasters into a folder, with names when `outputs` is closed, of coarse cells
+    `inside` the survey; ground is missing from `void` metres on.
     """
     paths = raster_paths(folder)
     for number, (name, path) in enumerate(paths.items(), start=1):

@@ -34,74 +34,37 @@ _POINTS_A_PART = 1 << 20
 
 
 class BlockRasters(NamedTuple):
-    """The rasters of a block.
+    """The rasters of a block, with rows from south to north."""
 
-    Attributes
-    ----------
-    window : CellWindow
-        The cells of the block.
-    layers : mapping of str to numpy.ndarray of float32, shape (rows, columns)
-        The wanted layers, by their names in `LAYERS`; rows from south to north, NaN where there is
-        no value. Also `HELD`, of uint8.
-    loose : mapping of str to numpy.ndarray of float64, shape (n, 3)
-        For layers with filled gaps, the points of the block that are needed across wide gaps:
-        corners of the convex hull, and points beside cells without a height.
-    box : numpy.ndarray of float64, shape (4,)
-        Smallest x and y, largest x and y of the points in the block; NaN if it has none.
-    counts : numpy.ndarray of int64, shape (2,)
-        Points of terrain and of surface in the block.
-    """
-
-    window: CellWindow
+    window: CellWindow  # the cells of the block
+    # float32, (rows, columns), NaN for no value, by names in `LAYERS`; also `HELD`, of uint8
     layers: Mapping[str, np.ndarray]
+    # float64, (n, 3): for layers with filled gaps, the points of the block that are needed across
+    # wide gaps, corners of the convex hull and points beside cells without a height
     loose: Mapping[str, np.ndarray]
-    box: np.ndarray
-    counts: np.ndarray
+    box: np.ndarray  # float64, (4,): extent of the points in the block; NaN if it has none
+    counts: np.ndarray  # int64, (2,): points of terrain and of surface in the block
 
 
 class Seen(NamedTuple):
-    """The points that a block uses.
+    """The points that a block uses, in it and in its surroundings."""
 
-    Attributes
-    ----------
-    window : CellWindow
-        The cells of the block.
-    points : Points
-        Points in the block and in its surroundings, relative to `corner`.
-    ground, top, core : numpy.ndarray of bool, shape (n,)
-        Which are ground, which belong to the surface, and which lie in the block.
-    corner : tuple of float
-        x and y of the origin of `points` in the frame of the survey.
-    edges : numpy.ndarray of bool, shape (n,), or None
-        Which ground points lie on lines that no triangle may cross.
-    """
-
-    window: CellWindow
-    points: Points
-    ground: np.ndarray
-    top: np.ndarray
-    core: np.ndarray
-    corner: tuple[float, float]
-    edges: np.ndarray | None = None
+    window: CellWindow  # the cells of the block
+    points: Points  # relative to `corner`
+    ground: np.ndarray  # bool, (n,)
+    top: np.ndarray  # bool, (n,): which belong to the surface
+    core: np.ndarray  # bool, (n,): which lie in the block
+    corner: tuple[float, float]  # origin of `points` in the frame of the survey
+    edges: np.ndarray | None = None  # bool, (n,): ground on lines that no triangle may cross
 
 
 @dataclass(frozen=True)
 class RasterStep:
-    """Makes the rasters of a block.
+    """Makes the rasters of a block."""
 
-    Attributes
-    ----------
-    cell : float
-        Side of a cell in metres.
-    layers : tuple of str
-        Which of `LAYERS` are wanted.
-    max_edge : float or None
-        Triangles with a longer edge, in metres, become gaps; None for no gaps.
-    """
-
-    cell: float
-    layers: tuple[str, ...] = ("terrain",)
-    max_edge: float | None = None
+    cell: float  # metres
+    layers: tuple[str, ...] = ("terrain",)  # of `LAYERS`
+    max_edge: float | None = None  # triangles with a longer edge, in metres, are gaps
 
     @property
     def longest_edge(self) -> float:
@@ -124,16 +87,8 @@ class RasterStep:
         edges: np.ndarray | None = None,
         progress: Progress = SILENT,
     ) -> BlockRasters:
-        """Return the rasters of a block.
-
-        Parameters
-        ----------
-        points, ground, top, core, corner, edges
-            As in `Seen`.
-        box : tuple of float
-            The block, in the frame of the survey.
-        progress : Progress
-            Receives progress.
+        """Return the rasters of a block, a box in the frame of the survey, from points as in
+        `Seen`.
         """
         window = CellWindow.with_centres_in(_within(box, points, corner, self.cell), self.cell)
         seen = Seen(window, points, ground, top, core, corner, edges)
@@ -208,9 +163,8 @@ def _terrain(step: RasterStep, seen: Seen, progress: Progress) -> Made:
 
 
 def _surface(step: RasterStep, seen: Seen, progress: Progress) -> Made:
-    """Return the height of the highest point of each cell; in empty cells, of their TIN.
-
-    Points that hang in the air, such as birds, are left out.
+    """Return the height of the highest point of each cell, but for points that hang in the air,
+    such as birds; in empty cells, of their TIN.
     """
     window, corner, cell = seen.window, seen.corner, step.cell
     which = seen.top
@@ -252,10 +206,8 @@ def _highest(
     cell: float,
     progress: Progress,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the highest point of each cell with points, and row and column of these cells.
-
-    Points are processed in parts, since intermediate arrays take more memory than the points.
-    """
+    """Return the highest point of each cell with points, and row and column of these cells."""
+    # Points are processed in parts, since intermediate arrays take more memory than the points.
     size, top = window.rows * window.columns, np.zeros(0, dtype=np.intp)
 
     def places(which: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
@@ -294,24 +246,13 @@ def _confidence(step: RasterStep, seen: Seen, progress: Progress) -> Made:
 
 
 class Layer(NamedTuple):
-    """A layer from which rasters are made.
+    """A layer from which rasters are made."""
 
-    Attributes
-    ----------
-    make : callable
-        ``make(step, seen, progress)`` returns its cells, and the points needed across wide gaps.
-    cost : float
-        Time that it takes, in relation to the other layers.
-    of_ground : bool
-        Whether it needs ground points.
-    of_all : bool
-        Whether it needs points that are not ground.
-    """
-
+    # returns its cells, and the points needed across wide gaps
     make: Callable[[RasterStep, Seen, Progress], Made]
-    cost: float
-    of_ground: bool
-    of_all: bool
+    cost: float  # time that it takes, in relation to the other layers
+    of_ground: bool  # needs ground points
+    of_all: bool  # needs points that are not ground
 
 
 LAYERS = {

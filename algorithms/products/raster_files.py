@@ -23,44 +23,22 @@ def _none(grid: RasterGrid, model: TerrainModel) -> int:
 
 
 class Raster(NamedTuple):
-    """The declaration of a raster.
+    """The declaration of a raster."""
 
-    Attributes
-    ----------
-    label, help : str
-        Title of its field in the dialog, and a sentence about it.
-    shows : str
-        What its cells mean, for legends; ``{unit}`` stands for the vertical unit.
-    layers : tuple of str
-        Names of the layers it is made from, in `LAYERS` of `products/raster_block.py`.
-    make : callable
-        ``make(*rows, grid, model)`` returns rows of the raster, given as many rows of each layer.
-        Rows go from north to south; NaN is no value. `grid` is a `RasterGrid`, `model` a
-        `TerrainModel`.
-    margin : callable
-        ``margin(grid, model)`` returns the number of rows and columns round a part of the raster
-        that affect it.
-    kind : str
-        The type of its values.
-    nodata : float or None
-        The value of cells without data; None for the one that the user chooses.
-    is_canopy : bool
-        Whether it is of the canopy: it has values only where surface and terrain were measured
-        nearby, and `make` takes ``pit_free``.
-    bands : int
-        The number of its bands; with several, `make` returns shape (bands, rows, columns).
-    """
-
-    label: str
-    help: str
-    shows: str
-    layers: tuple[str, ...]
+    label: str  # title of its field in the dialog
+    help: str  # a sentence
+    shows: str  # what its cells mean, for legends; ``{unit}`` is the vertical unit
+    layers: tuple[str, ...]  # that it is made from, of `LAYERS`
+    # ``make(*rows, grid, model)`` returns rows of the raster, given as many rows of each layer,
+    # from north to south; NaN is no value
     make: Callable[..., np.ndarray]
+    # rows and columns round a part of the raster that affect it
     margin: Callable[[RasterGrid, TerrainModel], int] = _none
-    kind: str = "float32"
-    nodata: float | None = None
+    kind: str = "float32"  # of its values
+    nodata: float | None = None  # None for the one that the user chooses
+    # with values only where surface and terrain were measured nearby; `make` takes ``pit_free``
     is_canopy: bool = False
-    bands: int = 1
+    bands: int = 1  # if several, `make` returns shape (bands, rows, columns)
 
     def empty(self, model: TerrainModel) -> float:
         """Return the value of cells without data."""

@@ -63,33 +63,18 @@ ANYWHERE = RasterTarget()
 
 @dataclass(frozen=True)
 class CellGrid:
-    """The cells of the rasters of a run.
+    """The cells of the rasters of a run."""
 
-    Attributes
-    ----------
-    metres, size : float
-        Side of a cell in metres, and in units of the CRS.
-    origin : tuple of float
-        x and y, in units of the CRS, from which columns and rows are counted: that of the frame of
-        the rasters and of their blocks. It is (0, 0), or less than a cell north and east of it.
-    anchor : tuple of float
-        x and y of a corner of cells, as exactly as it is known.
-    anchor_column, anchor_row : int
-        Column and row of the cell that lies northeast of the anchor.
-    window : CellWindow or None
-        The cells that the rasters cover; None for those that have points.
-    wkt : str or None
-        The CRS of the rasters, if the points state none.
-    """
-
-    metres: float
-    size: float
+    metres: float  # side of a cell
+    size: float  # the same in units of the CRS
+    # x and y, in units of the CRS, from which columns and rows are counted: that of the frame of
+    # the rasters and of their blocks; (0, 0), or less than a cell north and east of it
     origin: tuple[float, float] = (0.0, 0.0)
-    anchor: tuple[float, float] = (0.0, 0.0)
-    anchor_column: int = 0
+    anchor: tuple[float, float] = (0.0, 0.0)  # x and y of a corner of cells, as exactly as known
+    anchor_column: int = 0  # of the cell northeast of the anchor
     anchor_row: int = 0
-    window: CellWindow | None = None
-    wkt: str | None = None
+    window: CellWindow | None = None  # that the rasters cover; None for the cells with points
+    wkt: str | None = None  # the CRS of the rasters, if the points state none
 
     def of(self, window: CellWindow, frame: Frame) -> RasterGrid:
         """Return the grid of a raster that covers a window of cells."""
@@ -106,26 +91,11 @@ def cell_grid(
     box: Box | None = None,
     progress: Progress = SILENT,
 ) -> CellGrid:
-    """Return the cells of the rasters of a run.
-
-    Parameters
-    ----------
-    target : RasterTarget
-        Which cells the user wants.
-    model : TerrainModel
-        The cell size, if no raster gives it.
-    crs : Crs
-        The CRS of the points.
-    box : tuple of float, optional
-        Their extent in units of the CRS, as far as known.
-    progress : Progress
-        Receives messages.
-
-    Raises
-    ------
-    BareEarthError
-        If the raster is unsuitable, or the rasters would hold no point or too many cells.
+    """Return the cells of the rasters of a run on points with an extent, as far as known, in units
+    of the CRS; the model has the cell size if no raster gives it.
     """
+    # An error says if the raster is unsuitable, or the rasters would hold no point or too many
+    # cells.
     unit = crs.horizontal_unit
     if target.like is None:
         cells = CellGrid(model.cell_metres(unit), model.cell_in_units(unit))

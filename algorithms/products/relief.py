@@ -110,23 +110,8 @@ def write_reliefs(
     parameters: ReliefPictures = ReliefPictures(),
     progress: Progress = SILENT,
 ) -> dict[str, Path]:
-    """Write several pictures of the relief of a terrain model into a folder; all of them or none.
-
-    Parameters
-    ----------
-    source : str or Path
-        The terrain model.
-    folder : Path
-        The folder, which need not exist. The files have the names of the kinds, such as vat.tif.
-    kinds : iterable of str
-        As in `write_relief`.
-    parameters, progress
-        As in `write_relief`.
-
-    Returns
-    -------
-    dict of str to Path
-        The file of each kind.
+    """Write pictures of the relief of a terrain model, of kinds as in `write_relief`, into a folder
+    that need not exist, all or none, and return their files, such as vat.tif.
     """
     targets = {kind: Path(folder) / f"{kind}.tif" for kind in kinds}
     shares = progress.shares(*[1.0] * len(targets))

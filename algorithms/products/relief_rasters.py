@@ -16,34 +16,19 @@ from .terrain_model import TerrainModel
 
 
 class ReliefRaster(NamedTuple):
-    """The declaration of a raster that shows relief.
-
-    Attributes
-    ----------
-    label, help, shows, kind, bands
-        As in `Raster` of `products/raster_files.py`.
-    of : callable
-        ``of(heights, cells, model)`` returns the raster, given heights in metres, from north to
-        south, with NaN where there is none, the two sides of a cell in metres, and a
-        `TerrainModel`. The result is NaN, or 0 for bytes, where there is no value.
-    near : callable
-        ``near(cells, model)`` returns how many cells away cells matter.
-    is_height : bool
-        Whether its values are metres, to be written in the vertical unit.
-    is_measure : bool
-        Whether it is measured on the terrain itself, and not on heights that are smoothed for
-        pictures.
-    """
+    """The declaration of a raster that shows relief; the names are those of `Raster`."""
 
     label: str
     help: str
     shows: str
+    # returns the raster, given heights in metres from north to south, NaN for none, and the two
+    # sides of a cell in metres; it is NaN, or 0 for bytes, where there is no value
     of: Callable[[np.ndarray, Cells, TerrainModel], np.ndarray]
-    near: Callable[[Cells, TerrainModel], int]
+    near: Callable[[Cells, TerrainModel], int]  # returns how many cells away cells matter
     kind: str = "float32"
     bands: int = 1
-    is_height: bool = False
-    is_measure: bool = False
+    is_height: bool = False  # made in metres, written in the vertical unit
+    is_measure: bool = False  # on the terrain itself, not on heights smoothed for pictures
 
     def make(self, heights: np.ndarray, cells: Cells, model: TerrainModel) -> np.ndarray:
         """Return the raster of heights; see `of`."""

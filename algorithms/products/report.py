@@ -33,31 +33,8 @@ def write_report(
     progress: Progress = SILENT,
     units: Units = Units(),
 ) -> None:
-    """Write the report of an assessment.
-
-    Parameters
-    ----------
-    target : Path
-        The .html file to make.
-    assessment : Assessment
-        The figures.
-    comparison : Comparison
-        The errors point by point.
-    points : Points
-        Coordinates of the points.
-    options : AssessmentOptions
-        The options of the figures.
-    files : tuple of Path
-        The classified cloud and the reference.
-    progress : Progress
-        Receives progress.
-    units : Units
-        The units of the survey.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be written.
+    """Write the report of the assessment of two files, the classified one and the reference, as a
+    .html file.
     """
     picture = draw_errors(points, comparison, progress.part(0.0, 0.7))
     text = report_html(assessment, picture, options, files, units)

@@ -1,12 +1,9 @@
 """What specifications ask of a survey, with the place where they say it.
 
-References
-----------
-U.S. Geological Survey: Lidar Base Specification, version 2.1 and later,
-https://www.usgs.gov/ngp-standards-and-specifications/lidar-base-specification-online.
-Toitu Te Whenua Land Information New Zealand (2020): PGF version, New Zealand National Aerial LiDAR
-Base Specification.
-IGN: LiDAR HD, nuages de points classes, https://geoservices.ign.fr/lidarhd.
+They are the Lidar Base Specification of USGS, version 2.1 and later,
+https://www.usgs.gov/ngp-standards-and-specifications/lidar-base-specification-online, the PGF
+version (2020) of the New Zealand National Aerial LiDAR Base Specification of LINZ, and LiDAR HD,
+nuages de points classes, of IGN, https://geoservices.ign.fr/lidarhd.
 """
 
 from __future__ import annotations
@@ -16,46 +13,20 @@ from typing import Mapping, NamedTuple
 
 
 class Specification(NamedTuple):
-    """What a specification asks for; None for what it does not state, or is not known to state.
-
-    Attributes
-    ----------
-    label : str
-        Its name.
-    source : str
-        Where it is written.
-    pulses, points : float or None
-        Least mean density of first returns, and of all returns, in 1/m2.
-    spacing : float or None
-        Aggregate nominal pulse spacing (ANPS) in metres.
-    filled : float or None
-        Least share of cells of twice the spacing that hold a first return.
-    strips : float or None
-        Largest root mean square difference of heights between strips, in metres.
-    classes : tuple of int or None
-        Classes that may be used.
-    needed : tuple of int
-        Classes that must be used.
-    refused : tuple of int
-        Classes in which no point may be left.
-    is_modern : bool
-        Whether files must be LAS 1.4 with point format 6 or higher, and state the CRS as WKT.
-    places : mapping of str to str
-        Section of the source, by the name of a check.
-    """
+    """What a specification asks for; None for what it does not state, or is not known to state."""
 
     label: str
-    source: str
-    pulses: float | None = None
-    points: float | None = None
-    spacing: float | None = None
-    filled: float | None = None
-    strips: float | None = None
-    classes: tuple[int, ...] | None = None
-    needed: tuple[int, ...] = ()
-    refused: tuple[int, ...] = ()
-    is_modern: bool = False
-    places: Mapping[str, str] = MappingProxyType({})
+    source: str  # where it is written
+    pulses: float | None = None  # least mean density of first returns in 1/m2
+    points: float | None = None  # the same of all returns
+    spacing: float | None = None  # aggregate nominal pulse spacing (ANPS) in metres
+    filled: float | None = None  # least share of cells of twice the spacing with a first return
+    strips: float | None = None  # largest RMS difference of heights between strips in metres
+    classes: tuple[int, ...] | None = None  # that may be used
+    needed: tuple[int, ...] = ()  # classes that must be used
+    refused: tuple[int, ...] = ()  # classes in which no point may be left
+    is_modern: bool = False  # LAS 1.4, point format 6 or higher, CRS as WKT
+    places: Mapping[str, str] = MappingProxyType({})  # sections by the name of a check
 
 
 _LBS = "USGS Lidar Base Specification 2.1 and later"

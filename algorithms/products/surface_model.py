@@ -68,33 +68,20 @@ class SurfaceModel(ParameterSet):
 
 
 def canopy_height(surface: np.ndarray, terrain: np.ndarray) -> np.ndarray:
-    """Return the height of the surface above the terrain, 0 where it lies below.
-
-    Parameters
-    ----------
-    surface, terrain : numpy.ndarray of float, shape (rows, columns)
-        Heights on the same grid; NaN where there is none.
+    """Return the height of the surface above the terrain on the same grid, 0 where it lies below,
+    NaN where there is none.
     """
     return np.maximum(surface - terrain, 0.0)
 
 
 def without_pits(canopy: np.ndarray) -> np.ndarray:
-    """Return canopy heights with pits filled.
-
-    As Ben-Arie et al. (2009), "Development of a pit filling algorithm for LiDAR canopy height
-    models", Computers & Geosciences 35(9), the Laplacian of the heights finds the pits, and the
-    median of the neighbours fills them. The median keeps the borders of crowns and buildings.
-
-    Parameters
-    ----------
-    canopy : numpy.ndarray of float, shape (rows, columns)
-        Heights above the terrain; NaN where there is none, which counts as 0 for the neighbours.
-
-    Returns
-    -------
-    numpy.ndarray of the same type, shape (rows, columns)
-        Nowhere lower. It depends on `PIT_PASSES` cells round each cell.
+    """Return canopy heights with pits filled, nowhere lower, of the same type and shape; NaN counts
+    as 0 for the neighbours.
     """
+    # As Ben-Arie et al. (2009), "Development of a pit filling algorithm for LiDAR canopy height
+    # models", Computers & Geosciences 35(9), the Laplacian of the heights finds the pits, and the
+    # median of the neighbours fills them. The median keeps the borders of crowns and buildings. The
+    # result depends on `PIT_PASSES` cells round each cell.
     filled = np.nan_to_num(canopy, nan=0.0)
     for _ in range(PIT_PASSES):
         padded = np.pad(filled, 1, mode="edge")

@@ -46,37 +46,19 @@ Chooser = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
 class TinHeights(NamedTuple):
-    """Heights of the TIN of ground points at places.
+    """Heights of the TIN of ground points at q places."""
 
-    Attributes
-    ----------
-    heights : numpy.ndarray of float64, shape (q,)
-        In metres; NaN where no triangle with edges that are short enough holds the place.
-    slopes : numpy.ndarray of float64, shape (q,)
-        Slope in degrees of a plane through the nearest points; NaN where there are too few.
-    """
-
-    heights: np.ndarray
-    slopes: np.ndarray
+    heights: np.ndarray  # float64, (q,): metres; NaN without a triangle with short edges
+    slopes: np.ndarray  # float64, (q,): degrees, of a plane through the nearest points; NaN for few
 
 
 @dataclass
 class SurveyGround:
-    """The ground points of the files of a survey, which are read in parts.
-
-    Attributes
-    ----------
-    survey : Survey
-        The files.
-    ground : GroundClasses
-        Which points are ground.
-    counts : GroundCounts
-        Counts of the points that were read last.
-    """
+    """The ground points of the files of a survey, which are read in parts."""
 
     survey: Survey
     ground: GroundClasses
-    counts: GroundCounts = field(default_factory=GroundCounts)
+    counts: GroundCounts = field(default_factory=GroundCounts)  # of the points that were read last
 
     @classmethod
     def of(
@@ -86,12 +68,8 @@ class SurveyGround:
         progress: Progress = SILENT,
         stated: str | None = None,
     ) -> SurveyGround:
-        """Open the files; see `open_survey`.
-
-        Raises
-        ------
-        BareEarthError
-            As for `open_survey`, and if a file cannot be read: its part would look like a void.
+        """Open the files, see `open_survey`; all must be readable, as the part of another one would
+        look like a void.
         """
         survey = open_survey(sources, progress=progress, stated=stated)
         if survey.broken:
@@ -113,16 +91,8 @@ class SurveyGround:
     def parts(
         self, progress: Progress, near: np.ndarray | None = None, reach: float = 0.0
     ) -> Iterator[tuple[PointCloud, np.ndarray]]:
-        """Yield the points of the files in parts, and which of them are ground.
-
-        Parameters
-        ----------
-        progress : Progress
-            Receives progress.
-        near : numpy.ndarray of float64, shape (q, 2), optional
-            Only files near these places are read, in metres.
-        reach : float
-            How near, in metres.
+        """Yield the points of the files in parts, and which of them are ground; only of files near
+        places, shape (q, 2), up to `reach`, in metres, if these are given.
         """
         self.counts = GroundCounts()
         tiles = list(self.survey.tiles)
@@ -133,13 +103,7 @@ class SurveyGround:
                 yield cloud, self.ground.of(cloud, self.counts)
 
     def check(self) -> None:
-        """Refuse a survey without ground, after all of its parts were read.
-
-        Raises
-        ------
-        BareEarthError
-            If none of the points that were read is ground.
-        """
+        """Refuse a survey without ground, after all of its parts were read."""
         self.ground.check(self.counts, Path(self.place.name))
 
     def _is_near(self, tile: LasFile, places: np.ndarray, reach: float) -> bool:
@@ -155,32 +119,14 @@ class SurveyGround:
         progress: Progress = SILENT,
         chooser: Chooser | None = None,
     ) -> TinHeights:
-        """Return the heights of the TIN of all ground points at places.
-
-        The corners of a triangle with edges up to `max_edge` lie that near its places. Of the
-        points that near, only the nearest are kept: enough if the circumcircle of the triangle
-        holds no place that is farther away than these. Places where it does are looked at again
-        with more points. So memory does not depend on the survey, and neither do heights depend on
-        its files.
-
-        Parameters
-        ----------
-        places : numpy.ndarray of float64, shape (q, 2)
-            x and y in metres.
-        max_edge : float
-            Triangles with a longer edge have no height.
-        progress : Progress
-            Receives progress.
-        chooser : callable, optional
-            Which of the ground points make the TIN.
-
-        Raises
-        ------
-        BareEarthError
-            If a file cannot be read.
-        Cancelled
-            If the user asked to stop.
+        """Return the heights of the TIN of all, or of the chosen, ground points at places in
+        metres, shape (q, 2), without triangles with edges over `max_edge`.
         """
+        # The corners of a triangle with edges up to `max_edge` lie that near its places. Of the
+        # points that near, only the nearest are kept: enough if the circumcircle of the triangle
+        # holds no place that is farther away than these. Places where it does are looked at again
+        # with more points. So memory does not depend on the survey, and neither do heights depend
+        # on its files.
         heights, slopes = (np.full(len(places), np.nan) for _ in range(2))
         left, parts = np.arange(len(places)), iter(progress.shares(0.7, 0.2, 0.1))
         for count in _ROUNDS:
@@ -245,16 +191,8 @@ class _CellsRound:
 
 
 class _Nearest:
-    """The nearest points of each place.
-
-    Parameters
-    ----------
-    places : numpy.ndarray of float64, shape (q, 2)
-        x and y in metres.
-    count : int
-        How many points are kept for each place.
-    reach : float
-        How far they may be away, in metres.
+    """The nearest points, at most `count` and `reach` metres away, of each place, shape (q, 2), in
+    metres.
     """
 
     def __init__(self, places: np.ndarray, count: int, reach: float) -> None:

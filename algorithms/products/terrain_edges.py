@@ -26,23 +26,10 @@ def follow_edges(
     edges: np.ndarray,
     corner: tuple[float, float],
 ) -> None:
-    """Replace the heights of cells near lines, in place, by heights of the TIN of all points.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Heights of the terrain in metres.
-    window : CellWindow
-        The cells of the heights.
-    cell : float
-        Side of a cell in metres.
-    points : Points
-        Ground points, and vertices along the lines, relative to `corner`.
-    edges : numpy.ndarray of bool, shape (n,)
-        Which points are vertices along the lines.
-    corner : tuple of float
-        x and y of the origin of `points` in the frame of the survey.
+    """Replace the heights of cells near lines, in place, by heights of the TIN of all points, which
+    are ground and, as `edges` says, vertices along the lines.
     """
+    # All is in metres; the points are relative to `corner` in the frame of the survey.
     reach = max(_CELLS * cell, _SPACINGS * spacing(points.take(~edges)))
     lines = points.take(edges)
     wide = math.ceil(reach / cell)

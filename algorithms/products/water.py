@@ -98,20 +98,15 @@ class Water(ParameterSet):
 
 
 class _Region(NamedTuple):
-    """Connected cells, with a margin.
-
-    `below` are those of them below decks of bridges, `outside` those beyond the points of the
-    survey, `level` those of dead-level surfaces full of returns. `other` are the cells of water
-    with another level, and those beside it.
-    """
+    """Connected cells, with a margin."""
 
     water: np.ndarray
-    below: np.ndarray
-    outside: np.ndarray
-    level: np.ndarray
+    below: np.ndarray  # those below decks of bridges
+    outside: np.ndarray  # those beyond the points of the survey
+    level: np.ndarray  # those of dead-level surfaces full of returns
     rows: slice
     columns: slice
-    other: np.ndarray | None = None
+    other: np.ndarray | None = None  # cells of water with another level, and those beside it
 
     @property
     def open(self) -> np.ndarray:
@@ -120,36 +115,18 @@ class _Region(NamedTuple):
 
 
 class _Marks(NamedTuple):
-    """What tells the level of a region.
-
-    `share` is its share of class 9, `rising` that of its shore from which the land rises.
-    """
+    """What tells the level of a region."""
 
     shore: Shore
-    share: float
-    rising: float
+    share: float  # of class 9
+    rising: float  # share of the shore from which the land rises
 
 
 _Measure = Callable[[_Region, WaterGrid], "_Marks | None"]
 
 
 def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list[WaterBody]:
-    """Return the water of a survey, from north to south.
-
-    Parameters
-    ----------
-    grid : WaterGrid
-        Counts and heights of all points.
-    how : Water
-        Which water is found.
-    progress : Progress
-        Receives progress.
-
-    Raises
-    ------
-    Cancelled
-        If the user asked to stop.
-    """
+    """Return the water of a survey, from north to south."""
     usual, outside = grid.usual(), ~surveyed(grid.counts > 0)
     covered = np.zeros(grid.shape, dtype=bool)
     found: list[WaterBody] = []
@@ -374,9 +351,8 @@ def _levels_of(
 
 
 def _inner_returns(water: np.ndarray, lowest: np.ndarray) -> np.ndarray:
-    """Return row, column and height of the lowest returns in a region, away from its banks.
-
-    Cells without returns have the height NaN.
+    """Return row, column and height of the lowest returns in a region, away from its banks; cells
+    without returns have the height NaN.
     """
     inner = erosion(np.pad(water, 1).view(np.uint8), _BANK).view(bool)[1:-1, 1:-1]
     rows, columns = np.nonzero(inner)

@@ -14,41 +14,20 @@ GRADES = ((0.75, "certain"), (0.5, "likely"), (0.0, "doubtful"))
 
 
 class WaterBody(NamedTuple):
-    """A lake, or a part of a river.
+    """A lake, or a part of a river, in metres."""
 
-    Attributes
-    ----------
-    kind : str
-        "lake" or "river".
-    rings : tuple of numpy.ndarray of float64, shape (n, 3)
-        Shore and islands, closed: x, y and level in metres.
-    lines : tuple of numpy.ndarray of float64, shape (m, 3)
-        The middle of each branch of a river, downstream, with its level; none for a lake.
-    level, lowest : float
-        The level in metres; of a river, the level at its upper and lower end.
-    spread : float
-        Robust standard deviation of the shore from the level in metres.
-    certainty : float
-        0 to 1.
-    area : float
-        In square metres.
-    width : float
-        Mean width in metres.
-    class_share, filled : float
-        Share of cells with mostly points of class 9, and number of last returns relative to land.
-    """
-
-    kind: str
-    rings: tuple[np.ndarray, ...]
+    kind: str  # "lake" or "river"
+    rings: tuple[np.ndarray, ...]  # float64, (n, 3): shore and islands, closed, with their level
+    # float64, (m, 3): middle of each branch of a river, downstream, with its level
     lines: tuple[np.ndarray, ...]
-    level: float
-    lowest: float
-    spread: float
-    certainty: float
-    area: float
-    width: float
-    class_share: float
-    filled: float
+    level: float  # of a river, at its upper end
+    lowest: float  # of a river, the level at its lower end
+    spread: float  # robust standard deviation of the shore from the level
+    certainty: float  # 0 to 1
+    area: float  # square metres
+    width: float  # mean
+    class_share: float  # of cells with mostly points of class 9
+    filled: float  # number of last returns relative to land
 
     @property
     def grade(self) -> str:
@@ -57,27 +36,15 @@ class WaterBody(NamedTuple):
 
 
 def divided(ring: np.ndarray, step: float) -> np.ndarray:
-    """Return a ring, shape (n, 2), with places that are at most a step apart.
-
-    >>> divided(np.array([[0.0, 0.0], [0.0, 2.0], [0.0, 0.0]]), 1.0).tolist()
-    [[0.0, 0.0], [0.0, 1.0], [0.0, 2.0], [0.0, 1.0], [0.0, 0.0]]
-    """
+    """Return a ring, shape (n, 2), with places that are at most a step apart."""
     return along(np.column_stack((ring, np.zeros(len(ring)))), step)[:, :2]
 
 
 def rings_of(cells: np.ndarray) -> list[np.ndarray]:
-    """Return the outline of a connected region, and then those of its holes.
-
-    Parameters
-    ----------
-    cells : numpy.ndarray of bool, shape (rows, columns)
-        The region.
-
-    Returns
-    -------
-    list of numpy.ndarray of float64, shape (n, 2)
-        Row and column; whole numbers are centres of cells. Corners are cut, and rings are closed.
+    """Return the outline of a connected region, and then those of its holes, as closed rings of row
+    and column, float64 (n, 2), whose corners are cut.
     """
+    # Whole numbers are centres of cells.
     heights = np.pad(cells, 1) + 0.5
     lines = [each.places - 1.0 for each in Isolines(1.0, heights.shape[1]).add(heights, 0, True)]
     return [_without_straight(each) for each in sorted(lines, key=lambda each: -abs(_area(each)))]

@@ -24,22 +24,11 @@ _ABUTMENT, _ABUTMENT_CELLS = 4.0, 3.0
 
 
 def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
-    """Return the cells below decks that lie between cells of water.
-
-    Only the cells of a deck and of its edges change, so that the land on both sides of a river
-    stays. A deck without water on both sides has none below it.
-
-    Parameters
-    ----------
-    water : numpy.ndarray of bool, shape (rows, columns)
-        The cells of water, without those below decks.
-    grid : WaterGrid
-        Counts and heights of all points.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (rows, columns)
+    """Return the cells below decks that lie between cells of water, which are without those below
+    decks; bool (rows, columns).
     """
+    # Only the cells of a deck and of its edges change, so that the land on both sides of a river
+    # stays. A deck without water on both sides has none below it.
     from scipy.ndimage import distance_transform_edt, find_objects, label
 
     below = np.zeros(grid.shape, dtype=bool)
@@ -66,11 +55,10 @@ def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
 
 
 def _across(seen: np.ndarray, joined: np.ndarray, hiding: np.ndarray, most: float) -> np.ndarray:
-    """Return cells below a deck straight between pieces of water that are not joined yet.
-
-    A disc reaches between the pieces of a stream that is narrower than the deck. Pieces are joined
-    up to `most` cells apart.
+    """Return cells below a deck straight between pieces of water that are not joined yet and at
+    most `most` cells apart.
     """
+    # A disc reaches between the pieces of a stream that is narrower than the deck.
     from scipy.ndimage import label
     from scipy.spatial import Delaunay, cKDTree
 

@@ -93,38 +93,11 @@ def classes_at_water(
     how: WaterClasses,
     unit: float = 1.0,
 ) -> np.ndarray:
-    """Return the classes of points with those of water, and of ignored ground beside its shore.
-
-    Parameters
-    ----------
-    x, y : numpy.ndarray of float64, shape (n,)
-        Places in the CRS.
-    classes : numpy.ndarray of uint8, shape (n,)
-        Their classes so far.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which are ground; all others keep their class.
-    polygons : tuple of polygon
-        The water in the CRS, as in `Area`.
-    how : WaterClasses
-        The classes, and the distance from the shore in metres.
-    unit : float
-        Metres in a unit of x and y.
-
-    Returns
-    -------
-    numpy.ndarray of uint8, shape (n,)
-
-    References
-    ----------
-    .. [1] U.S. Geological Survey, Lidar Base Specification 2.1: classes 9 and 20.
-
-    Examples
-    --------
-    >>> lake = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]])
-    >>> x, y, classes = np.array([5.0, 10.6, 10.8]), np.full(3, 5.0), np.full(3, 2, np.uint8)
-    >>> classes_at_water(x, y, classes, classes == 2, ((lake,),), WaterClasses()).tolist()
-    [9, 20, 2]
+    """Return the classes of points, uint8 (n,), with those of water and of ignored ground beside
+    its shore; points that are not ground keep their class.
     """
+    # Places and polygons are in the CRS, of which a unit is so many metres. The classes 9 and 20
+    # are those of the Lidar Base Specification 2.1 of the U.S. Geological Survey.
     found, which = classes.copy(), np.flatnonzero(ground)
     if not polygons or not len(which):
         return found

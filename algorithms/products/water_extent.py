@@ -6,18 +6,8 @@ import numpy as np
 
 
 def surveyed(full: np.ndarray) -> np.ndarray:
-    """Return which cells of a box lie within the survey.
-
-    It ends at the convex hull of its points.
-
-    Parameters
-    ----------
-    full : numpy.ndarray of bool, shape (rows, columns)
-        The cells with points.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (rows, columns)
+    """Return which cells of a box lie within the survey, the convex hull of the cells with points;
+    bool (rows, columns).
     """
     rows, columns = full.shape
     low, high = np.zeros(rows), np.full(rows, float(columns))

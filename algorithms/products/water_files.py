@@ -67,29 +67,15 @@ class WaterRequest:
 
 @dataclass(frozen=True)
 class WaterSummary:
-    """What was found.
+    """What was found."""
 
-    Attributes
-    ----------
-    lakes, rivers : int
-        Number of polygons.
-    area : float
-        Their area in square metres.
-    grades : dict of str to int
-        Number of polygons by grade of certainty.
-    cell : float
-        Side in metres of the cells in which points were counted.
-    min_area, min_width : float
-        Smallest area in square metres, and smallest width of a river in metres.
-    """
-
-    lakes: int
-    rivers: int
-    area: float
-    grades: dict[str, int]
-    cell: float
-    min_area: float
-    min_width: float
+    lakes: int  # polygons
+    rivers: int  # polygons
+    area: float  # of them in square metres
+    grades: dict[str, int]  # number of polygons by grade of certainty
+    cell: float  # metres: side of the cells in which points were counted
+    min_area: float  # square metres
+    min_width: float  # metres, of a river
 
     @property
     def text(self) -> str:
@@ -110,37 +96,19 @@ class WaterSummary:
 
 @dataclass(frozen=True)
 class SurveyWater:
-    """The water of a survey.
+    """The water of a survey."""
 
-    Attributes
-    ----------
-    bodies : list of WaterBody
-        In metres, in the frame with its origin at (0, 0) of the CRS.
-    crs : Crs
-        The CRS of the points.
-    cell : float
-        Side of the cells in metres.
-    how : Water
-        Which water was looked for.
-    """
-
-    bodies: list[WaterBody]
+    bodies: list[WaterBody]  # metres, in the frame with its origin at (0, 0) of the CRS
     crs: Crs
-    cell: float
-    how: Water
+    cell: float  # metres
+    how: Water  # which water was looked for
 
     @classmethod
     def of(
         cls, sources: Sequence[Path], request: WaterRequest, progress: Progress = SILENT
     ) -> SurveyWater:
-        """Find the water. Points are read in parts, so that memory depends on the area only.
-
-        Raises
-        ------
-        BareEarthError
-            If a file cannot be read, there is no ground, or there are too many cells.
-        Cancelled
-            If the user asked to stop.
+        """Find the water of a survey with ground; points are read in parts, so that memory depends
+        on the area only.
         """
         survey = SurveyGround.of(sources, request.ground, progress.part(0.0, 0.05), request.crs)
         unit, tiles = survey.frame.horizontal_unit, survey.survey.tiles
@@ -209,13 +177,7 @@ class SurveyWater:
     def write(
         self, target: Path, breaklines: Path | None = None, progress: Progress = SILENT
     ) -> None:
-        """Write the polygons, and the breaklines if they have a file; both of them or none.
-
-        Raises
-        ------
-        BareEarthError
-            If a file cannot be written.
-        """
+        """Write the polygons, and the breaklines if they have a file; both of them or none."""
         lines = None if breaklines is None else (breaklines, self.lines())
         write_features(self.crs, (target, self.polygons()), lines, progress)
 
@@ -226,22 +188,7 @@ def write_features(
     lines: tuple[Path, Iterable[Feature]] | None,
     progress: Progress = SILENT,
 ) -> None:
-    """Write polygons of water with `FIELDS`, and breaklines with `LINE_FIELDS`; all or none.
-
-    Parameters
-    ----------
-    crs : Crs
-        The CRS of the points.
-    polygons, lines : tuple of Path and iterable of Feature, or None
-        The file and its features; None for none.
-    progress : Progress
-        Receives progress and messages.
-
-    Raises
-    ------
-    BareEarthError
-        If a file cannot be written.
-    """
+    """Write polygons of water with `FIELDS`, and breaklines with `LINE_FIELDS`; all or none."""
     layers = []
     if polygons is not None:
         layers.append((*polygons, Layer("water", "Polygon", FIELDS, crs.wkt, crs.epsg)))

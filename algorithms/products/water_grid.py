@@ -33,25 +33,8 @@ _CLASS_SHARE = 0.5
 
 
 def cell_for(area: float, count: int, size: float | None = None, extent: float = 0.0) -> float:
-    """Return the side in metres of the cells for a survey.
-
-    A large survey gets larger cells, so that they fit into memory.
-
-    Parameters
-    ----------
-    area : float
-        Area of the files in square metres.
-    count : int
-        Number of their points.
-    size : float, optional
-        The side that the user wants.
-    extent : float
-        Area of the box round all files in square metres.
-
-    Examples
-    --------
-    >>> cell_for(1e6, 8_000_000), cell_for(1e6, 250_000), cell_for(5e8, 4_000_000_000, extent=5e8)
-    (1.0, 4.0, 3.0)
+    """Return the side in metres of the cells for a survey, of an area and an extent in square
+    metres; a large one gets larger cells than the user wants, to fit into memory.
     """
     if size is not None:
         return size
@@ -66,29 +49,8 @@ def _smallest_cell(extent: float) -> float:
 
 
 class WaterGrid:
-    """The cells of a survey. They begin at (0, 0) of the frame, whatever the files.
-
-    Parameters
-    ----------
-    box : tuple of float
-        The extent of the survey: metres in its frame.
-    cell : float
-        Side of a cell in metres.
-
-    Attributes
-    ----------
-    lowest, ground : numpy.ndarray of float32, shape (rows, columns)
-        Lowest last return, and lowest ground point, in metres; infinite where there is none. Rows
-        go from south to north.
-    counts, water : numpy.ndarray of uint16, shape (rows, columns)
-        Number of last returns, and of those of class 9.
-    decks : numpy.ndarray of bool, shape (rows, columns), or None
-        Which cells have points of the decks of bridges; None if there are none.
-
-    Raises
-    ------
-    BareEarthError
-        If there are too many cells.
+    """The cells of a survey with a box in metres, from (0, 0) of its frame, whatever the files,
+    with rows from south to north; too many are refused.
     """
 
     def __init__(self, box: Box, cell: float) -> None:
@@ -102,9 +64,11 @@ class WaterGrid:
                 f"Cells of {cell:g} m would be {count:,} in this survey, and"
                 f" {_MOST_CELLS:,} is the most. Choose cells of {least:g} m, or give fewer files."
             )
+        # Lowest last return and lowest ground point in metres; infinite where there is none.
         self.lowest, self.ground = (np.full(self.shape, np.inf, np.float32) for _ in range(2))
+        # Last returns, and those of class 9.
         self.counts, self.water = (np.zeros(self.shape, np.uint16) for _ in range(2))
-        self.decks: np.ndarray | None = None
+        self.decks: np.ndarray | None = None  # cells with points of decks of bridges, if any
 
     def add(
         self,
@@ -114,16 +78,8 @@ class WaterGrid:
         last: np.ndarray,
         decks: np.ndarray | None = None,
     ) -> None:
-        """Add points.
-
-        Parameters
-        ----------
-        points : Points
-            In the frame of the survey.
-        ground, water, last : numpy.ndarray of bool, shape (n,)
-            Which are ground, of class 9, and last returns.
-        decks : numpy.ndarray of bool, shape (n,), optional
-            Which lie on the decks of bridges.
+        """Add points, in the frame of the survey, and which are ground, of class 9, last returns,
+        and on the decks of bridges; bool (n,).
         """
         row = np.floor(points.y / self.cell).astype(np.int64) - self.row
         column = np.floor(points.x / self.cell).astype(np.int64) - self.column
@@ -148,10 +104,8 @@ class WaterGrid:
         return (water > 0) & (water >= _CLASS_SHARE * counts)
 
     def usual(self) -> np.ndarray:
-        """Return the usual count of last returns round each square of cells; float64.
-
-        It is the mean over squares, each weighted by its own count: voids do not lower it.
-        """
+        """Return the usual count of last returns round each square of cells; float64."""
+        # It is the mean over squares, each weighted by its own count: voids do not lower it.
         from scipy.ndimage import uniform_filter
 
         starts = [np.arange(0, length, _SQUARE) for length in self.shape]

@@ -34,61 +34,30 @@ _SURFACE, _FEW_RETURNS, _MOST_RETURNS = 0.5, 8, 0.6
 
 
 class Shore(NamedTuple):
-    """The shore of a region of water, or its surface, in segments.
+    """The shore of a region of water, or its surface, in segments."""
 
-    Attributes
-    ----------
-    places : numpy.ndarray of float64, shape (n, 2)
-        Row and column of the middle of each segment that touches the water.
-    lowest : numpy.ndarray of float64, shape (n,)
-        Its lowest ground: the bank hardly counts in it.
-    rises : numpy.ndarray of float64, shape (n,)
-        How far the lowest ground a few cells farther out, or an embankment, is higher, in metres;
-        NaN where there is none.
-    heights : numpy.ndarray of float64, shape (m,)
-        The ground of all cells of the shore.
-    known : float
-        Share of the squares along the shore that have ground.
-    side : int
-        Length of the segments in cells.
-    percentile : float
-        The level of a lake is this percentile of the heights.
-    """
-
+    # float64, (n, 2): row and column of the middle of segments that touch the water
     places: np.ndarray
-    lowest: np.ndarray
+    lowest: np.ndarray  # float64, (n,): their lowest ground, in which the bank hardly counts
+    # float64, (n,): metres by which the lowest ground a few cells farther out, or an embankment, is
+    # higher; NaN where there is none
     rises: np.ndarray
-    heights: np.ndarray
-    known: float
-    side: int
-    percentile: float = LEVEL_PERCENTILE
+    heights: np.ndarray  # float64, (m,): the ground of all cells of the shore
+    known: float  # share of the squares along the shore that have ground
+    side: int  # length of the segments in cells
+    percentile: float = LEVEL_PERCENTILE  # of the heights that is the level of a lake
 
 
 class Levels(NamedTuple):
-    """The level of a region of water.
+    """The level of a region of water."""
 
-    Attributes
-    ----------
-    heights : numpy.ndarray of float64, shape (n,)
-        The level at the reaches of a river; one level for a lake.
-    spread : float
-        Robust standard deviation in metres of the lowest ground of segments of the shore from it.
-    misfit : float
-        Largest distance in metres of the level from segments of the shore that lie together.
-    width, length : float
-        Mean width, and length along the middle, in cells.
-    reaches : Reaches or None
-        The reaches of a river; None for a lake.
-    chains : tuple of numpy.ndarray of int64
-        The reaches of each branch, downstream: the level never rises.
-    """
-
-    heights: np.ndarray
-    spread: float
-    misfit: float
-    width: float
-    length: float = 0.0
-    reaches: Reaches | None = None
+    heights: np.ndarray  # float64, (n,): at the reaches of a river; one for a lake
+    spread: float  # robust standard deviation of lowest ground of segments from it, metres
+    misfit: float  # largest distance from segments of the shore that lie together, metres
+    width: float  # mean, in cells
+    length: float = 0.0  # along the middle, in cells
+    reaches: Reaches | None = None  # None for a lake
+    # int64: reaches of each branch, downstream, where no level rises
     chains: tuple[np.ndarray, ...] = ()
 
     def at(self, places: np.ndarray) -> np.ndarray:
@@ -109,24 +78,10 @@ class Levels(NamedTuple):
 def shore_of(
     water: np.ndarray, ground: np.ndarray, cell: float, hidden: np.ndarray | None = None
 ) -> Shore | None:
-    """Return the shore of a region.
-
-    Parameters
-    ----------
-    water : numpy.ndarray of bool, shape (rows, columns)
-        The cells of the region, with a margin of `margin` cells round them.
-    ground : numpy.ndarray of float, shape (rows, columns)
-        Lowest ground of each cell; infinite where there is none.
-    cell : float
-        Side of a cell in metres.
-    hidden : numpy.ndarray of bool, shape (rows, columns), optional
-        Cells that are not part of the shore, such as abutments of bridges.
-
-    Returns
-    -------
-    Shore or None
-        None if no cell of the shore has ground.
+    """Return the shore of a region with a margin of `margin` cells round it, but for `hidden` cells
+    such as abutments of bridges; None if no cell of it has ground.
     """
+    # `ground` is infinite where there is none, and the side of a cell is in metres.
     from scipy.ndimage import distance_transform_cdt
 
     # 0 is a cell of the water at its edge: in sparse points the bank begins in it.
@@ -156,16 +111,8 @@ def shore_of(
 
 
 def surface_of(water: np.ndarray, heights: np.ndarray, cell: float) -> Shore:
-    """Return what is known of the level from points of water, as a shore.
-
-    Parameters
-    ----------
-    water : numpy.ndarray of bool, shape (rows, columns)
-        The cells with such points.
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Their heights.
-    cell : float
-        Side of a cell in metres.
+    """Return what is known of the level from points of water, as a shore, from the cells with such
+    points, their heights, and the side of a cell in metres.
     """
     rows, columns = np.nonzero(water & np.isfinite(heights))
     heights = heights[rows, columns].astype(np.float64)
@@ -220,9 +167,8 @@ def _beyond(which: np.ndarray, ground: np.ndarray, places: np.ndarray, side: int
 
 
 def lake_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels:
-    """Return one level: a low percentile of the ground along the shore, or that of the surface.
-
-    `surface` is row, column and height of returns inside, shape (k, 3).
+    """Return one level: a low percentile of the ground along the shore, or that of the surface,
+    row, column and height of returns inside, shape (k, 3).
     """
     level = float(np.percentile(shore.heights, shore.percentile))
     level = min(level, float(np.median(shore.lowest)) + _NOISE)
@@ -234,11 +180,9 @@ def lake_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels:
 
 
 def river_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels | None:
-    """Return levels that fall along a region and its branches, or None if it has no length.
-
-    The level of a reach is that of the lowest ground of the segments of the shore beside it, by
-    isotonic regression along the branches, and of returns from the surface.
-    """
+    """Return levels that fall along a region and its branches, or None if it has no length."""
+    # The level of a reach is that of the lowest ground of the segments of the shore beside it, by
+    # isotonic regression along the branches, and of returns from the surface.
     reaches = reaches_of(water, shore.side)
     if reaches.network.size < 3:
         return None

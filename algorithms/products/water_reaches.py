@@ -21,34 +21,18 @@ _ELONGATED, _FEWEST = 2.0, 3
 
 
 class Reaches(NamedTuple):
-    """The reaches of a region of water.
+    """The reaches of a region of water."""
 
-    Attributes
-    ----------
-    network : Network
-        The reaches, and which of them are neighbours.
-    places : numpy.ndarray of float64, shape (size, 2)
-        Row and column of the middle of each.
-    numbers : numpy.ndarray of int32, shape (rows, columns)
-        The reach of each group of cells, also on land, where it is that of the nearest water.
-    along : numpy.ndarray of float64, shape (rows, columns)
-        Distance of each group from one end of the region, in cells.
-    middles : numpy.ndarray of float64, shape (size,)
-        The mean of that in each reach.
-    group : int
-        Side of a group in cells.
-    width, length : float
-        Mean width, in which each chain counts by its area, and length of all chains, in cells.
-    """
-
-    network: Network
-    places: np.ndarray
+    network: Network  # which of them are neighbours
+    places: np.ndarray  # float64, (size, 2): row and column of the middle of each
+    # int32, (rows, columns): the reach of each group of cells, also on land, where it is that of
+    # the nearest water
     numbers: np.ndarray
-    along: np.ndarray
-    middles: np.ndarray
-    group: int
-    width: float
-    length: float
+    along: np.ndarray  # float64, (rows, columns): distance of groups from one end, in cells
+    middles: np.ndarray  # float64, (size,): the mean of that in each reach
+    group: int  # side of a group in cells
+    width: float  # mean, in cells, where each chain counts by its area
+    length: float  # of all chains, in cells
 
     def of(self, places: np.ndarray) -> np.ndarray:
         """Return the reach at rows and columns, shape (k, 2)."""
@@ -84,15 +68,7 @@ class Reaches(NamedTuple):
 
 
 def reaches_of(water: np.ndarray, longest: float) -> Reaches:
-    """Return the reaches of a region.
-
-    Parameters
-    ----------
-    water : numpy.ndarray of bool, shape (rows, columns)
-        A connected region.
-    longest : float
-        Most length of a reach in cells.
-    """
+    """Return the reaches, at most `longest` cells long, of a connected region."""
     from scipy.ndimage import distance_transform_edt
     from scipy.sparse.csgraph import dijkstra
 

@@ -26,14 +26,11 @@ _HIDDEN = 4.0
 
 
 class _Step(NamedTuple):
-    """A step of the level, from the first to the last of some reaches; their number is `reaches`.
+    """A step of the level, from the first to the last of some reaches."""
 
-    `before` and `after` are the reaches on both sides, downstream, with those at the step.
-    """
-
-    before: np.ndarray
-    after: np.ndarray
-    reaches: int
+    before: np.ndarray  # the reaches upstream, with those at the step
+    after: np.ndarray  # the reaches downstream, with those at the step
+    reaches: int  # number of reaches from first to last
     middle: float
     drop: float
 
@@ -46,24 +43,10 @@ class _Step(NamedTuple):
 def parts_of_step(
     water: np.ndarray, levels: Levels, ground: np.ndarray
 ) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return what a region falls into at its highest step, or nothing if it has none.
-
-    One part is returned where the water goes round the step.
-
-    Parameters
-    ----------
-    water : numpy.ndarray of bool, shape (rows, columns)
-        The cells of the region.
-    levels : Levels
-        Those of a river.
-    ground : numpy.ndarray of float, shape (rows, columns)
-        Lowest ground of each cell; infinite where there is none.
-
-    Returns
-    -------
-    list of (numpy.ndarray, numpy.ndarray) of bool, shape (rows, columns)
-        The cells of each part, and those that are not its shore.
+    """Return what a region of a river falls into at its highest step, as the cells of each part and
+    those that are not its shore: nothing if it has none, one part if water goes round it.
     """
+    # `ground` is infinite where there is none.
     from scipy.ndimage import label
 
     reaches = levels.reaches
@@ -103,11 +86,9 @@ def _slope(heights: np.ndarray) -> float:
 
 
 def _gap(water: np.ndarray, reaches: Reaches, step: _Step, ground: np.ndarray) -> np.ndarray:
-    """Return the cells across a region at a step.
-
-    No land beside the upper water is lower than the middle of the step. So it begins where the
-    first such land is, on either bank.
-    """
+    """Return the cells across a region at a step."""
+    # No land beside the upper water is lower than the middle of the step. So it begins where the
+    # first such land is, on either bank.
     near = _near(reaches, step)
     places = np.argwhere(water)
     numbers = reaches.of(places)

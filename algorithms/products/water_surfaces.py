@@ -36,20 +36,8 @@ _HIGHER, _LOWER, _NEARLY, _RISE = 0.8, 0.025, 0.05, 0.15
 
 
 def level_surfaces(grid: WaterGrid, outside: np.ndarray, least: float) -> np.ndarray:
-    """Return which cells belong to dead-level areas that are lower than the land round them.
-
-    Parameters
-    ----------
-    grid : WaterGrid
-        Counts and heights of all points.
-    outside : numpy.ndarray of bool, shape (rows, columns)
-        The cells beyond the survey.
-    least : float
-        Their smallest area in cells.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (rows, columns)
+    """Return which cells belong to dead-level areas of at least so many cells that are lower than
+    the land round them and not outside the survey.
     """
     from scipy.ndimage import find_objects, label
 
