@@ -13,13 +13,7 @@ _HELP = _ROOT / "help"
 
 
 def address_of(page: str) -> str:
-    """Return the address of a page of docs/.
-
-    Parameters
-    ----------
-    page : str
-        Name of the page, without ending.
-    """
+    """Return the address of a page of docs/, named without ending."""
     file = _HELP / f"{page}.html"
     if file.is_file():
         return QUrl.fromLocalFile(str(file)).toString()

@@ -34,17 +34,9 @@ _SCHEMES = {
 
 
 class LazDialog(QDialog):
-    """Shows whether .laz files can be read, and installs or removes lazrs.
+    """Shows whether .laz files can be read, and installs or removes lazrs."""
 
-    The work continues if the dialog is closed. When it is opened again, it shows the result.
-
-    Parameters
-    ----------
-    support : LazSupport
-        Installs and removes lazrs.
-    parent : QWidget or None
-        The window of QGIS.
-    """
+    # The work continues if the dialog is closed. When it is opened again, it shows the result.
 
     # Emitted when lazrs was installed.
     installed = pyqtSignal()

@@ -27,7 +27,7 @@ def tr(text: str) -> str:
 
 
 def mark(text: str) -> str:
-    """Mark a text for translation; return it unchanged. `tr` translates it later."""
+    """Mark a text for translation by `tr`, and return it unchanged."""
     return text
 
 
@@ -48,12 +48,8 @@ def _language() -> QLocale:
 
 
 def install(folder: Path = _FOLDER) -> QTranslator | None:
-    """Install the translations into the language of QGIS for `tr`.
-
-    Returns
-    -------
-    QTranslator or None
-        Keep it, and remove it when the plugin is unloaded. None if there are no translations.
+    """Install the translations into the language of QGIS for `tr`, if there are any; keep the
+    translator, and remove it when the plugin is unloaded.
     """
     translator = QTranslator()
     if not translator.load(_language(), "bare_earth", "_", str(folder)):

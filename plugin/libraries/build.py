@@ -16,24 +16,12 @@ _LEGACY_GLIBC = {"1": (2, 5), "2010": (2, 12), "2014": (2, 17)}
 
 @dataclass(frozen=True)
 class Build:
-    """A build of Python, as far as compiled packages depend on it.
+    """A build of Python, as far as compiled packages depend on it."""
 
-    Attributes
-    ----------
-    python : tuple of int
-        Version of Python, as (3, 11).
-    system : {"linux", "macosx", "win"} or other
-        Kind of operating system, as wheels call it.
-    machine : str
-        Processor, as wheels call it: "x86_64", "arm64", "amd64".
-    version : tuple of int
-        Version of glibc in Linux, or of macOS; otherwise (0, 0).
-    """
-
-    python: tuple[int, int]
-    system: str
-    machine: str
-    version: tuple[int, int] = (0, 0)
+    python: tuple[int, int]  # such as (3, 11)
+    system: str  # as wheels call it: "linux", "macosx", "win" or another
+    machine: str  # processor as wheels call it: "x86_64", "arm64", "amd64"
+    version: tuple[int, int] = (0, 0)  # of glibc in Linux, or of macOS; otherwise (0, 0)
 
     @classmethod
     def here(cls) -> Build:
@@ -50,12 +38,8 @@ class Build:
 
     @property
     def name(self) -> str:
-        """Return a short name, different for builds that need different compiled packages.
-
-        Examples
-        --------
-        >>> Build((3, 11), "linux", "x86_64").name
-        'cp311-linux_x86_64'
+        """Return a short name, different for builds that need different compiled packages, such as
+        cp311-linux_x86_64.
         """
         # The platform of 32-bit Windows is "win32", without a processor.
         return "-".join([self._python, "_".join(filter(None, [self.system, self.machine]))])
@@ -70,20 +54,8 @@ class Build:
         return "cp{}{}".format(*self.python)
 
     def takes(self, tag: str) -> bool:
-        """Return whether a wheel with a tag can be loaded.
-
-        Parameters
-        ----------
-        tag : str
-            Python, ABI and platform, as in the file WHEEL (PEP 425, 2012; PEP 600, 2019).
-
-        Examples
-        --------
-        >>> here = Build((3, 11), "linux", "x86_64", (2, 36))
-        >>> here.takes("cp311-cp311-manylinux_2_17_x86_64")
-        True
-        >>> here.takes("cp312-cp312-manylinux_2_17_x86_64")
-        False
+        """Return whether a wheel with a tag, as in the file WHEEL (PEP 425, PEP 600), such as
+        cp311-cp311-manylinux_2_17_x86_64, can be loaded.
         """
         python, abi, system = (*tag.split("-", 2), "", "", "")[:3]
         return self._takes_python(python, abi) and (system == "any" or self._takes_system(system))

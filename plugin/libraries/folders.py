@@ -46,12 +46,8 @@ def take_from_path(folder: Path) -> bool:
 
 
 def replace(folder: Path, new: Path) -> bool:
-    """Replace a folder by the folder `new`.
-
-    Returns
-    -------
-    bool
-        Whether it was replaced. If not, Windows still uses a package in the old folder.
+    """Replace a folder by the folder `new`, and return whether it was; if not, Windows still uses a
+    package in the old folder.
     """
     if not delete(folder):
         return False
@@ -61,12 +57,8 @@ def replace(folder: Path, new: Path) -> bool:
 
 
 def delete(folder: Path) -> bool:
-    """Delete a folder, or mark it to be deleted at the next start, and not to be used until then.
-
-    Returns
-    -------
-    bool
-        Whether it was deleted.
+    """Delete a folder and return True, or mark it to be deleted at the next start, and not to be
+    used until then.
     """
     if take_from_path(folder):  # Windows keeps what is loaded, there is nothing to wait for
         shutil.rmtree(folder, ignore_errors=True)
@@ -78,10 +70,8 @@ def delete(folder: Path) -> bool:
 
 
 def remove_if_uninstalled(plugin: Path, profile: Path) -> None:
-    """Remove all that the plugin put into a profile, if the folder of the plugin is gone.
-
-    QGIS does not say whether it unloads a plugin to update or to uninstall it.
-    """
+    """Remove all that the plugin put into a profile, if the folder of the plugin is gone."""
+    # QGIS does not say whether it unloads a plugin to update or to uninstall it.
     if plugin.exists():
         return
     # Marked one by one, since a plugin that is installed again must not use what is left of them.

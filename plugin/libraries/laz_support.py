@@ -18,12 +18,8 @@ REQUIREMENTS = Path(__file__).parents[2] / "requirements.txt"
 
 
 class LazSupport:
-    """Installs and removes lazrs, and tells whether it is installed.
-
-    Parameters
-    ----------
-    profile : Path
-        The user's profile of QGIS.
+    """Installs and removes lazrs in the user's profile of QGIS, and tells whether it is
+    installed.
     """
 
     def __init__(self, profile: Path) -> None:
@@ -56,19 +52,8 @@ class LazSupport:
         folders.add_to_path(self.folder)
 
     def get_by_pip(self, run: pip.Run, proxy: str = "") -> None:
-        """Install lazrs from the package index.
-
-        Parameters
-        ----------
-        run : callable
-            Runs a command, see `pip.Run`.
-        proxy : str
-            Address of the proxy, or empty.
-
-        Raises
-        ------
-        BareEarthError
-            If this fails, with the reason; nothing is left behind.
+        """Install lazrs from the package index, or leave nothing behind and raise the reason;
+        `proxy` may be empty.
         """
         self._fill(
             lambda new, scratch: pip.get_by_pip(
@@ -77,13 +62,7 @@ class LazSupport:
         )
 
     def get_from_wheel(self, wheel: Path) -> None:
-        """Install lazrs from a wheel file.
-
-        Raises
-        ------
-        BareEarthError
-            If the file does not fit, with the reason; nothing is left behind.
-        """
+        """Install lazrs from a wheel file, or leave nothing behind and raise the reason."""
         self._fill(lambda new, _: wheels.unpack(wheel, new, PACKAGE, Build.here()))
 
     def remove(self) -> str:

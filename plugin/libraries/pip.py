@@ -58,28 +58,11 @@ _REASONS = {
 def get_by_pip(
     requirements: Path, folder: Path, scratch: Path, run: Run, proxy: str, build: Build
 ) -> None:
-    """Install packages with pip into a folder, without their dependencies.
-
-    Parameters
-    ----------
-    requirements : Path
-        The requirements file.
-    folder : Path
-        The folder for the packages.
-    scratch : Path
-        A folder for pip itself, if this Python has no pip.
-    run : Run
-        Runs a command.
-    proxy : str
-        Address of the proxy, or empty.
-    build : Build
-        The build that the packages must fit.
-
-    Raises
-    ------
-    BareEarthError
-        If no Python interpreter or no pip is found, or pip fails; with the reason.
+    """Install packages that fit a build with pip, which goes into `scratch` if this Python has
+    none, into a folder, without their dependencies.
     """
+    # The proxy may be empty. An error says if no Python interpreter or no pip is found, or why pip
+    # fails.
     python = find_python(run)
     settings = dict(_SETTINGS)
     if proxy:
@@ -99,13 +82,7 @@ def get_by_pip(
 
 
 def find_python(run: Run) -> str:
-    """Return the path of the interpreter of this Python.
-
-    Raises
-    ------
-    BareEarthError
-        If QGIS has none.
-    """
+    """Return the path of the interpreter of this Python, or raise an error if QGIS has none."""
     here = [*sys.version_info[:2], sysconfig.get_platform(), platform.machine()]
     for path in candidates():
         done = run([str(path), "-c", _PROBE], {})

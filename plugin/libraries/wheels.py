@@ -22,27 +22,10 @@ _UNREADABLE = (
 
 
 def unpack(wheel: Path, folder: Path, package: str, build: Build) -> None:
-    """Unpack a wheel into a folder.
-
-    Only the contents are trusted, not the name of the file, since browsers can change it.
-
-    Parameters
-    ----------
-    wheel : Path
-        The file.
-    folder : Path
-        The folder; files in it stay.
-    package : str
-        The package that the wheel must contain.
-    build : Build
-        The build that the wheel must fit.
-
-    Raises
-    ------
-    BareEarthError
-        If it is not a wheel, is damaged, contains another package, is for another Python or system,
-        or would write outside of the folder.
+    """Unpack a wheel into a folder, whose files stay, if it contains the package, fits the build,
+    and would not write outside of the folder.
     """
+    # Only the contents are trusted, not the name of the file, since browsers can change it.
     try:
         with zipfile.ZipFile(wheel) as archive:
             info = _info_folder(archive, wheel, package)

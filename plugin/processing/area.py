@@ -59,16 +59,8 @@ def add_area(
     advanced: Sequence[str] = ("BOUNDARY",),
     helps: Mapping[str, str] = {},
 ) -> None:
-    """Add the fields of an area to a dialog.
-
-    Parameters
-    ----------
-    algorithm : QgsProcessingAlgorithm
-        Whose dialog it is.
-    advanced : sequence of str
-        Names of the advanced fields.
-    helps : mapping of str to str
-        Help of the fields by their names, if it is not the usual one.
+    """Add the fields of an area to a dialog, of which some, by name, are advanced or have another
+    help than usual.
     """
     extent, boundary = (label for label, _ in _AREA_FIELDS.values())
     fields = (
@@ -88,12 +80,8 @@ def area_of(
     context: QgsProcessingContext,
     crs: CloudCrs,
 ) -> Area | None:
-    """Return the area in the fields of `add_area`, in the CRS of the points; None if empty.
-
-    Raises
-    ------
-    BareEarthError
-        If the boundary has no polygon, or the cloud cannot be read.
+    """Return the area in the fields of `add_area`, in the CRS of the points; None if empty, and an
+    error for a boundary without polygons.
     """
     given = [name for name in _AREA_FIELDS if not compat.is_empty(parameters.get(name))]
     if not given:
@@ -117,9 +105,8 @@ def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) 
 
 
 def area_options(area: Area | None, progress: Progress, is_all: bool = False) -> list[str]:
-    """Return the options of the command line for an area; tell the user how to add a boundary.
-
-    `is_all` is as for `add_limits`.
+    """Return the options of the command line for an area, with `is_all` as for `add_limits`; tell
+    the user how to add a boundary.
     """
     if area is None:
         return []

@@ -42,42 +42,20 @@ _ICONS = Path(__file__).parents[1] / "icons"
 
 
 class BareEarthAlgorithm(QgsProcessingAlgorithm):
-    """Base class of the algorithms. Subclasses set texts, declare fields and compute.
+    """Base class of the algorithms, whose subclasses set texts, declare fields and compute."""
 
-    Attributes
-    ----------
-    identifier : str
-        Second half of the id; it never changes.
-    title, section, summary : str
-        Name and group in the toolbox, and the tooltip.
-    about : str
-        First paragraphs of the help.
-    page : str
-        Its page in the folder docs.
-    cancelled : str
-        Message in the log after a cancel.
-    run_name : str
-        Name of the group of layers, after the name of the input; the title if empty.
-    shown : tuple of str or None
-        The declared parameters that are not advanced. None: as they are declared.
-    unused : tuple of str
-        The declared parameters without a field, since no output depends on them.
-    inputs : sequence of Path
-        The input files and folders; set by `find_inputs`.
-    subject : str
-        Name of the input; set by `find_inputs`.
-    stated : str or None
-        The CRS of the points that the user states; set before `prepare`.
-    class_counts : mapping of int to int
-        Points of each class in the output, for the end of the log; set by `compute`.
-    """
+    # identifier: second half of the id, which never changes; title, section, summary: name and
+    # group in the toolbox, and the tooltip; about: first paragraphs of the help; page: in the
+    # folder docs; run_name: name of the group of layers after that of the input, the title if
+    # empty; subject: name of the input, set by `find_inputs`; class_counts: points of each class in
+    # the output for the end of the log, set by `compute`.
 
     identifier = title = section = summary = about = page = run_name = subject = ""
-    cancelled = NOTHING_STAYS
-    shown: tuple[str, ...] | None = None
-    stated: str | None = None
-    unused: tuple[str, ...] = ()
-    inputs: Sequence[Path] = ()
+    cancelled = NOTHING_STAYS  # message in the log after a cancel
+    shown: tuple[str, ...] | None = None  # parameters that are not advanced; None: as declared
+    stated: str | None = None  # the CRS that the user states; set before `prepare`
+    unused: tuple[str, ...] = ()  # parameters without a field, since no output depends on them
+    inputs: Sequence[Path] = ()  # files and folders; set by `find_inputs`
     _has_page = False
 
     def __init__(self) -> None:
@@ -99,13 +77,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         raise NotImplementedError
 
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Find the input files, and set `inputs` and `subject`.
-
-        Raises
-        ------
-        BareEarthError
-            If a file does not exist.
-        """
+        """Find the input files, which must exist, and set `inputs` and `subject`."""
 
     def prepare(
         self,
@@ -188,10 +160,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     # QGIS calls the following methods.
 
     def hasHtmlOutputs(self) -> bool:
-        """Return whether the run that was checked last makes a page.
-
-        QGIS 3.22 asks after a run, and then tells the user to look at the pages that were made.
-        """
+        """Return whether the run that was checked last makes a page."""
+        # QGIS 3.22 asks after a run, and then tells the user to look at the pages that were made.
         return self._has_page
 
     def name(self) -> str:
@@ -356,18 +326,8 @@ def errors_for_qgis() -> Iterator[None]:
 def command_line(
     command: str, files: list[str], chosen: list[ParameterSet], options: Mapping[str, Any]
 ) -> str:
-    """Return the command line that does the same without QGIS.
-
-    Parameters
-    ----------
-    command : str
-        Subcommand of `bare-earth`.
-    files : list of str
-        Its positional arguments.
-    chosen : list of ParameterSet
-        Parameters; default values are left out.
-    options : mapping of str to str or tuple of str
-        Other options and their values; empty values are left out.
+    """Return the command line, of a subcommand of `bare-earth` and its files, that does the same
+    without QGIS; default values and empty options are left out.
     """
     words = ["bare-earth", command, *files]
     for option, value in options.items():

@@ -123,12 +123,8 @@ def residuals_path(
 def judgement_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> dict[str, Any]:
-    """Return the values of `add_judgement`, as `CheckRequest` takes them.
-
-    Raises
-    ------
-    BareEarthError
-        If the raster is not a file.
+    """Return the values of `add_judgement`, as `CheckRequest` takes them; refuse a raster that is
+    not a file.
     """
     text, sure = algorithm.parameterAsString(parameters, _VEGETATED, context), None
     if not compat.is_empty(parameters.get(_CONFIDENCE)):
@@ -146,14 +142,8 @@ def checkpoints_of(
     crs: CloudCrs,
     progress: FeedbackProgress,
 ) -> tuple[Checkpoints | None, dict[str, Any]]:
-    """Return the checkpoints in the CRS of the points, and the options for the command line.
-
-    Progress receives a message on how to give a layer in the command line.
-
-    Raises
-    ------
-    BareEarthError
-        If they cannot be read.
+    """Return the checkpoints in the CRS of the points, and the options for the command line; a
+    message says how to give a layer there.
     """
     if compat.is_empty(parameters.get(_LAYER)):
         return None, {}

@@ -37,15 +37,9 @@ from .stated_crs import add_crs
 
 
 class ClassificationAlgorithm(BareEarthAlgorithm):
-    """Base class of the ground classifications; subclasses set the method.
+    """Base class of the ground classifications; subclasses set the method."""
 
-    Attributes
-    ----------
-    method : str
-        Its name in the command line.
-    """
-
-    method = ""
+    method = ""  # name in the command line
     section = "Ground classification"
     unused = ("relief_radius",)
 

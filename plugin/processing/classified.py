@@ -34,24 +34,8 @@ def show_classified(
     progress: FeedbackProgress,
     hides: int = layers.CLOUD,
 ) -> None:
-    """Show a classified point cloud, or a raster of its classes where QGIS cannot.
-
-    Parameters
-    ----------
-    algorithm : BareEarthAlgorithm
-        The algorithm that made the cloud.
-    cloud : str
-        The file, or a virtual point cloud of many files.
-    classes : iterable of int
-        Its classes; the usual classes if empty.
-    request : ClassifyRequest, MapRequest or DeliveryRequest
-        Holds the class of the ground, and the cell size of the raster.
-    context : QgsProcessingContext
-        Gets the layers to load.
-    progress : FeedbackProgress
-        Receives messages.
-    hides : int
-        As in `layers.Look`.
+    """Show a classified point cloud, which may be virtual, with its classes, or the usual ones if
+    none are given, or a raster of them where QGIS cannot.
     """
     ground_class = request.selection.to_class
     classes = list(classes) or clouds.usual_classes(ground_class)
@@ -79,19 +63,11 @@ def show_class_raster(
     hides: int = layers.CLOUD,
     cells: tuple[float, bool] = (_USUAL_CELL, False),
 ) -> None:
-    """Show a raster of the classes of a cloud that QGIS cannot show.
-
-    It is made only if QGIS will load other layers, or a dialog shows the run: else nobody sees it.
-
-    Parameters
-    ----------
-    algorithm, cloud, classes, context, progress, hides
-        As for `show_classified`; the classes that the raster has if empty.
-    ground_class : int
-        The class of the ground.
-    cells : (float, bool)
-        Size of the cells, and whether it is in units of the CRS instead of metres.
+    """Show a raster of the classes of a cloud that QGIS cannot show, with cells of a size in
+    metres, or in units of the CRS.
     """
+    # It is made only if QGIS will load other layers, or a dialog shows the run: else nobody sees
+    # it.
     if not (context.layersToLoadOnCompletion() or progress.is_of_dialog):
         return
     # Imported here, since it needs packages that QGIS may lack when it starts.

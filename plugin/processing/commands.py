@@ -25,22 +25,8 @@ def terrain_commands(
     area: Sequence[str] = (),
     given: Mapping[str, Any] = NOTHING_GIVEN,
 ) -> Iterator[str]:
-    """Yield the commands for a classified cloud, and for its rasters and contour lines.
-
-    Parameters
-    ----------
-    sources : sequence of Path
-        The raw files.
-    cloud : str
-        The classified file, or the virtual point cloud of many files; empty if none is kept.
-    rasters : mapping of str to str
-        The rasters and contour lines, by the names of their fields.
-    chosen : sequence of ParameterSet
-        The parameters of all commands.
-    area : sequence of str
-        Options that name the area.
-    given : mapping of str to str or tuple of str
-        The options of `given_options`.
+    """Yield the commands for a classified cloud, empty if none is kept, and for its rasters and
+    contour lines, by the names of their fields.
     """
     of_type: dict[type, Any] = {type(each): each for each in chosen}
     made = cloud or "classified.laz"

@@ -66,14 +66,8 @@ def constraints_of(
     crs: CloudCrs,
     progress: Progress,
 ) -> Constraints:
-    """Return the contents of the layers, in the CRS of the points.
-
-    Progress receives a message on how to give these layers in the command line.
-
-    Raises
-    ------
-    BareEarthError
-        If a layer cannot be read, or has only geometries of another kind.
+    """Return the contents of the layers, in the CRS of the points; a message says how to give these
+    layers in the command line.
     """
     given = [name for name in _FIELDS if not compat.is_empty(parameters.get(name))]
     if not given:
@@ -112,13 +106,7 @@ def water_of(
     ground: GroundClasses,
     progress: Progress,
 ) -> WaterPolygons:
-    """Return the water in the field of `add_water`, in the CRS of the points, or find it.
-
-    Raises
-    ------
-    BareEarthError
-        If the layer cannot be read or has no polygon, or the points cannot be read.
-    """
+    """Return the water in the field of `add_water`, in the CRS of the points, or find it."""
     if not compat.is_empty(parameters.get("WATER")):
         progress.info(
             "In the command line the water is missing: save it in the CRS of the points as"

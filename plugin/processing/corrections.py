@@ -54,14 +54,8 @@ def corrections_of(
     crs: CloudCrs,
     progress: Progress = SILENT,
 ) -> Corrections:
-    """Return the corrections in the fields, in the CRS of the points.
-
-    Progress receives a message on how to give them in the command line.
-
-    Raises
-    ------
-    BareEarthError
-        If the layer cannot be read or has other geometries, or a polygon has no class.
+    """Return the corrections in the fields, in the CRS of the points; a message says how to give
+    them in the command line.
     """
     if compat.is_empty(parameters.get(_LAYER)):
         return NO_CORRECTIONS

@@ -24,14 +24,8 @@ _GROUND = 2
 
 
 class Refusal(BareEarthError):
-    """An error that the plugin finds: English in a log, and in the user's language in a dialog.
-
-    Parameters
-    ----------
-    text : str
-        The English text in `mark`, with fields as for `str.format`.
-    *values, **named : object
-        The values of the fields; labels of fields are translated, too.
+    """An error that the plugin finds: English in a log, in the user's language in a dialog; its
+    text is in `mark` and has fields as for `str.format`, whose labels are translated.
     """
 
     def __init__(self, text: str, *values: object, **named: object) -> None:
@@ -41,12 +35,8 @@ class Refusal(BareEarthError):
 
 
 class FeedbackProgress(Progress):
-    """Shows progress and messages in the dialog, and stops the computation after a cancel.
-
-    Parameters
-    ----------
-    feedback : QgsProcessingFeedback
-        The feedback of the dialog, of a model or of qgis_process.
+    """Shows progress and messages in the dialog, of a model or of qgis_process, and stops the
+    computation after a cancel.
     """
 
     def __init__(self, feedback: QgsProcessingFeedback) -> None:
@@ -60,10 +50,8 @@ class FeedbackProgress(Progress):
         return self._feedback.metaObject().className() == "QgsProcessingAlgorithmDialogFeedback"
 
     def report(self, fraction: float) -> None:
-        """Move the bar; raise `Cancelled` if the user pressed Cancel before the end.
-
-        At the end all outputs are written, so the message on cancelled runs would be wrong.
-        """
+        """Move the bar; raise `Cancelled` if the user pressed Cancel before the end."""
+        # At the end all outputs are written, so the message on cancelled runs would be wrong.
         self._feedback.setProgress(100.0 * fraction)
         if fraction < 1.0 and self._feedback.isCanceled():
             raise Cancelled
@@ -101,12 +89,8 @@ class FeedbackProgress(Progress):
         return tuple(self._commands)
 
     def end(self, class_counts: Mapping[int, int]) -> None:
-        """Write the end of the log: classes, automatic choices, time and commands.
-
-        Parameters
-        ----------
-        class_counts : mapping of int to int
-            Points of each class in the output; empty if no point cloud was made.
+        """Write the end of the log: points of each class, if a cloud was made, automatic choices,
+        time and commands.
         """
         every = max(sum(class_counts.values()), 1)
         for value in sorted(class_counts, key=lambda value: (value != _GROUND, value)):
@@ -143,10 +127,8 @@ def tell_of_unknown(
 
 
 def tell_error_once(is_failing: bool) -> None:
-    """Let qgis_process print the error of a failing run once; before a run, let it print all.
-
-    QGIS gives the error of a run to the feedback, which prints it, and twice to the message log,
-    which qgis_process prints, too. In a window, the message log is a panel of its own.
-    """
+    """Let qgis_process print the error of a failing run once; before a run, let it print all."""
+    # QGIS gives the error of a run to the feedback, which prints it, and twice to the message log,
+    # which qgis_process prints, too. In a window, the message log is a panel of its own.
     if QgsApplication.platform() == "qgis_process":
         QgsApplication.messageLog().blockSignals(is_failing)

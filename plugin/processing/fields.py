@@ -32,19 +32,8 @@ _MOST_EXPLAINED = 12
 def field_of(
     declaration: Declaration, is_shown: bool | None = None
 ) -> QgsProcessingParameterDefinition:
-    """Return the Processing parameter for a declared one.
-
-    Parameters
-    ----------
-    declaration : Declaration
-        The declared parameter.
-    is_shown : bool, optional
-        False to make it an advanced parameter of the dialog; by default as it is declared.
-
-    Returns
-    -------
-    QgsProcessingParameterDefinition
-        With label, unit, limits, default and help.
+    """Return the Processing parameter for a declared one, with label, unit, limits, default and
+    help, shown or advanced as declared unless `is_shown` says.
     """
     name, label = declaration.name.upper(), title_of(declaration)
     default, optional = declaration.default, declaration.optional
@@ -124,12 +113,8 @@ def parameters_of(
     parameters: dict[str, Any],
     context: QgsProcessingContext,
 ) -> ParameterSet:
-    """Return the declared parameters with the values of the user.
-
-    Raises
-    ------
-    BareEarthError
-        If a value is not allowed.
+    """Return the declared parameters with the values of the user, or refuse one that is not
+    allowed.
     """
     return declared(
         **{

@@ -30,12 +30,8 @@ def add_terrain(algorithm: QgsProcessingAlgorithm, text: str = "") -> None:
 def terrain_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> str:
-    """Return the file of the raster; empty if there is none.
-
-    Raises
-    ------
-    BareEarthError
-        If the layer is not a file.
+    """Return the file of the raster, or refuse a layer that is not a file; empty if there
+    is none.
     """
     if compat.is_empty(parameters.get(DTM)):
         return ""

@@ -69,11 +69,10 @@ ANY_CLOUD_HELP = (
 
 
 class PointCloudInput(QgsProcessingParameterPointCloudLayer):
-    """A point cloud layer, or any existing file.
+    """A point cloud layer, or any existing file."""
 
-    QGIS itself accepts only files that it can load. Without its `pdal` provider, these do not
-    include .las and .laz; with it, QGIS would index the whole file first.
-    """
+    # QGIS itself accepts only files that it can load. Without its `pdal` provider, these do not
+    # include .las and .laz; with it, QGIS would index the whole file first.
 
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)
@@ -114,13 +113,7 @@ def source_path(
     name: str,
     context: QgsProcessingContext,
 ) -> Path:
-    """Return the file of a `PointCloudInput`, without loading it as a layer.
-
-    Raises
-    ------
-    BareEarthError
-        If there is none.
-    """
+    """Return the file of a `PointCloudInput` that is not empty, without loading it as a layer."""
     value = parameters.get(name)
     layer = value if isinstance(value, QgsMapLayer) else None
     if layer is None:
@@ -154,13 +147,7 @@ def _add_folder(algorithm: QgsProcessingAlgorithm) -> None:
 def survey_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> list[Path]:
-    """Return the inputs in the fields of `add_survey`.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no input, or one does not exist.
-    """
+    """Return the inputs in the fields of `add_survey`, at least one, which must exist."""
     paths = []
     if not compat.is_empty(parameters.get("INPUT")):
         paths.append(source_path(algorithm, parameters, "INPUT", context))
@@ -194,12 +181,8 @@ def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
 def clouds_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> list[Path]:
-    """Return the inputs in the fields of `add_clouds`: files and folders.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no input, or one does not exist.
+    """Return the inputs in the fields of `add_clouds`: files and folders, at least one, which must
+    exist.
     """
     texts = algorithm.parameterAsFileList(parameters, "INPUT", context)
     texts.append(algorithm.parameterAsString(parameters, "INPUT_FOLDER", context))
@@ -229,29 +212,15 @@ def ignored_filter(
 
 
 class CloudCrs:
-    """The CRS of the point clouds of a run, read when it is first needed.
-
-    Parameters
-    ----------
-    *sources : Path
-        Files, folders, and lists of files.
-    recursive : bool
-        Whether subfolders are searched, too.
-    stated : str, optional
-        The CRS that the user states in place of that of the files.
-    """
+    """The CRS of the point clouds of a run, stated by the user or read when it is first needed."""
 
     def __init__(self, *sources: Path, recursive: bool = False, stated: str | None = None) -> None:
         self._sources, self._recursive, self.stated = sources, recursive, stated
 
     @functools.cached_property
     def value(self) -> QgsCoordinateReferenceSystem:
-        """The CRS; if no file states one, an invalid CRS, so that nothing is transformed.
-
-        Raises
-        ------
-        BareEarthError
-            If there is no file, or no file can be read.
+        """The CRS; if no file states one, an invalid CRS, so that nothing is transformed; an error
+        if no file can be read.
         """
         if self.stated:
             return crs_of_text(self.stated)
@@ -278,12 +247,8 @@ def features_of(
     context: QgsProcessingContext,
     attributes: Sequence[str] = (),
 ) -> Iterator[QgsFeature]:
-    """Yield the features of a layer, transformed to a CRS, with some attributes.
-
-    Raises
-    ------
-    BareEarthError
-        If the layer cannot be read; the text has its label.
+    """Yield the features of a layer, transformed to a CRS, with some attributes; errors name its
+    label.
     """
     if source is None:
         raise Refusal(mark('The layer "{}" cannot be read.'), label)
@@ -335,21 +300,11 @@ def layer_shapes(
     attribute: str = "",
     may_be_empty: bool = True,
 ) -> tuple[tuple[Polygon | np.ndarray, Any], ...]:
-    """Return the polygons or lines of the layer in a field, in the CRS of the points.
-
-    Geometries of other kinds are not used.
-
-    Returns
-    -------
-    tuple of (tuple of numpy.ndarray of float64, shape (n, 2), object)
-        The rings of each polygon, and its attribute; for lines shape (n, 3) instead of rings: x, y
-        and z of the corners, NaN for z where there is none.
-
-    Raises
-    ------
-    BareEarthError
-        If the layer cannot be read, or has only other geometries; if none, unless it may be empty.
+    """Return the polygons (rings, float64 (n, 2)) or lines (x, y, and z or NaN, (n, 3)) of the
+    layer in a field, in the CRS of the points, and an attribute of each.
     """
+    # Geometries of other kinds are not used, but refused if there are no others, and none is
+    # refused unless the layer may be empty.
     source = algorithm.parameterAsSource(parameters, name, context)
     shape, corners_of, refusal = _KINDS[kind]
     attributes, found, others = [attribute] if attribute else [], [], 0

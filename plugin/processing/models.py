@@ -40,12 +40,8 @@ _FOLDER = Path(__file__).parents[1] / "models"
 
 
 class ShippedModel(QgsProcessingModelAlgorithm):
-    """A model that was made in the model designer of QGIS.
-
-    Parameters
-    ----------
-    file : Path
-        The model file. Its name without underscores is the second half of the id.
+    """A model that was made in the model designer of QGIS; the name of its file without underscores
+    is the second half of the id.
     """
 
     page = "models"
@@ -59,7 +55,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         self.load()
 
     def load(self) -> None:
-        """Read the file. Steps and outputs are found only when their providers are loaded."""
+        """Read the file; steps and outputs are found only when their providers are loaded."""
         self.fromFile(str(self._file))
         self.about = self.helpContent().get("ALG_DESC", "")
         needed = set()

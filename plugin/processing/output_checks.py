@@ -33,23 +33,8 @@ def check_outputs(
     context: QgsProcessingContext,
     sources: Sequence[Path],
 ) -> None:
-    """Refuse files whose folder does not exist, or whose ending or name is not suitable.
-
-    Parameters
-    ----------
-    algorithm : QgsProcessingAlgorithm
-        The algorithm to run.
-    parameters : dict
-        The values of the user.
-    context : QgsProcessingContext
-        Where expressions are evaluated.
-    sources : sequence of Path
-        The inputs.
-
-    Raises
-    ------
-    BareEarthError
-        With the text that the run would give.
+    """Refuse, as the run would, files whose folder does not exist, or whose ending or name is not
+    suitable.
     """
     for output in algorithm.destinationParameterDefinitions():
         path = given_path(parameters.get(output.name()), context)

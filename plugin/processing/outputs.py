@@ -55,10 +55,8 @@ def add_rasters(
 
 
 def add_explanation(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the advanced field of a raster that tells which rule decided each cell.
-
-    QGIS shows it below the other outputs: it folds only inputs away.
-    """
+    """Add the advanced field of a raster that tells which rule decided each cell."""
+    # QGIS shows it below the other outputs: it folds only inputs away.
     label = "Rule that decided each cell"
     field = QgsProcessingParameterRasterDestination("EXPLANATION", label, None, True, False)
     field.setFlags(field.flags() | compat.ADVANCED)
@@ -178,9 +176,8 @@ def raster_files(paths: dict[str, str]) -> RasterFiles:
 
 
 def point_cloud_formats() -> list[str]:
-    """Return the extensions of point clouds that can be written, with the default first.
-
-    The default is a format that this QGIS can load, or else the format with the smallest files.
+    """Return the extensions of point clouds that can be written, first one that this QGIS can load,
+    or else that of the smallest files.
     """
     if missing_packages(WRITING_COPC):
         return ["las"]

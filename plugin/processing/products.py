@@ -25,19 +25,11 @@ _TOGETHER = {"MINIMUM": min, "MAXIMUM": max}
 
 
 class ProductAlgorithm(BareEarthAlgorithm):
-    """Base class of the algorithms for classified point clouds.
-
-    Attributes
-    ----------
-    cloud_label, cloud_help : str
-        Label and help of the output point cloud; empty if there is none.
-    numbers : tuple of (str, str)
-        Name and label of each output that is a number. In lower case, the name is an attribute of
-        the summary.
-    """
+    """Base class of the algorithms for classified point clouds."""
 
     section = "Products"
-    cloud_label = cloud_help = ""
+    cloud_label = cloud_help = ""  # of the output point cloud; empty if there is none
+    # name, in lower case an attribute of the summary, and label
     numbers: tuple[tuple[str, str], ...] = ()
 
     def add_outputs(self) -> None:
@@ -83,9 +75,8 @@ class ProductAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> str:
-        """Return the path of the output point cloud; tell the user if QGIS cannot show it.
-
-        For many files it is a folder of this name, without its ending.
+        """Return the path of the output point cloud, for many files a folder of this name without
+        its ending; tell the user if QGIS cannot show it.
         """
         output = self.point_cloud_destination(parameters, "OUTPUT", context)
         if not is_one_file(self.inputs):
@@ -103,18 +94,8 @@ class ProductAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> dict[str, Any]:
-        """Show the output point cloud, and return the outputs of the algorithm.
-
-        Parameters
-        ----------
-        output : str
-            What `cloud_output` returned.
-        summary : object
-            The summary of one file, or of many.
-        look : Look
-            The style of the points.
-        context, progress
-            As for `compute`.
+        """Show the output point cloud, as `cloud_output` returned it, and return the outputs of the
+        algorithm.
         """
         progress.info(summary.text)
         if not is_one_file(self.inputs):

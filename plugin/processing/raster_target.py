@@ -42,12 +42,8 @@ def raster_target_of(
     context: QgsProcessingContext,
     crs: CloudCrs,
 ) -> RasterTarget:
-    """Return what is in the fields, with the extent in the CRS of the points.
-
-    Raises
-    ------
-    BareEarthError
-        If the raster is not a file, or the cloud cannot be read.
+    """Return what is in the fields, with the extent in the CRS of the points; refuse a raster that
+    is not a file.
     """
     like = extent = None
     if not compat.is_empty(parameters.get(_LIKE)):

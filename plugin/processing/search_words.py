@@ -88,12 +88,8 @@ _WORDS = {
 
 
 def words_of(identifier: str) -> list[str]:
-    """Return the words for an algorithm, in English and in the user's language.
-
-    Parameters
-    ----------
-    identifier : str
-        The second half of its id.
+    """Return the words for an algorithm, by the second half of its id, in English and in the user's
+    language.
     """
     groups = _WORDS[identifier]
     words = (word for group in groups for text in (group, tr(group)) for word in text.split(","))

@@ -33,13 +33,7 @@ def add_crs(algorithm: QgsProcessingAlgorithm) -> None:
 def stated_crs_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> str | None:
-    """Return the CRS in the field, as the requests take it; None if it is empty.
-
-    Raises
-    ------
-    BareEarthError
-        If it is not known.
-    """
+    """Return the known CRS in the field, as the requests take it; None if it is empty."""
     if algorithm.parameterDefinition(_NAME) is None or compat.is_empty(parameters.get(_NAME)):
         return None
     crs = algorithm.parameterAsCrs(parameters, _NAME, context)

@@ -70,11 +70,11 @@ class CheckWidget:
 
 
 class PointCloudWidget:
-    """Makes the widget of a point cloud, which accepts files in the model designer, too.
+    """Makes the widget of a point cloud, which accepts files in the model designer, too."""
 
-    QGIS itself only offers inputs that are layers there. Without its `pdal` provider, these cannot
-    be .las and .laz files. In a dialog for one run, a cloud of the project is chosen at first.
-    """
+    # QGIS itself only offers inputs that are layers there. Without its `pdal` provider, these
+    # cannot be .las and .laz files. In a dialog for one run, a cloud of the project is chosen at
+    # first.
 
     def __new__(cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: Any) -> Any:
         """Return a widget, not an instance of this class."""
@@ -181,10 +181,9 @@ class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
 
 
 class _DeliveryBox(_ChoiceBox):
-    """The box for a delivery. With one, the dialog shows its folder, and no single outputs.
+    """The box for a delivery, with which the dialog shows its folder, and no single outputs."""
 
-    QGIS puts the folder among the outputs, which are at the end of a long dialog.
-    """
+    # QGIS puts the folder among the outputs, which are at the end of a long dialog.
 
     def postInitialize(self, wrappers: list[QgsAbstractProcessingParameterWidgetWrapper]) -> None:
         """Move the folder below the box."""
@@ -250,7 +249,9 @@ class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
 
 
 class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
-    """The box of QGIS for a layer or file. At first, a point cloud of the project is chosen."""
+    """The box of QGIS for a layer or file, where a point cloud of the project is chosen at
+    first.
+    """
 
     def createWidget(self) -> QWidget:
         """Return the box, which offers point clouds only."""
@@ -275,7 +276,7 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
             self._box.setWidgetContext(context)
 
     def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
-        """Choose a value. The first one is the default of the dialog, which is empty."""
+        """Choose a value, but for the first one, the default of the dialog, which is empty."""
         if self.wrappedWidget() is None:
             return
         if self._suggested is None and compat.is_null(value):

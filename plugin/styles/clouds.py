@@ -75,12 +75,8 @@ def usual_classes(ground_class: int = _GROUND) -> list[int]:
 
 
 def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
-    """Return a function that colours a cloud by class.
-
-    Parameters
-    ----------
-    classes : iterable of int
-        The classes to show. QGIS itself would list all usual classes, and hide those above 18.
+    """Return a function that colours a cloud by the classes given, as QGIS itself would list all
+    usual classes, and hide those above 18.
     """
     wanted = categories_of(classes)
 
@@ -99,7 +95,7 @@ def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
 
 
 def show_through(layer: QgsMapLayer) -> None:
-    """Let a hillshade below be just visible. More, or a blend mode, would change the colours."""
+    """Let a hillshade below be just visible, as more, or a blend mode, would change the colours."""
     layer.setBlendMode(QPainter.CompositionMode.CompositionMode_SourceOver)
     layer.setOpacity(_OPACITY)
 
@@ -107,18 +103,11 @@ def show_through(layer: QgsMapLayer) -> None:
 def by_height(
     attribute: str, highest: float, unit_size: float = 1.0
 ) -> Callable[[QgsPointCloudLayer], None]:
-    """Return a function that colours a cloud by heights above ground, in the unit of the CRS.
-
-    Parameters
-    ----------
-    attribute : str
-        The attribute that holds the heights.
-    highest : float
-        The greatest height. For COPC files a usual height is used instead, so that birds do not
-        stretch the colours. It is found in the uppermost node, which has points from everywhere.
-    unit_size : float
-        Metres in that unit.
+    """Return a function that colours a cloud by an attribute, heights above ground up to `highest`
+    in the unit of the CRS, of `unit_size` metres.
     """
+    # For COPC files a usual height is used instead of the greatest, so that birds do not stretch
+    # the colours. It is found in the uppermost node, which has points from everywhere.
     most = min(highest, _MOST_HEIGHT / unit_size)
 
     def dress(layer: QgsPointCloudLayer) -> None:

@@ -40,31 +40,16 @@ _LOCAL = 'LOCAL_CS["Local coordinates in metres",UNIT["metre",1]]'
 
 
 class Look(NamedTuple):
-    """Title, place and style of a layer.
+    """Title, place and style of a layer."""
 
-    Attributes
-    ----------
-    title : str
-        Its name in the group of the run, which has the name of the input.
-    height : int
-        Its place in the group; the greatest is on top.
-    dress : callable
-        ``dress(layer)`` sets the style, in the main thread.
-    hides : int
-        Some layers hide each other. Of these, only the one with the greatest value is visible at
-        first. 0 for a layer that hides nothing.
-    shows : str
-        Meaning of the colours, in the user's language; empty for rasters, whose files state it.
-    origin : Origin or None
-        The run that made it; set by `arrange`.
-    """
-
-    title: str
-    height: int
-    dress: Callable[[Any], None]
+    title: str  # in the group of the run, which has the name of the input
+    height: int  # in the group; the greatest is on top
+    dress: Callable[[Any], None]  # sets the style of a layer, in the main thread
+    # of the layers that hide each other, only that with the greatest is visible; 0: none
     hides: int = 0
+    # what colours mean, in the user's language; empty for rasters, whose files state it
     shows: str = ""
-    origin: Origin | None = None
+    origin: Origin | None = None  # the run that made it; set by `arrange`
 
     @property
     def is_shade(self) -> bool:
@@ -172,26 +157,12 @@ def arrange(
     stage: Stage,
     origin: Origin,
 ) -> None:
-    """Give styles and names to the layers of a run, and a group if there are several.
-
-    Layers that show the same files already are reloaded. They keep their names and places.
-
-    Parameters
-    ----------
-    context : QgsProcessingContext
-        Holds the layers that QGIS will load.
-    looks : mapping of str to Look
-        The looks of the layers, by path.
-    labels : mapping of str to str
-        The names that QGIS gives to the layers, by path. A layer with another name got it from a
-        model. It keeps this name, and is not put into the group.
-    subject : str
-        Name of the input.
-    stage : Stage
-        The place of the run in the project.
-    origin : Origin
-        What made layers that have no origin yet; steps of models set that of their layers.
+    """Give looks, by path, to the layers of a run that QGIS will load, and a group if there are
+    several.
     """
+    # Layers that show the same files already are reloaded. They keep their names and places. A
+    # layer with another name than QGIS gives it (`labels`) got it from a model. It keeps this name,
+    # and is not put into the group. Steps of models set the origin of their layers before.
     project = context.project()
     looks = {path: look._replace(origin=look.origin or origin) for path, look in looks.items()}
     dresses = {path: functools.partial(_dress, look, subject) for path, look in looks.items()}
@@ -267,11 +238,10 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
 
 
 def _leave_degrees(project: QgsProject) -> None:
-    """Let a project in degrees count in metres, as the runs did, if no layer has a CRS.
-
-    That of a new project is in degrees. Metres taken for these make scales of 1:500,000,000, and
-    points of a size in metres that take minutes to draw. Without any CRS, QGIS also takes degrees.
-    """
+    """Let a project in degrees count in metres, as the runs did, if no layer has a CRS."""
+    # That of a new project is in degrees. Metres taken for these make scales of 1:500,000,000, and
+    # points of a size in metres that take minutes to draw. Without any CRS, QGIS also takes
+    # degrees.
     has_none = not any(each.crs().isValid() for each in project.mapLayers().values())
     if has_none and project.crs().isGeographic():
         project.setCrs(QgsCoordinateReferenceSystem.fromWkt(_LOCAL))

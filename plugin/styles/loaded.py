@@ -49,14 +49,8 @@ def file_of(layer: QgsMapLayer) -> Path | None:
 
 
 def sources_of(project: QgsProject | None, files: Iterable[Path]) -> list[Source]:
-    """Return the layers that show some files, or files in some folders, from the top of the tree.
-
-    Parameters
-    ----------
-    project : QgsProject or None
-        The project; None in qgis_process.
-    files : iterable of Path
-        Files and folders, which need not exist.
+    """Return the layers of the project (None in qgis_process) that show some files, or files in
+    folders, which need not exist, from the top of the tree.
     """
     wanted = {_normal(each) for each in files}
     found = []
@@ -104,12 +98,10 @@ def times_replaced(file: Path) -> int:
 
 
 def fresh_path(path: str) -> str:
-    """Return a COPC file under a path that QGIS has not used for its earlier contents.
-
-    QGIS keeps points that it has shown, by the path of their file and the filter of the layer. It
-    does not notice that the file was replaced: also a new layer would show the old points. So "."
-    is put before some names in the path, as a binary number.
-    """
+    """Return a COPC file under a path that QGIS has not used for its earlier contents."""
+    # QGIS keeps points that it has shown, by the path of their file and the filter of the layer. It
+    # does not notice that the file was replaced: also a new layer would show the old points. So "."
+    # is put before some names in the path, as a binary number.
     if not path.lower().endswith(".copc.laz"):
         return path
     parts, number = Path(path).as_posix().split("/"), times_replaced(Path(path))
@@ -121,9 +113,8 @@ def fresh_path(path: str) -> str:
 
 
 def show_fresh_points(layer: QgsMapLayer) -> None:
-    """Give a virtual point cloud that was replaced a new filter, which all points pass.
-
-    Its files have the same paths as before. See `fresh_path`.
+    """Give a virtual point cloud that was replaced, whose files have the same paths as before, a
+    new filter, which all points pass; see `fresh_path`.
     """
     if layer.providerType() != "vpc":
         return
@@ -180,16 +171,8 @@ def reload(
     sources: Iterable[Source],
     dresses: Mapping[Path, Callable[[QgsMapLayer], None]],
 ) -> None:
-    """Open the files of layers again, with the extent, statistics and styles of the new contents.
-
-    Parameters
-    ----------
-    project : QgsProject
-        The project.
-    sources : iterable of Source
-        The layers.
-    dresses : mapping of Path to callable
-        What gives the layer of a file its style. Others keep their style.
+    """Open the files of layers again, with the extent, statistics and styles of the new contents;
+    layers without a dress keep their style.
     """
     known = {_normal(path): dress for path, dress in dresses.items()}
     for each in sources:
@@ -236,10 +219,8 @@ def later(work: Callable[[], None]) -> None:
 
 
 def now(work: Callable[[], None]) -> None:
-    """Call a function in the main thread and wait for it, unless that thread is busy for long.
-
-    It may wait for the caller itself, as scripts do that run a task: then nothing is called.
-    """
+    """Call a function in the main thread and wait for it, unless that thread is busy for long."""
+    # It may wait for the caller itself, as scripts do that run a task: then nothing is called.
     if in_main_thread():
         work()
         return

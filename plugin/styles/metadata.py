@@ -21,21 +21,11 @@ _MOST_ENTRIES = 20
 
 
 class Origin(NamedTuple):
-    """The run that made a layer.
+    """The run that made a layer."""
 
-    Attributes
-    ----------
-    entry : str
-        Time, algorithm and version, for the history of the layer.
-    settings : tuple of str
-        The parameters with their values.
-    commands : tuple of str
-        Commands that do the same without QGIS.
-    """
-
-    entry: str
-    settings: tuple[str, ...]
-    commands: tuple[str, ...] = ()
+    entry: str  # time, algorithm and version, for the history of the layer
+    settings: tuple[str, ...]  # the parameters with their values
+    commands: tuple[str, ...] = ()  # that do the same without QGIS
 
     @classmethod
     def of(cls, title: str, settings: tuple[str, ...], commands: tuple[str, ...] = ()) -> Origin:
@@ -70,7 +60,7 @@ def _text(value: Any, context: QgsProcessingContext) -> str:
 
 
 def describe(layer: QgsMapLayer, title: str, origin: Origin) -> None:
-    """Set title, settings and history of a layer. The history of earlier runs stays."""
+    """Set title, settings and history of a layer, where the history of earlier runs stays."""
     metadata = layer.metadata()
     metadata.setTitle(title)
     metadata.setType("dataset")

@@ -226,11 +226,11 @@ def strip_differences(layer: QgsRasterLayer) -> None:
 
 
 def _cut(layer: QgsRasterLayer, least: float = _LEAST_RANGE) -> tuple[float, float]:
-    """Return the limits of the values, at least so far apart, without the few lowest and highest.
-
-    The method of QGIS is not used, because GDAL would store a histogram beside the file. A new file
-    with the same name would get the limits of the old one.
+    """Return the limits of the values, at least so far apart, without the few lowest and
+    highest.
     """
+    # The method of QGIS is not used, because GDAL would store a histogram beside the file. A new
+    # file with the same name would get the limits of the old one.
     raster = gdal.Open(layer.source())
     band = raster.GetRasterBand(1)
     size = (min(each, _SAMPLE) for each in (band.XSize, band.YSize))

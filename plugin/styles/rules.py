@@ -56,14 +56,8 @@ _RARE_GROUND, _RARE_OTHER = "#5f5236", "#ffa6b8"
 
 
 def categories_of(codes: Iterable[int], rules: Mapping[int, str]) -> dict[int, tuple[str, QColor]]:
-    """Return the name and colour of each code of an explanation, ground first.
-
-    Parameters
-    ----------
-    codes : iterable of int
-        The codes that occur, as in `Decisions`.
-    rules : mapping of int to str
-        The names of the rules, by their numbers.
+    """Return the name and colour of each code of an explanation that occurs, as in `Decisions`,
+    ground first, by the numbers of the rules.
     """
     found = {}
     for code in sorted(set(codes) - {0, NOT_GROUND}):

@@ -15,31 +15,13 @@ _HEIGHT = "bare_earth/height"
 
 
 class Stage:
-    """The place of a run in the project, found before the run.
-
-    Parameters
-    ----------
-    context : QgsProcessingContext
-        Holds the project.
-    name : str
-        Name of a new group. A number is added if there is such a group.
-    places : iterable of Path
-        Files and folders that the run may write.
-    is_in_place : bool
-        Whether steps of other programs write into old files, which layers must not have open then.
-
-    Attributes
-    ----------
-    group : str
-        Name of the group for new layers, unless layers of an earlier run are in one.
-    is_old : bool
-        Whether layers of an earlier run are in a group, to which new layers are added.
-
-    Raises
-    ------
-    BareEarthError
-        If a layer of these files has edits that are not saved.
+    """The place of a run in the project, found before the run; an error says if a layer of its
+    files has edits that are not saved.
     """
+
+    # A number is added to the name of a new group if there is such a group. `places` are files and
+    # folders that the run may write. If `is_in_place`, steps of other programs write into old
+    # files, which layers must not have open then.
 
     def __init__(
         self,
@@ -57,7 +39,9 @@ class Stage:
         if title:
             text = tr('The layer "{}" is being edited. Save or discard the edits first.')
             raise BareEarthError(text.format(title))
+        # whether layers of an earlier run are in a group that gets new ones
         self.is_old = bool(self._sources) and self._old_group() is not None
+        # for new layers, unless layers of an earlier run are in one
         self.group = name if self.is_old or not is_main else free_name(self._project, name)
         self._released = self._sources
         if loaded.MUST_RELEASE or is_in_place:
@@ -76,12 +60,8 @@ class Stage:
         return any(loaded.is_same(Path(path), each.path) for each in self._sources)
 
     def reload(self, dresses: Mapping[str, Callable[[QgsMapLayer], None]]) -> None:
-        """Reload the layers that show the files of the run; may be called in any thread.
-
-        Parameters
-        ----------
-        dresses : mapping of str to callable
-            What gives the layer of a file its style.
+        """Reload the layers that show the files of the run, in any thread; dresses give the layers
+        of files their styles.
         """
         project, places, released = self._project, self._places, self._released
         styles = {Path(path): dress for path, dress in dresses.items()}
@@ -137,10 +117,8 @@ def _group_of(node: Any, name: str) -> QgsLayerTreeGroup:
 
 
 def _place_in(group: QgsLayerTreeGroup, node: Any, height: int) -> int:
-    """Return the index of the first layer that must be below, or -1 for the end.
-
-    The node itself is skipped: QGIS may have put it into the group already, in another place.
-    """
+    """Return the index of the first layer that must be below, or -1 for the end."""
+    # The node itself is skipped: QGIS may have put it into the group already, in another place.
     for place, child in enumerate(group.children()):
         layer = child.layer() if hasattr(child, "layer") else None
         if child != node and layer and int(layer.customProperty(_HEIGHT, 0)) < height:
