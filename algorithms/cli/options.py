@@ -62,9 +62,7 @@ def add_parameters(
 
 
 def chosen(options: argparse.Namespace) -> list[ParameterSet]:
-    """Return the sets of parameters with the values of the options, or raise `UsageError` if one is
-    not allowed.
-    """
+    """Return the sets of parameters with the values of the options; `UsageError` if not allowed."""
     return [_from_options(each, options) for each in options.declared]
 
 

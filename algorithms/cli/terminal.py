@@ -67,9 +67,7 @@ def _progress_bar() -> Any:
 
 
 def tell(options: argparse.Namespace, summary: Any, text: str, always: bool = False) -> None:
-    """Print the result: as JSON, or as a sentence in a terminal, or anywhere with `always` or
-    `verbose`.
-    """
+    """Print the result as JSON, or as a sentence in a terminal, or with `always` or `verbose`."""
     if options.json:
         print(json.dumps(dataclasses.asdict(summary)))
     elif always or options.verbose or sys.stdout.isatty():

@@ -44,9 +44,7 @@ _ABOUT = {
 
 
 def delivery_html(request: DeliveryRequest, made: Made, survey: Survey, root: Path) -> str:
-    """Return the page of a delivery of raw files, made in `root`, all but the points of
-    many files.
-    """
+    """Return the page of a delivery of raw files, made in `root`, but for points of many files."""
     units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
     content = request.content
     parts = [

@@ -23,9 +23,7 @@ _DARKEST = 0.35
 
 
 def picture_of(raster: Path, name: str, units: Units = Units()) -> tuple[Picture, str]:
-    """Return a raster, read some rows at a time, as a picture, and its legend as HTML; the legend
-    is empty for reliefs.
-    """
+    """Return a raster, read in strips, as a picture, and its legend as HTML, empty for reliefs."""
     values, cell = _small(raster)
     known = values[~np.isnan(values)]
     if not len(known):

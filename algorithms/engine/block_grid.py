@@ -46,9 +46,7 @@ class BlockIndex(NamedTuple):
 
 @dataclass(frozen=True)
 class BlockGrid:
-    """The blocks of a survey and where they lie; every job gets it, so it holds no list of
-    files.
-    """
+    """The blocks of a survey and where they lie; each job gets it, so it has no list of files."""
 
     frame: Frame  # of all files, with its origin at (0, 0) of the CRS
     blocks: Blocks
@@ -87,9 +85,7 @@ def code(place: BlockIndex) -> int:
 
 
 def places_of(grid: BlockGrid, tile: LasFile) -> list[BlockIndex]:
-    """Return the blocks that may hold points of a tile, which may be read for this, from south to
-    north.
-    """
+    """Return the blocks that may hold points of a tile, which may be read, from south to north."""
     columns, rows = grid.places_in(tile.outer_box)
     if len(columns) * len(rows) <= _MOST_PLACES:
         return [BlockIndex(column, row) for row, column in itertools.product(rows, columns)]
@@ -108,9 +104,7 @@ def memory_held(grid: BlockGrid, count: float) -> int:
 
 
 def least_memory(grid: BlockGrid, survey: Survey, place: BlockIndex) -> int:
-    """Return about how many bytes a block takes if its points wait on disk and one file is read at
-    a time.
-    """
+    """Return about how many bytes a block takes if its points wait on disk, read file by file."""
     window = grid.window([place])
     largest = max((each.count for each in survey.touching(window)), default=0)
     return int(_BYTES_READ * largest) + grid.blocks.memory(points_in(survey, window))

@@ -181,9 +181,7 @@ class Blocks:
         return store.read(leaves, part, corner, progress, ground_only)
 
     def core(self, block: Block, contents: BlockPoints, is_only: bool) -> np.ndarray:
-        """Return which points of its contents, boolean (n,), a block is to say something of: all,
-        if it is the only one.
-        """
+        """Return which points of a block's contents, bool (n,), it is to say something of."""
         if is_only:
             return contents.wanted
         return contents.wanted & block.holds(contents.points, self.corner(block))

@@ -71,9 +71,7 @@ class Cluster(Workers):
         self._pool: Executor | None = None
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Connect, and raise an error if there is no scheduler or no worker, or a worker lacks what
-        it needs.
-        """
+        """Connect, and refuse no scheduler, no worker, or one that lacks what it needs."""
         from distributed import Client
 
         _check_encryption(self._address)
@@ -113,9 +111,7 @@ class Cluster(Workers):
         return max(1, _AHEAD * sum(self._threads().values()))
 
     def _threads(self) -> dict[str, int]:
-        """Return how many threads each worker has, or raise an error if the scheduler does not
-        answer.
-        """
+        """Return how many threads each worker has, or refuse a scheduler that is silent."""
         client = self._client
         try:
             return client.sync(client.scheduler.ncores, callback_timeout=_ANSWERING)
@@ -172,9 +168,7 @@ class Cluster(Workers):
         return Running(future, JobProgress(threading.Event()))
 
     def check(self) -> None:
-        """Raise an error if the scheduler is gone or had no workers for too long; it is asked from
-        time to time.
-        """
+        """Now and then, see whether the scheduler is gone or had no workers for too long."""
         now = time.monotonic()
         if now - self._looked < _LOOKING:
             return

@@ -54,9 +54,7 @@ def held_by_file(las: LasFile) -> int:
 
 
 class FilePoints:
-    """The points of one file, in memory or read part by part; temporary files go to the folder of
-    `target`.
-    """
+    """The points of one file, in memory or read in parts; temporary files go beside `target`."""
 
     def __init__(
         self,
@@ -89,9 +87,7 @@ class FilePoints:
         needs_records: bool = True,
         progress: Progress = SILENT,
     ) -> FilePoints:
-        """Read a file if it fits into memory, with its whole records if they are needed and fit as
-        well.
-        """
+        """Read a file if it fits into memory, with whole records if needed and if they fit."""
         if not fits_in_memory(las.count, resources):
             progress.info(
                 f"The {las.count:,} points do not fit into the memory that may be used: they are"

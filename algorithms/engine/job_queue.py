@@ -28,9 +28,7 @@ _DIED = (
 
 
 class JobQueue:
-    """The jobs of a survey and their results; results of blocks that are not in `kept` are removed
-    after their last use.
-    """
+    """The jobs of a survey and their results; those not in `kept` go after their last use."""
 
     def __init__(
         self,

@@ -53,9 +53,7 @@ class JobResult(NamedTuple):
 
 
 class Share(NamedTuple):
-    """What a job may use: its own threads and memory, and those of all threads of the run that are
-    free.
-    """
+    """What a job may use: its own threads and memory, and all threads of the run that are free."""
 
     resources: Resources
     threads: SharedThreads
@@ -224,9 +222,7 @@ class TileJob:
         return min(held_by_file(self.tile), resources.bytes)
 
     def run(self, share: Share, progress: Progress) -> Any:
-        """Write the file and return the summary of the step, or None if there is nothing to
-        write.
-        """
+        """Write the file; return the summary of the step, or None if there is nothing to write."""
         las, steps = self.tile, [found.step for found in self.values]
         if self.unpacking is not None:
             las = self.unpacking.of(las, progress.part(0.0, 0.3))

@@ -106,9 +106,7 @@ def _settings(grids: Sequence[BlockGrid], steps: Sequence[Step]) -> list[dict[st
 
 
 def write_record(target: Path, fingerprint: Fingerprint, summary: dict[str, Any]) -> None:
-    """Write the record of an output after the output, with the `fingerprint_of` from before its
-    inputs were read.
-    """
+    """Write the record of an output after it, with `fingerprint_of` before its inputs were read."""
     content = {"made_of": fingerprint, "size": target.stat().st_size, "summary": summary}
     with replacing(_place(target)) as temporary:
         temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")

@@ -82,9 +82,7 @@ class Cost(NamedTuple):
 
 
 def give_back() -> None:
-    """Return freed memory to the system if the C library would keep it, as glibc does with 64 MB
-    for each thread.
-    """
+    """Return freed memory to the system, of which glibc keeps up to 64 MB for each thread."""
     if sys.platform != "linux":
         return
     import ctypes

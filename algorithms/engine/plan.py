@@ -45,9 +45,7 @@ class _Wanted(NamedTuple):
 
 
 class Plan:
-    """What a run of steps on many files, each of which sees what those before it found, has
-    to do.
-    """
+    """What a run of steps on many files, each after what those before it found, has to do."""
 
     def __init__(
         self,

@@ -48,9 +48,7 @@ class Step:
         raise NotImplementedError
 
     def marks(self, part: PointCloud, counts: Any) -> Marks:
-        """Return the flags of the points of a part of a file and count them, or refuse an
-        unsuitable file.
-        """
+        """Return the flags of points of a part of a file and count them, or refuse the file."""
         raise NotImplementedError
 
     def tell(self, counts: Any, path: Path, progress: Progress) -> None:
@@ -171,9 +169,7 @@ class PointResult:
         return Edits()
 
     def summary(self, name: str, class_counts: dict[int, int]) -> Any:
-        """Return the summary of an output, with the points of each class in it, as the step's
-        `summary_type`.
-        """
+        """Return the summary of an output with points of each class, as `summary_type`."""
         raise NotImplementedError
 
 
@@ -192,9 +188,7 @@ def _plain(value: Any) -> Any:
 
 
 def with_classes(part: PointCloud, classes: np.ndarray, begins: bool = False) -> PointCloud:
-    """Return points with other classes, which are remembered if the file remembers classes or
-    `begins` to.
-    """
+    """Return points with other classes, which a file remembers if it does or `begins` to."""
     remembered = None
     if begins or part.remembered is not None:
         remembered = to_remember(part, classes)

@@ -128,9 +128,7 @@ class BlockValues:
                     self.failure = self.failure or str(kept.get(_FAILURE, ""))
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
-        """Return the values of the next points, or refuse points outside the extent in the
-        header.
-        """
+        """Return the values of the next points; refuse points outside the extent in the header."""
         if where.stop > self._las.count:
             raise self._changed()
         codes = self._grid.codes(part)

@@ -22,9 +22,7 @@ blockquote { margin: 1em 0; padding: .4em 1em; border-left: 4px solid #888; back
 
 
 def checkpoint_html(check: Check, found: Residuals | None, survey: Survey) -> str:
-    """Return the page of a comparison of files with checkpoints, which have their errors if there
-    are any.
-    """
+    """Return the page of a comparison of files with checkpoints and their errors, if any."""
     files = [each.path for each in survey.tiles]
     more = f" and {len(files) - 1:,} more" if files[1:] else ""
     parts = [f'<p class="files">Points: {text(files[0].name)}{more}</p>']

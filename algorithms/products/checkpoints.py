@@ -240,9 +240,7 @@ def _raster(source: str | None, ground: SurveyGround) -> HeightRaster | None:
 def _sampled(
     raster: HeightRaster | None, x: np.ndarray, y: np.ndarray, up: float | None = None
 ) -> np.ndarray | None:
-    """Return values of a raster at places, as heights in units of `up` metres if that is given;
-    None for no raster.
-    """
+    """Return values of a raster, if any, at places, or heights in units of `up` metres."""
     if raster is None:
         return None
     values = HeightSampler(raster).heights(x, y)

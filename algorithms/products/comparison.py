@@ -62,9 +62,7 @@ class Comparison(NamedTuple):
 
 @dataclass(frozen=True)
 class Assessment:
-    """Agreement of a classification with a reference, in percent; NaN if there are no points to
-    count.
-    """
+    """Agreement of a classification with a reference, in percent; NaN without points to count."""
 
     # Sithole and Vosselman (2004), ISPRS Journal 59, section 3.2: type I error is the share of
     # reference ground that was rejected, type II error the share of reference non-ground that was

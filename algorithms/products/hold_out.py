@@ -28,9 +28,7 @@ _MIX = tuple(
 
 @dataclass(frozen=True)
 class HoldOut:
-    """Errors (the TIN minus the point) at up to 10,000 ground points that were left out of
-    the TIN.
-    """
+    """Errors (TIN minus point) at up to 10,000 ground points that were left out of the TIN."""
 
     share: float  # of the ground points, that was left out
     left_out: int  # points

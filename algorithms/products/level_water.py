@@ -91,9 +91,7 @@ class _CellsOfWater(NamedTuple):
 
 
 class WaterCells:
-    """The cells of rasters, with a side in metres, whose centres lie in water with a level, in the
-    frame of the rasters.
-    """
+    """Cells of rasters whose centres lie in water with a level; sides in metres, in one frame."""
 
     def __init__(self, waters: Sequence[LevelWater], window: CellWindow, cell: float) -> None:
         self._cell = cell

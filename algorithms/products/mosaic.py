@@ -24,9 +24,7 @@ _ROWS = 256
 
 
 class Mosaic:
-    """A layer of all blocks of a survey, without values outside of these and of the outline; a cell
-    has a side in metres.
-    """
+    """A layer of all blocks of a survey, without values outside of these and of the outline."""
 
     # Cells of `water` have its level: in the terrain all of them, in the surface those without a
     # point. The confidence has no value there.
@@ -60,9 +58,7 @@ class Mosaic:
         return part
 
     def rows(self, start: int, end: int, kind: type = np.float32) -> np.ndarray:
-        """Return rows of the raster, from north to south, shape (end - start, columns); rows beyond
-        it are NaN, or 0.
-        """
+        """Return rows from north to south, shape (end - start, columns); beyond it NaN, or 0."""
         whole = self.window
         strip = whole.strip(start, end)
         empty = np.nan if issubclass(kind, np.floating) else 0

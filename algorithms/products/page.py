@@ -31,9 +31,7 @@ img { width: 100%; image-rendering: pixelated; border: 1px solid #bbb; box-sizin
 
 
 class Units(NamedTuple):
-    """The units of a survey, for pages, as metres in one unit; lengths and heights are computed in
-    metres.
-    """
+    """The units of a survey, for pages, in metres, as lengths and heights are computed."""
 
     horizontal: float = 1.0
     vertical: float = 1.0
@@ -49,9 +47,7 @@ class Units(NamedTuple):
         return _symbol(self.vertical)
 
     def length(self, metres: float, digits: int = 3) -> str:
-        """Return a length in the unit of the survey, with metres if these are another unit, such as
-        164 ft (50 m).
-        """
+        """Return a length in the unit of the survey, and in metres, such as 164 ft (50 m)."""
         if self.horizontal == 1.0:
             return f"{metres:g} m"
         return f"{metres / self.horizontal:.{digits}g} {self.across} ({metres:g} m)"
@@ -69,9 +65,7 @@ def _symbol(metres: float) -> str:
 
 
 def check_page(target: Path, sources: tuple[Path, ...] = ()) -> None:
-    """Refuse, before any work is done, a page that could not be written at the end, or is not named
-    .html.
-    """
+    """Refuse, before any work is done, a page not named .html or not to be written at the end."""
     check_output(target, sources)
     if target.suffix.lower() not in (".html", ".htm"):
         raise BareEarthError(f"Cannot write {target}: the page is HTML, name it .html.")
@@ -110,9 +104,7 @@ def data_uri(pixels: np.ndarray) -> str:
 
 
 def map_figure(picture: Picture, name: str, caption: str = "", units: Units = Units()) -> str:
-    """Return a map with a scale bar below it; name, the alternative text, and caption are plain
-    text.
-    """
+    """Return a map with a scale bar; name (alternative text) and caption are plain text."""
     width = picture.pixels.shape[1] * picture.cell_size / units.horizontal
     length = round_length(width / 4)
     above = f"<figcaption>{text(caption)}</figcaption>" if caption else ""

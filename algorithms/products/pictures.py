@@ -45,9 +45,7 @@ class Relief:
 
     @classmethod
     def of(cls, points: Points, longest_side: int = LONGEST_SIDE) -> Relief:
-        """Return the relief of points, at least one, with so many pixels at most along the longer
-        side.
-        """
+        """Return the relief of points, at least one, with most pixels along the longer side."""
         width, height = points.sides
         spacing = _SPACINGS * np.sqrt(width * height / points.count)
         cell = max(spacing, max(width, height) / longest_side) or 1.0
@@ -105,9 +103,7 @@ def ramped(values: np.ndarray, colours: Sequence[str], low: float, high: float) 
 
 
 def reduced(values: np.ndarray, step: int, is_worst: bool = False) -> np.ndarray:
-    """Return the mean, or with `is_worst` the greatest value, of each square with a side of `step`
-    cells; NaN is left out.
-    """
+    """Return the mean, or the worst (greatest), of squares of `step` cells a side, without NaN."""
     rows, columns = values.shape
     padded = np.pad(values, ((0, -rows % step), (0, -columns % step)), constant_values=np.nan)
     height, width = padded.shape

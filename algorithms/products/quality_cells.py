@@ -130,9 +130,7 @@ class Counts:
 
 
 class QualityCells:
-    """The cells of a survey, on the grids of `sizes`; synthetic points count if all are, as those
-    of images.
-    """
+    """The cells of a survey; synthetic points count only if all are, as those of images."""
 
     # points, first, ground_points, low: uint32 (rows, columns), numbers of points, first returns,
     # ground points and points of low vegetation in each cell; rows from south to north, as

@@ -197,9 +197,7 @@ def _spread(squares: np.ndarray, side: int, shape: tuple[int, int]) -> np.ndarra
 def figures_of(
     cells: QualityCells, extent: Extent, asked: Specification, void: float
 ) -> dict[str, Any]:
-    """Return the figures of cells, by the names of `Quality`; ground is missing from `void` metres
-    on.
-    """
+    """Return figures of cells, by names of `Quality`; ground is missing from `void` metres on."""
     side = 2 * cells.sizes.cell
     sums, far, dry, dense = np.zeros(3), 0.0, 0, 0
     names = {"first": extent.pulses, "points": extent.pulses, "ground_points": extent.inner}

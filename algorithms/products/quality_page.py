@@ -54,9 +54,7 @@ def quality_html(
     void: float,
     survey: Survey,
 ) -> str:
-    """Return the page about the quality of a survey, of which ground is missing from `void` metres
-    on.
-    """
+    """Return the page about the quality of a survey; ground is missing from `void` metres on."""
     parts = [_comparison(found, asked), _figures(found), _maps(cells, extent, void, survey)]
     return page_html("Quality of the survey", "\n".join([*parts, _files(found, survey)]), _STYLE)
 

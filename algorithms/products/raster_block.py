@@ -87,9 +87,7 @@ class RasterStep:
         edges: np.ndarray | None = None,
         progress: Progress = SILENT,
     ) -> BlockRasters:
-        """Return the rasters of a block, a box in the frame of the survey, from points as in
-        `Seen`.
-        """
+        """Return the rasters of a block, a box in the frame of the survey; see `Seen`."""
         window = CellWindow.with_centres_in(_within(box, points, corner, self.cell), self.cell)
         seen = Seen(window, points, ground, top, core, corner, edges)
         made, loose = {HELD: _held(self, seen)}, {}

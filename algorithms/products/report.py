@@ -33,9 +33,7 @@ def write_report(
     progress: Progress = SILENT,
     units: Units = Units(),
 ) -> None:
-    """Write the report of the assessment of two files, the classified one and the reference, as a
-    .html file.
-    """
+    """Write the report of an assessment, of the classified file and the reference, as .html."""
     picture = draw_errors(points, comparison, progress.part(0.0, 0.7))
     text = report_html(assessment, picture, options, files, units)
     progress(0.95)

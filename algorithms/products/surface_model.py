@@ -68,16 +68,12 @@ class SurfaceModel(ParameterSet):
 
 
 def canopy_height(surface: np.ndarray, terrain: np.ndarray) -> np.ndarray:
-    """Return the height of the surface above the terrain on the same grid, 0 where it lies below,
-    NaN where there is none.
-    """
+    """Return the height of the surface above the terrain, 0 below it, NaN where one has none."""
     return np.maximum(surface - terrain, 0.0)
 
 
 def without_pits(canopy: np.ndarray) -> np.ndarray:
-    """Return canopy heights with pits filled, nowhere lower, of the same type and shape; NaN counts
-    as 0 for the neighbours.
-    """
+    """Return canopy heights with pits filled, nowhere lower; NaN counts as 0 for neighbours."""
     # As Ben-Arie et al. (2009), "Development of a pit filling algorithm for LiDAR canopy height
     # models", Computers & Geosciences 35(9), the Laplacian of the heights finds the pits, and the
     # median of the neighbours fills them. The median keeps the borders of crowns and buildings. The

@@ -68,9 +68,7 @@ class SurveyGround:
         progress: Progress = SILENT,
         stated: str | None = None,
     ) -> SurveyGround:
-        """Open the files, see `open_survey`; all must be readable, as the part of another one would
-        look like a void.
-        """
+        """Open the files, of which all must be readable: one that is not looks like a void."""
         survey = open_survey(sources, progress=progress, stated=stated)
         if survey.broken:
             raise BareEarthError(survey.broken[0].reason)
@@ -191,9 +189,7 @@ class _CellsRound:
 
 
 class _Nearest:
-    """The nearest points, at most `count` and `reach` metres away, of each place, shape (q, 2), in
-    metres.
-    """
+    """The `count` nearest points, at most `reach` away, of places, shape (q, 2), in metres."""
 
     def __init__(self, places: np.ndarray, count: int, reach: float) -> None:
         self.places, self.count, self._reach = places, count, reach

@@ -55,9 +55,7 @@ def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
 
 
 def _across(seen: np.ndarray, joined: np.ndarray, hiding: np.ndarray, most: float) -> np.ndarray:
-    """Return cells below a deck straight between pieces of water that are not joined yet and at
-    most `most` cells apart.
-    """
+    """Return cells below a deck straight between parts of water, `most` cells apart, not joined."""
     # A disc reaches between the pieces of a stream that is narrower than the deck.
     from scipy.ndimage import label
     from scipy.spatial import Delaunay, cKDTree

@@ -6,9 +6,7 @@ import numpy as np
 
 
 def surveyed(full: np.ndarray) -> np.ndarray:
-    """Return which cells of a box lie within the survey, the convex hull of the cells with points;
-    bool (rows, columns).
-    """
+    """Return which cells lie within the survey, the convex hull of the cells with points."""
     rows, columns = full.shape
     low, high = np.zeros(rows), np.full(rows, float(columns))
     middles = np.arange(rows) + 0.5

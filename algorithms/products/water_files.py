@@ -107,9 +107,7 @@ class SurveyWater:
     def of(
         cls, sources: Sequence[Path], request: WaterRequest, progress: Progress = SILENT
     ) -> SurveyWater:
-        """Find the water of a survey with ground; points are read in parts, so that memory depends
-        on the area only.
-        """
+        """Find the water of a survey, read in parts, so that memory depends on the area only."""
         survey = SurveyGround.of(sources, request.ground, progress.part(0.0, 0.05), request.crs)
         unit, tiles = survey.frame.horizontal_unit, survey.survey.tiles
         boxes = np.array([each.outer_box for each in tiles]) * unit

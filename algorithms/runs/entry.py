@@ -261,9 +261,7 @@ def write(
     as_survey: bool | None = None,
     vpc: Path | None = None,
 ) -> Any:
-    """Do what `heights`, `key_points` and such do, as the type of the request says; for `vpc`, see
-    `classify`.
-    """
+    """Do what `heights` and such do, as the type of the request says; for `vpc`, see `classify`."""
     paths, target = _paths(sources), Path(output)
     if _is_one(paths, as_survey):
         return write_points(paths[0], target, request, progress)

@@ -233,9 +233,7 @@ def _summary(result: TileResult, counts: Any) -> Summary:
 def write_points(
     source: Path, target: Path, request: PointRequest, progress: Progress = SILENT
 ) -> Any:
-    """Write a file with the values that a step finds for its points, such as heights, and return
-    the summary of the step.
-    """
+    """Write a file with the values that a step finds for its points; return the step's summary."""
     las, resources = _checked(source, target, request), request.resources.now()
     with _worked(las, target, [request.step], resources, progress.part(0.0, 0.9)) as run:
         result = run.written(target, progress.part(0.9, 1.0))

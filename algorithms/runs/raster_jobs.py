@@ -92,9 +92,7 @@ def _store(file: Path, made: Sequence[BlockRasters]) -> None:
 
 
 class _StoredArrays(Mapping[str, np.ndarray]):
-    """Arrays that are read from a file of `_store` each time they are used, where their names have
-    the prefix `start`.
-    """
+    """Arrays with names from `start` on, read from a file of `_store` whenever they are used."""
 
     def __init__(self, file: Path, start: str) -> None:
         self._file, self._start = file, start

@@ -64,9 +64,7 @@ class MapSummary(NamedTuple):
 def make_maps(
     sources: Sequence[Path], files: MapFiles, request: MapRequest, progress: Progress = SILENT
 ) -> MapSummary:
-    """Classify the ground of a point cloud, of one file or of the files of a survey, and make maps
-    of its terrain.
-    """
+    """Classify the ground of a file, or of those of a survey, and make maps of its terrain."""
     wanted = [files.cloud, *files.rasters.wanted.values(), files.contours]
     folders = [path.parent for path in wanted if path]
     beside = next((each for each in folders if each.is_dir()), Path(tempfile.gettempdir()))

@@ -26,9 +26,7 @@ def described(rules: tuple[str, ...]) -> str:
 
 
 def rules_in(description: str) -> dict[int, str]:
-    """Return the names of the rules in the description of a band, by their numbers; none for bands
-    of other rasters.
-    """
+    """Return the names of rules in the description of a band, by number; else none."""
     if not description.startswith(_MEANING):
         return {}
     rules = (rule.split(" ", 1) for rule in description[len(_MEANING) :].split(", "))
@@ -85,9 +83,7 @@ class Explanation:
         self._parts.append(cells)
 
     def write(self, path: Path, frame: Frame, progress: Progress) -> None:
-        """Write the codes of all cells, if rules work on cells, as a raster whose band lists the
-        names of the rules.
-        """
+        """Write the codes of all cells as a raster whose band lists the names of rules."""
         parts = [part for part in self._parts if part.code.any()]
         if not parts:
             raise BareEarthError(

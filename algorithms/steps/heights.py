@@ -124,9 +124,7 @@ class MeasureHeights(PointStep):
 
 
 class HeightsOfPoints(PointResult):
-    """The heights above ground of the points of a file; `allocate` returns an array of one value
-    for each point.
-    """
+    """The heights above ground of a file; `allocate` returns an array, one value a point."""
 
     def __init__(self, step: MeasureHeights, allocate: Allocate) -> None:
         self._step, self._as_z = step, step.output.output_as == "z"
@@ -206,9 +204,7 @@ def _above_raster(part: PointCloud, raster: HeightSampler) -> np.ndarray:
 
 
 def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return heights as integers in the scale of the file, and their offset, that of the file if
-    they fit.
-    """
+    """Return heights as integers in the scale of the file, and its offset, or else their own."""
     # That offset suits elevations: with a fine scale, heights far from it would need larger
     # integers.
     if np.isnan(heights).any():

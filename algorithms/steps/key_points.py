@@ -133,9 +133,7 @@ class FindKeyPoints(PointStep):
 
 
 class KeyPointsOfPoints(PointResult):
-    """The key points among the points of a file; `allocate` returns an array of one value for each
-    point.
-    """
+    """The key points of a file; `allocate` returns an array of one value for each point."""
 
     def __init__(self, step: FindKeyPoints, allocate: Allocate) -> None:
         self._step = step

@@ -237,9 +237,7 @@ class ClassifiedPoints(PointResult):
         return not (self.area_ground_count if self._step.output.ground_only else self.area_count)
 
     def check(self, why: str = "") -> None:
-        """Refuse to write a file without ground, unless it is at the border of an area, where few
-        of its points may be.
-        """
+        """Refuse a file without ground, unless few of its points may be in the area."""
         if self._has_ground:
             return
         if self._step.area is None or (why and self.area_count):
@@ -265,9 +263,7 @@ class ClassifiedPoints(PointResult):
             progress.info(f"{counted(self.area_deck_count, *words)} not ground.")
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return which points are written, or refuse an output without any point or without heights
-        that are wanted.
-        """
+        """Return which points are written; refuse none, and heights without ground."""
         output, count, ground = self._step.output, self._count, self._ground_count
         if output.area_only:
             count, ground = self.area_count, self.area_ground_count

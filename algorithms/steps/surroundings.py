@@ -29,9 +29,7 @@ def near(box: Box) -> Box:
 
 
 def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
-    """Return the points of a block and its buffer, without most of those far from `box`, the result
-    of `near`.
-    """
+    """Return the points of a block and its buffer, without most of those far from a `near` box."""
     if not contents.points.count or contents.points.are_within(box):
         return contents
     stays = contents.points.within(box)

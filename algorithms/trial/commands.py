@@ -16,9 +16,7 @@ _MANY_FILES = "bareearth:classifytiles"
 
 
 def commands_for(paths: Sequence[Path], setting: Setting, crs: str | None = None) -> Commands:
-    """Return the commands that run a setting on all points of one file, or of the inputs of a
-    survey.
-    """
+    """Return the commands that run a setting on all points of a file, or inputs of a survey."""
     method, preset, is_one = setting.method.name, setting.preset, is_one_file(paths)
     output, options = _output(paths[0], setting, is_one), ["--method", method, "--preset", preset]
     options += ["--crs", crs] if crs else []

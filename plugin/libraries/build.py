@@ -38,9 +38,7 @@ class Build:
 
     @property
     def name(self) -> str:
-        """Return a short name, different for builds that need different compiled packages, such as
-        cp311-linux_x86_64.
-        """
+        """Return a short name of what compiled packages depend on, as cp311-linux_x86_64."""
         # The platform of 32-bit Windows is "win32", without a processor.
         return "-".join([self._python, "_".join(filter(None, [self.system, self.machine]))])
 

@@ -57,9 +57,7 @@ def replace(folder: Path, new: Path) -> bool:
 
 
 def delete(folder: Path) -> bool:
-    """Delete a folder and return True, or mark it to be deleted at the next start, and not to be
-    used until then.
-    """
+    """Delete a folder and return True, or mark it as unused, to be deleted at the next start."""
     if take_from_path(folder):  # Windows keeps what is loaded, there is nothing to wait for
         shutil.rmtree(folder, ignore_errors=True)
     else:

@@ -18,9 +18,7 @@ REQUIREMENTS = Path(__file__).parents[2] / "requirements.txt"
 
 
 class LazSupport:
-    """Installs and removes lazrs in the user's profile of QGIS, and tells whether it is
-    installed.
-    """
+    """Installs and removes lazrs in the user's profile of QGIS, and tells whether it is there."""
 
     def __init__(self, profile: Path) -> None:
         self.folder = folders.profile_folder(profile)
@@ -52,9 +50,7 @@ class LazSupport:
         folders.add_to_path(self.folder)
 
     def get_by_pip(self, run: pip.Run, proxy: str = "") -> None:
-        """Install lazrs from the package index, or leave nothing behind and raise the reason;
-        `proxy` may be empty.
-        """
+        """Install lazrs from the package index, or raise the reason and leave nothing."""
         self._fill(
             lambda new, scratch: pip.get_by_pip(
                 REQUIREMENTS, new, scratch, run, proxy, Build.here()

@@ -59,9 +59,7 @@ def add_area(
     advanced: Sequence[str] = ("BOUNDARY",),
     helps: Mapping[str, str] = {},
 ) -> None:
-    """Add the fields of an area to a dialog, of which some, by name, are advanced or have another
-    help than usual.
-    """
+    """Add the fields of an area to a dialog, some, by name, advanced or with other helps."""
     extent, boundary = (label for label, _ in _AREA_FIELDS.values())
     fields = (
         QgsProcessingParameterExtent("EXTENT", extent, None, True),

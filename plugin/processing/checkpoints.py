@@ -123,9 +123,7 @@ def residuals_path(
 def judgement_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> dict[str, Any]:
-    """Return the values of `add_judgement`, as `CheckRequest` takes them; refuse a raster that is
-    not a file.
-    """
+    """Return the values of `add_judgement` for `CheckRequest`; the raster must be a file."""
     text, sure = algorithm.parameterAsString(parameters, _VEGETATED, context), None
     if not compat.is_empty(parameters.get(_CONFIDENCE)):
         refusal = mark("The confidence is not a file. Export it as GeoTIFF first.")

@@ -54,9 +54,7 @@ def corrections_of(
     crs: CloudCrs,
     progress: Progress = SILENT,
 ) -> Corrections:
-    """Return the corrections in the fields, in the CRS of the points; a message says how to give
-    them in the command line.
-    """
+    """Return the corrections in the CRS of the points, and tell how commands take them."""
     if compat.is_empty(parameters.get(_LAYER)):
         return NO_CORRECTIONS
     name = algorithm.parameterAsString(parameters, _FIELD, context) or CLASS_FIELD

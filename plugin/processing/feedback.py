@@ -89,9 +89,7 @@ class FeedbackProgress(Progress):
         return tuple(self._commands)
 
     def end(self, class_counts: Mapping[int, int]) -> None:
-        """Write the end of the log: points of each class, if a cloud was made, automatic choices,
-        time and commands.
-        """
+        """End the log with points of each class, automatic choices, time and commands."""
         every = max(sum(class_counts.values()), 1)
         for value in sorted(class_counts, key=lambda value: (value != _GROUND, value)):
             count, name = class_counts[value], CLASSES.get(value, "")

@@ -113,9 +113,7 @@ def parameters_of(
     parameters: dict[str, Any],
     context: QgsProcessingContext,
 ) -> ParameterSet:
-    """Return the declared parameters with the values of the user, or refuse one that is not
-    allowed.
-    """
+    """Return the declared parameters with the values of the user, if these are allowed."""
     return declared(
         **{
             each.name: _value(algorithm, each, parameters, context)

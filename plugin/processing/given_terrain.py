@@ -30,9 +30,7 @@ def add_terrain(algorithm: QgsProcessingAlgorithm, text: str = "") -> None:
 def terrain_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> str:
-    """Return the file of the raster, or refuse a layer that is not a file; empty if there
-    is none.
-    """
+    """Return the file of the raster, empty if there is none; refuse a layer that is no file."""
     if compat.is_empty(parameters.get(DTM)):
         return ""
     text = mark("The terrain model is not a file. Export it as GeoTIFF first.")

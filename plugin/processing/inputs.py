@@ -181,9 +181,7 @@ def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
 def clouds_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> list[Path]:
-    """Return the inputs in the fields of `add_clouds`: files and folders, at least one, which must
-    exist.
-    """
+    """Return the inputs in the fields of `add_clouds`, files and folders that must exist."""
     texts = algorithm.parameterAsFileList(parameters, "INPUT", context)
     texts.append(algorithm.parameterAsString(parameters, "INPUT_FOLDER", context))
     paths = []
@@ -219,9 +217,7 @@ class CloudCrs:
 
     @functools.cached_property
     def value(self) -> QgsCoordinateReferenceSystem:
-        """The CRS; if no file states one, an invalid CRS, so that nothing is transformed; an error
-        if no file can be read.
-        """
+        """The CRS, or if no file states one, an invalid one, so that nothing is transformed."""
         if self.stated:
             return crs_of_text(self.stated)
         crs = self._of_files()
@@ -247,9 +243,7 @@ def features_of(
     context: QgsProcessingContext,
     attributes: Sequence[str] = (),
 ) -> Iterator[QgsFeature]:
-    """Yield the features of a layer, transformed to a CRS, with some attributes; errors name its
-    label.
-    """
+    """Yield features of a layer, transformed to a CRS, with some attributes; errors name it."""
     if source is None:
         raise Refusal(mark('The layer "{}" cannot be read.'), label)
     request = QgsFeatureRequest().setSubsetOfAttributes(attributes, source.fields())
@@ -303,8 +297,8 @@ def layer_shapes(
     """Return the polygons (rings, float64 (n, 2)) or lines (x, y, and z or NaN, (n, 3)) of the
     layer in a field, in the CRS of the points, and an attribute of each.
     """
-    # Geometries of other kinds are not used, but refused if there are no others, and none is
-    # refused unless the layer may be empty.
+    # Geometries of other kinds are not used; a layer with only these is refused, and an empty one
+    # unless it may be empty.
     source = algorithm.parameterAsSource(parameters, name, context)
     shape, corners_of, refusal = _KINDS[kind]
     attributes, found, others = [attribute] if attribute else [], [], 0

@@ -33,9 +33,7 @@ def check_outputs(
     context: QgsProcessingContext,
     sources: Sequence[Path],
 ) -> None:
-    """Refuse, as the run would, files whose folder does not exist, or whose ending or name is not
-    suitable.
-    """
+    """Refuse, as the run would, files in missing folders or with unsuitable names or endings."""
     for output in algorithm.destinationParameterDefinitions():
         path = given_path(parameters.get(output.name()), context)
         if path is None:

@@ -94,9 +94,7 @@ class ProductAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> dict[str, Any]:
-        """Show the output point cloud, as `cloud_output` returned it, and return the outputs of the
-        algorithm.
-        """
+        """Show the point cloud of `cloud_output`; return the outputs of the algorithm."""
         progress.info(summary.text)
         if not is_one_file(self.inputs):
             output = summary.vpc

@@ -42,9 +42,7 @@ def raster_target_of(
     context: QgsProcessingContext,
     crs: CloudCrs,
 ) -> RasterTarget:
-    """Return what is in the fields, with the extent in the CRS of the points; refuse a raster that
-    is not a file.
-    """
+    """Return what is in the fields, in the CRS of the points; the raster must be a file."""
     like = extent = None
     if not compat.is_empty(parameters.get(_LIKE)):
         text = mark("The raster with the grid to use is not a file. Export it as GeoTIFF first.")

@@ -88,9 +88,7 @@ _WORDS = {
 
 
 def words_of(identifier: str) -> list[str]:
-    """Return the words for an algorithm, by the second half of its id, in English and in the user's
-    language.
-    """
+    """Return the words for an algorithm, by half of its id, in English and the user's language."""
     groups = _WORDS[identifier]
     words = (word for group in groups for text in (group, tr(group)) for word in text.split(","))
     return list(dict.fromkeys(words))

@@ -249,9 +249,7 @@ class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
 
 
 class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
-    """The box of QGIS for a layer or file, where a point cloud of the project is chosen at
-    first.
-    """
+    """The box of QGIS for a layer or file, first of which is a point cloud of the project."""
 
     def createWidget(self) -> QWidget:
         """Return the box, which offers point clouds only."""

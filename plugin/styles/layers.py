@@ -157,9 +157,7 @@ def arrange(
     stage: Stage,
     origin: Origin,
 ) -> None:
-    """Give looks, by path, to the layers of a run that QGIS will load, and a group if there are
-    several.
-    """
+    """Give looks, by path, to the layers of a run, and a group if there are several."""
     # Layers that show the same files already are reloaded. They keep their names and places. A
     # layer with another name than QGIS gives it (`labels`) got it from a model. It keeps this name,
     # and is not put into the group. Steps of models set the origin of their layers before.

@@ -226,9 +226,7 @@ def strip_differences(layer: QgsRasterLayer) -> None:
 
 
 def _cut(layer: QgsRasterLayer, least: float = _LEAST_RANGE) -> tuple[float, float]:
-    """Return the limits of the values, at least so far apart, without the few lowest and
-    highest.
-    """
+    """Return the limits of the values, at least so far apart, without few lowest and highest."""
     # The method of QGIS is not used, because GDAL would store a histogram beside the file. A new
     # file with the same name would get the limits of the old one.
     raster = gdal.Open(layer.source())

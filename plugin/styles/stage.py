@@ -60,9 +60,7 @@ class Stage:
         return any(loaded.is_same(Path(path), each.path) for each in self._sources)
 
     def reload(self, dresses: Mapping[str, Callable[[QgsMapLayer], None]]) -> None:
-        """Reload the layers that show the files of the run, in any thread; dresses give the layers
-        of files their styles.
-        """
+        """Reload the layers that show files of the run, and dress them; any thread may."""
         project, places, released = self._project, self._places, self._released
         styles = {Path(path): dress for path, dress in dresses.items()}
         if project is None:
