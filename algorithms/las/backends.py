@@ -26,24 +26,12 @@ _PURPOSES = {
 
 
 def missing_packages(packages: Iterable[str] = READING) -> list[str]:
-    """Return the `packages` that this Python does not have.
-
-    Examples
-    --------
-    >>> missing_packages(["sys", "no_such_package"])
-    ['no_such_package']
-    """
+    """Return the `packages` that this Python does not have."""
     return [name for name in packages if importlib.util.find_spec(name) is None]
 
 
 def require(*packages: str) -> None:
-    """Raise an error if one of `packages` is missing.
-
-    Raises
-    ------
-    BareEarthError
-        If one is missing. The text tells how to install it here.
-    """
+    """Raise an error that tells how to install `packages` here if one is missing."""
     missing = missing_packages(packages)
     if missing:
         purpose = _PURPOSES.get(missing[0], "this")
@@ -55,11 +43,9 @@ def require(*packages: str) -> None:
 
 
 def install_hint(packages: Iterable[str]) -> str:
-    """Return a sentence that tells how to install `packages` for this Python.
-
-    Inside QGIS, the plugin installs lazrs and contains laspy. numpy and scipy belong to QGIS, and
-    come from its own source.
-    """
+    """Return a sentence that tells how to install `packages` for this Python."""
+    # Inside QGIS, the plugin installs lazrs and contains laspy. numpy and scipy belong to QGIS, and
+    # come from its own source.
     missing = list(packages)
     if not _inside_qgis():
         command = f"{_quoted(sys.executable)} -m pip install {' '.join(missing)}"

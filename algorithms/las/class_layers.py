@@ -35,30 +35,16 @@ _POINTS_A_GROUP = 1_000_000
 
 
 class Chunk(NamedTuple):
-    """Points that are compressed together.
+    """Points that are compressed together."""
 
-    Attributes
-    ----------
-    start, end : int
-        Indices of its points in the file.
-    place, size : int
-        Position of its bytes in the file, and their number.
-    """
-
-    start: int
-    end: int
-    place: int
-    size: int
+    start: int  # index of its first point in the file
+    end: int  # index after its last point
+    place: int  # position of its bytes in the file
+    size: int  # bytes
 
 
 def class_layers(layout: LasFile) -> ClassLayers | None:
-    """Return the layers of the classes of a file; None if they cannot be replaced.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read.
-    """
+    """Return the layers of the classes of a file; None if they cannot be replaced."""
     if not layout.layers:
         return None
     head, chunks, start, place = layout.chunk_head, [], 0, layout.points_start + 8
@@ -77,53 +63,20 @@ def class_layers(layout: LasFile) -> ClassLayers | None:
 
 
 class ClassLayers:
-    """The layers of classes in a file, which can be replaced.
-
-    Parameters
-    ----------
-    layout : LasFile
-        The file.
-    chunks : list of Chunk
-        All of its chunks, in order.
-
-    Attributes
-    ----------
-    chunks : list of Chunk
-        As given.
-    moved : dict of int to tuple of int
-        Position and size in the output of each written chunk, by its `place`.
-    """
+    """The layers of classes in all chunks of a file, in order, which can be replaced."""
 
     def __init__(self, layout: LasFile, chunks: list[Chunk]) -> None:
         self._layout, self.chunks = layout, chunks
-        self.moved: dict[int, tuple[int, int]] = {}
+        self.moved: dict[int, tuple[int, int]] = {}  # position and size in the output, by `place`
 
     def write(
         self, file: BinaryIO, classes: np.ndarray, cloud: PointCloud | None = None
     ) -> Iterator[float]:
-        """Write the points with new classes, at the current position of the file.
-
-        Parameters
-        ----------
-        file : file object
-            The output, after header and VLRs, which describe the same compression.
-        classes : numpy.ndarray of uint8, shape (n,)
-            The class of each point.
-        cloud : PointCloud, optional
-            The points. If it is not given or holds only some points, the returns are read again.
-
-        Yields
-        ------
-        float
-            Share of the points written so far.
-
-        Raises
-        ------
-        BareEarthError
-            If the file is damaged.
-        OSError
-            If the output cannot be written.
+        """Write the points with new classes, uint8 (n,), at the position of the file after header
+        and VLRs; yield the share written so far.
         """
+        # The header describes the same compression. If no cloud is given, or one with only some
+        # points, the returns are read again.
         import lazrs
 
         table, layout = file.tell(), self._layout
@@ -179,11 +132,8 @@ class ClassLayers:
 def _returns(
     layout: LasFile, groups: Iterable[Sequence[Chunk]], cloud: PointCloud | None
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Yield for each group of chunks the fields that decide how classes are coded.
-
-    Yields
-    ------
-    return_number, number_of_returns, scanner_channel : numpy.ndarray of uint8, shape (k,)
+    """Yield for each group of chunks what decides how classes are coded: return number, number of
+    returns and scanner channel, each uint8 (k,).
     """
     pieces = [slice(group[0].start, group[-1].end) for group in groups]
     has_them = cloud is not None and cloud.count == layout.count and not cloud.from_zero

@@ -30,67 +30,33 @@ _WHOLE = 0.01
 
 @dataclass
 class PointCloud:
-    """The points of one file in file order, 16 to 19 bytes each.
-
-    Attributes
-    ----------
-    path : Path
-        The file of the points.
-    x, y, z : numpy.ndarray of int32, shape (n,)
-        Coordinates as in the file.
-    scale, offset : tuple of float
-        A coordinate in the CRS is the integer times scale plus offset, each for x, y and z.
-    classification : numpy.ndarray of uint8, shape (n,)
-        Class of each point.
-    return_number, number_of_returns : numpy.ndarray of uint8, shape (n,)
-        Return number of each point, and number of returns of its pulse.
-    withheld : numpy.ndarray of bool, shape (n,)
-        Points that the producer excluded.
-    point_format : int
-        LAS point format, 0 to 10.
-    crs : Crs
-        The coordinate reference system.
-    scanner_channel : numpy.ndarray of uint8, shape (n,), optional
-        Scanner channel of each point, if the point format has it (6 to 10) and it was read.
-    overlap : numpy.ndarray of bool, shape (n,), optional
-        Points in the overlap of flight strips, if the point format has this flag (6 to 10).
-    remembered : numpy.ndarray of uint8, shape (n,), optional
-        The class that an earlier run gave each point, if the file has the dimension `REMEMBERED`.
-    gps_time : numpy.ndarray of float64, shape (n,), optional
-        GPS time of each point, if it was read.
-    strip : numpy.ndarray of uint16, shape (n,), optional
-        Flight strip of each point (point source id), if it was read.
-    synthetic : numpy.ndarray of bool, shape (n,), optional
-        Points that were made, and not measured, if it was read.
-    records : numpy.ndarray of uint8, shape (n, record length), optional
-        The records of the file, if they were kept for writing.
-    file : LasFile, optional
-        The opened file.
-    from_zero : bool
-        Whether return numbers of the file begin at 0, so that each is one higher here.
-    """
+    """The points of one file in file order, 16 to 19 bytes each."""
 
     path: Path
-    x: np.ndarray
-    y: np.ndarray
-    z: np.ndarray
-    scale: tuple[float, float, float]
-    offset: tuple[float, float, float]
-    classification: np.ndarray
-    return_number: np.ndarray
-    number_of_returns: np.ndarray
-    withheld: np.ndarray
-    point_format: int
+    x: np.ndarray  # int32 (n,), as in the file
+    y: np.ndarray  # int32 (n,)
+    z: np.ndarray  # int32 (n,)
+    scale: tuple[float, float, float]  # of x, y and z; the CRS has integer times scale plus offset
+    offset: tuple[float, float, float]  # in units of the CRS
+    classification: np.ndarray  # uint8 (n,)
+    return_number: np.ndarray  # uint8 (n,)
+    number_of_returns: np.ndarray  # uint8 (n,), of the pulse of each point
+    withheld: np.ndarray  # bool (n,), points that the producer excluded
+    point_format: int  # 0 to 10
     crs: Crs
+    # uint8 (n,), of point formats 6 to 10, if it was read.
     scanner_channel: np.ndarray | None = None
+    # bool (n,), overlap of flight strips, of point formats 6 to 10.
     overlap: np.ndarray | None = None
+    # uint8 (n,), classes of an earlier run, the dimension `REMEMBERED`.
     remembered: np.ndarray | None = None
-    gps_time: np.ndarray | None = None
+    gps_time: np.ndarray | None = None  # float64 (n,), if it was read
+    # uint16 (n,), flight strips (point source ids), if they were read.
     strip: np.ndarray | None = None
-    synthetic: np.ndarray | None = None
-    records: np.ndarray | None = None
+    synthetic: np.ndarray | None = None  # bool (n,), points made and not measured, if it was read
+    records: np.ndarray | None = None  # uint8 (n, record length), if they were kept for writing
     file: LasFile | None = None
-    from_zero: bool = False
+    from_zero: bool = False  # whether returns of the file begin at 0; all are one higher here
 
     @property
     def count(self) -> int:
@@ -141,10 +107,8 @@ class PointCloud:
 
     @property
     def frame(self) -> Frame:
-        """The default frame of `points`, with its origin near the smallest x and y.
-
-        The origin is a multiple of a large number, so that it hardly depends on the extent.
-        """
+        """The default frame of `points`, with its origin near the smallest x and y."""
+        # The origin is a multiple of a large number, so that it hardly depends on the extent.
         origin = tuple(
             math.floor((minimum * scale + offset) / _ORIGINS) * _ORIGINS
             for minimum, scale, offset in zip(self.lowest, self.scale, self.offset)
@@ -152,21 +116,10 @@ class PointCloud:
         return replace(survey_frame(self.crs), origin=origin)
 
     def points(self, which: np.ndarray | slice, frame: Frame | None = None) -> Points:
-        """Return coordinates in metres, relative to the origin of a frame.
-
-        Parameters
-        ----------
-        which : numpy.ndarray or slice
-            Boolean mask or indices of the points to return.
-        frame : Frame, optional
-            The frame of the survey; by default `frame`. Files with equal scales give equal numbers
-            for equal places, whatever their offsets.
-
-        Raises
-        ------
-        BareEarthError
-            If the CRS is not projected.
+        """Return the points of a mask or indices in metres from the origin of a frame, that of the
+        survey, by default `frame`; refuse a CRS that is not projected.
         """
+        # Files with equal scales give equal numbers for equal places, whatever their offsets.
         return Points(*self._metres(which, frame, 3))
 
     def places(
@@ -215,13 +168,7 @@ class PointCloud:
         ]
 
     def require_projected(self) -> None:
-        """Refuse coordinates in which distances cannot be measured, such as degrees.
-
-        Raises
-        ------
-        BareEarthError
-            If the CRS is not projected, or its lengths are far too long or too short.
-        """
+        """Refuse coordinates in which distances cannot be measured, such as degrees."""
         require_measurable(self.path, self.crs, self.file.box if self.file else None)
 
 
@@ -237,32 +184,21 @@ def joined(parts: Sequence[PointCloud]) -> PointCloud:
 
 
 def survey_frame(crs: Crs, origin: tuple[float, float] = (0.0, 0.0)) -> Frame:
-    """Return the frame of a survey and its blocks, with its origin at (0, 0) of the CRS.
-
-    Rasters whose cells do not begin there have another origin, in units of the CRS.
+    """Return the frame of a survey and its blocks, with its origin at (0, 0) of the CRS, or where
+    the cells of a raster begin, in units of the CRS.
     """
     return Frame(origin, crs.horizontal_unit, crs.vertical_unit, crs.wkt)
 
 
 class _Axis(NamedTuple):
-    """Converts integers to metres.
+    """Converts integers to metres."""
 
-    If the offset is a multiple of the scale, it is added to the integers. So no digits are lost,
-    and equal places give equal numbers, whatever the offset.
+    # If the offset is a multiple of the scale, it is added to the integers. So no digits are lost,
+    # and equal places give equal numbers, whatever the offset.
 
-    Attributes
-    ----------
-    whole : float
-        Added to the integers.
-    scale : float
-        Metres in one unit of the integers.
-    rest : float
-        Metres added at the end.
-    """
-
-    whole: float
-    scale: float
-    rest: float
+    whole: float  # added to the integers
+    scale: float  # metres in one unit of the integers
+    rest: float  # metres added at the end
 
     @classmethod
     def of(cls, scale: float, offset: float, start: float, unit: float) -> _Axis:

@@ -61,32 +61,12 @@ def write_copc(
     progress: Progress = SILENT,
     memory: int | None = None,
 ) -> None:
-    """Write a file with its changes as COPC.
-
-    The order of the points changes. Scale, offset, integers, extra bytes and records stay, except
-    for the changes.
-
-    Parameters
-    ----------
-    rewriting : EditedFile
-        The input and its changes.
-    target : Path
-        The file to make.
-    progress : Progress
-        Receives progress, and warnings about what COPC cannot hold.
-    memory : int, optional
-        About how many bytes of memory to use. Further points wait in a temporary file beside the
-        target. By default all points are in memory. The output does not depend on it.
-
-    Raises
-    ------
-    BareEarthError
-        If the input is damaged.
-    OSError
-        If the output, or the temporary file, cannot be written.
-    Cancelled
-        If the user asked to stop. The caller removes the incomplete file.
+    """Write a file with its changes as COPC, with about so many bytes of memory, by default all
+    points; the caller removes a file that is incomplete after an error or a cancel.
     """
+    # The order of the points changes. Scale, offset, integers, extra bytes and records stay, except
+    # for the changes. Points for which there is no memory wait in a temporary file beside the
+    # target; the output does not depend on that.
     layout = rewriting.target
     point_format = NEW_FORMATS[layout.point_format]
     tell_of_format(layout, point_format, progress)

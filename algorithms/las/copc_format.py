@@ -67,11 +67,9 @@ class Statistics(HeaderCounts):
 
     @property
     def cube(self) -> Cube:
-        """The cube of the octree.
-
-        Its corner has the smallest coordinates of the header, since some readers take these instead
-        of the corner in the info record.
-        """
+        """The cube of the octree."""
+        # Its corner has the smallest coordinates of the header, since some readers take these
+        # instead of the corner in the info record.
         (lowest, highest), scale = self.extent, self._layout.scale
         side = max(float((highest - lowest).max()), *scale)
         return Cube(tuple(lowest.tolist()), side, scale, self._layout.offset)
@@ -94,18 +92,8 @@ def record_length(layout: LasFile) -> int:
 
 
 def convert(layout: LasFile, old: np.ndarray, classes: np.ndarray, new: np.ndarray) -> None:
-    """Convert points with new classes to a point format of COPC.
-
-    Parameters
-    ----------
-    layout : LasFile
-        The file of the old records.
-    old : numpy.ndarray of uint8, shape (n, record length)
-        Records.
-    classes : numpy.ndarray of uint8, shape (n,)
-        The new classes.
-    new : numpy.ndarray of uint8, shape (n, new record length)
-        Zeros, which are filled.
+    """Convert records with new classes to a point format of COPC, in `new`, which holds zeros,
+    uint8 (n, new record length).
     """
     length = RECORD_LENGTHS[NEW_FORMATS[layout.point_format]]
     if layout.point_format >= FIRST_EXTENDED_FORMAT:
@@ -149,7 +137,7 @@ def new_header(layout: LasFile, point_format: int, statistics: Statistics) -> by
 
 
 def new_vlrs(layout: LasFile, point_format: int, progress: Progress) -> list[Vlr]:
-    """Return the records before the points. The first is the info record, still empty."""
+    """Return the records before the points, of which the first is the info record, still empty."""
     kept = [vlr for vlr in layout.vlrs if _is_kept(vlr)]
     wkt = _wkt(layout, progress)
     if wkt is not None:

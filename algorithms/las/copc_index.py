@@ -21,17 +21,8 @@ _ROOT = 40
 
 
 class CopcIndex:
-    """The pages of the hierarchy, which give the position of the points of each node.
-
-    Parameters
-    ----------
-    layout : LasFile
-        A COPC file.
-
-    Raises
-    ------
-    OctreeError
-        If the index is damaged or cannot be kept.
+    """The pages of the hierarchy of a COPC file, which give the position of the points of each
+    node; `OctreeError` if they are damaged or cannot be kept.
     """
 
     def __init__(self, layout: LasFile) -> None:
@@ -50,16 +41,8 @@ class CopcIndex:
         return known.issuperset(zip(*columns))
 
     def write(self, file: BinaryIO, moved: Mapping[int, tuple[int, int]], shift: int) -> None:
-        """Write the index into a file with the same records.
-
-        Parameters
-        ----------
-        file : file object
-            The file.
-        moved : mapping of int to tuple of int
-            New position and size of each chunk, by its old position.
-        shift : int
-            Number of bytes by which the records behind the points have moved.
+        """Write the index into a file whose chunks have moved, given the new position and size of
+        each by its old position, and the records behind them by `shift` bytes.
         """
         for start, entries in self._pages.items():
             entries = entries.copy()

@@ -37,27 +37,17 @@ _DEEPEST = 30
 
 
 class OctreeError(BareEarthError):
-    """The octree is damaged. The points can perhaps still be read as LAZ."""
+    """The octree is damaged, but the points can perhaps still be read as LAZ."""
 
 
 @dataclass(frozen=True)
 class Hierarchy:
-    """The cube of an octree, and the position of its first page.
-
-    Attributes
-    ----------
-    corner : tuple of float
-        Smallest x and y of the cube.
-    side : float
-        Its edge.
-    root : tuple of int
-        Start and size of the first page.
-    """
+    """The cube of an octree, and the position of its first page."""
 
     layout: LasFile
-    corner: tuple[float, float]
+    corner: tuple[float, float]  # smallest x and y of the cube
     side: float
-    root: tuple[int, int]
+    root: tuple[int, int]  # start and size of the first page
 
     @property
     def tolerance(self) -> float:
@@ -65,17 +55,8 @@ class Hierarchy:
         return _ROUNDING_STEPS * max(self.layout.scale[:2])
 
     def squares(self, keys: np.ndarray) -> np.ndarray:
-        """Return the squares of nodes in the plane, with a tolerance.
-
-        Parameters
-        ----------
-        keys : numpy.ndarray of int32, shape (n, 4)
-            Depth, x, y and z of each node.
-
-        Returns
-        -------
-        numpy.ndarray of float64, shape (4, n)
-            Smallest x and y, largest x and y.
+        """Return smallest x and y, largest x and y of nodes, with a tolerance, float64 (4, n),
+        given depth, x, y and z, int32 (n, 4).
         """
         sides = self.side / np.exp2(keys[:, 0])
         west = self.corner[0] + keys[:, 1] * sides
@@ -85,12 +66,8 @@ class Hierarchy:
 
 
 def read_hierarchy(layout: LasFile) -> Hierarchy:
-    """Read the cube and the position of the octree of a COPC file.
-
-    Raises
-    ------
-    OctreeError
-        If they are missing or do not agree with the header.
+    """Read the cube and the position of the octree of a COPC file; `OctreeError` if they are
+    missing or do not agree with the header.
     """
     info = layout.vlr(COPC_INFO)
     data = (info.data if info else None) or b""
@@ -110,26 +87,10 @@ def read_hierarchy(layout: LasFile) -> Hierarchy:
 
 
 def find_nodes(hierarchy: Hierarchy, box: Box) -> np.ndarray:
-    """Return the nodes whose cubes touch a box, in file order.
-
-    Only pages whose branch touches the box are read.
-
-    Parameters
-    ----------
-    hierarchy : Hierarchy
-        The octree.
-    box : tuple of float
-        Smallest x and y, largest x and y in the CRS.
-
-    Returns
-    -------
-    numpy.ndarray of HIERARCHY_ENTRY, shape (n,)
-
-    Raises
-    ------
-    OctreeError
-        If the hierarchy is damaged.
+    """Return the nodes whose cubes touch a box in the CRS, HIERARCHY_ENTRY (n,) in file order;
+    `OctreeError` if the hierarchy is damaged.
     """
+    # Only pages whose branch touches the box are read.
     layout = hierarchy.layout
     found, total, is_whole = [], 0, True
     for _, entries, touch in _pages(hierarchy, lambda keys: _touching(hierarchy, keys, box)):
@@ -147,17 +108,8 @@ def find_nodes(hierarchy: Hierarchy, box: Box) -> np.ndarray:
 
 
 def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
-    """Return all pages of the hierarchy.
-
-    Returns
-    -------
-    dict of int to numpy.ndarray of HIERARCHY_ENTRY
-        The entries of each page, by its position.
-
-    Raises
-    ------
-    OctreeError
-        If the hierarchy is damaged.
+    """Return the entries of each page of the hierarchy, by its position; `OctreeError` if it is
+    damaged.
     """
     every = _pages(hierarchy, lambda keys: np.ones(len(keys), dtype=bool))
     pages = {start: entries for start, entries, _ in every}
@@ -170,26 +122,10 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
 def read_nodes(
     hierarchy: Hierarchy, nodes: np.ndarray, is_whole: bool = False, times: bool = False
 ) -> Iterator[laspy.PackedPointRecord]:
-    """Yield the points of nodes, about a million at once.
-
-    Parameters
-    ----------
-    hierarchy : Hierarchy
-        The octree.
-    nodes : numpy.ndarray of HIERARCHY_ENTRY
-        From `find_nodes`.
-    is_whole : bool
-        Whether to read all values of the points, or only those that a `PointCloud` needs.
-    times : bool
-        Whether to read the GPS times too, which are undefined otherwise.
-
-    Raises
-    ------
-    OctreeError
-        If points lie outside the cubes of their nodes, so that others may be missing.
-    BareEarthError
-        If the points are damaged.
+    """Yield the points of nodes, about a million at once, with what a `PointCloud` needs, or whole;
+    the GPS times are undefined unless wanted.
     """
+    # If points lie outside the cubes of their nodes (an OctreeError), others may be missing.
     import lazrs
 
     layout = hierarchy.layout
@@ -207,9 +143,8 @@ def read_nodes(
 def _pages(
     hierarchy: Hierarchy, wanted: Callable[[np.ndarray], np.ndarray]
 ) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
-    """Yield the positions of pages, their entries, and which of these are wanted.
-
-    Pages of unwanted branches are not read.
+    """Yield the positions of pages, their entries, and which of these are wanted; pages of unwanted
+    branches are not read.
     """
     layout, pages, seen = hierarchy.layout, [hierarchy.root], set()
     with open_source(layout.path) as file:

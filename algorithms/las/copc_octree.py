@@ -39,22 +39,12 @@ _BYTES_TO_SORT = 60
 
 
 class Cube(NamedTuple):
-    """The cube of the topmost node.
+    """The cube of the topmost node."""
 
-    Attributes
-    ----------
-    corner : tuple of float
-        The smallest x, y and z.
-    side : float
-        Its edge.
-    scale, offset : tuple of float
-        Scale and offset of the integers of the points.
-    """
-
-    corner: tuple[float, float, float]
+    corner: tuple[float, float, float]  # the smallest x, y and z
     side: float
-    scale: tuple[float, float, float]
-    offset: tuple[float, float, float]
+    scale: tuple[float, float, float]  # of the integers of the points
+    offset: tuple[float, float, float]  # of the integers of the points
 
     @property
     def spacing(self) -> float:
@@ -62,21 +52,10 @@ class Cube(NamedTuple):
         return self.side / (1 << _GRID_BITS)
 
     def codes(self, records: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
-        """Return the Morton codes of points.
-
-        When sorted by them, the points of each cell of each depth are consecutive.
-
-        Parameters
-        ----------
-        records : numpy.ndarray of uint8, shape (n, record length)
-            The points.
-        progress : Progress
-            Receives progress.
-
-        Returns
-        -------
-        numpy.ndarray of uint64, shape (n,)
+        """Return the Morton codes of points, uint64 (n,), given their records, uint8 (n, record
+        length).
         """
+        # When sorted by them, the points of each cell of each depth are consecutive.
         codes = np.zeros(len(records), dtype=np.uint64)
         for piece in parts_of(len(records), _CODED):
             for axis in range(3):
@@ -114,18 +93,11 @@ TOP = Branch(0, 0)
 
 
 class BranchPoints(Protocol):
-    """The points of a branch, in memory or on disk.
-
-    Attributes
-    ----------
-    branch : Branch
-        The branch.
-    counts : numpy.ndarray of int64, shape (depths + 1, cells)
-        Numbers of points that each depth takes in each branch below, if no node above ends the
-        branch. The last row counts the points that are left.
-    """
+    """The points of a branch, in memory or on disk."""
 
     branch: Branch
+    # int64 (depths + 1, cells): points that each depth takes in each branch below, if no node above
+    # ends the branch; the last row counts those that are left.
     counts: np.ndarray
 
     def records(self, groups: np.ndarray) -> np.ndarray:
@@ -138,14 +110,8 @@ class BranchPoints(Protocol):
 def nodes_of(
     points: BranchPoints, depth: int = 0, cell: int = 0
 ) -> Iterator[tuple[Branch, np.ndarray]]:
-    """Yield the nodes of a branch with their points, each before the nodes below it.
-
-    Parameters
-    ----------
-    points : BranchPoints
-        The points of the branch.
-    depth, cell : int
-        The first node, within the branch.
+    """Yield the nodes of a branch with their points, each before the nodes below it, from one of
+    its cells downwards.
     """
     branch = points.branch
     width = 3 * (branch.depths - depth)
@@ -167,38 +133,17 @@ def nodes_of(
 
 
 class SortedPoints:
-    """The points of a branch in memory, sorted by the depths that take them and the branches below.
-
-    Parameters
-    ----------
-    branch : Branch
-        The branch.
-    records : numpy.ndarray of uint8, shape (n, record length)
-        Points in file order, including those of the branch.
-    codes : numpy.ndarray of uint64, shape (k,)
-        Codes of the points of the branch, ascending.
-    order : numpy.ndarray of unsigned integers, shape (k,)
-        Their rows in `records`.
-    taken : sequence of Taken
-        The cells of each depth from which earlier points were taken.
-    progress : Progress
-        Receives progress.
-
-    Attributes
-    ----------
-    branch, counts
-        As in `BranchPoints`.
-    order : numpy.ndarray of unsigned integers, shape (k,)
-        The rows, sorted.
+    """The points of a branch in memory, sorted by the depths that take them and the
+    branches below.
     """
 
     def __init__(
         self,
         branch: Branch,
-        records: np.ndarray,
-        codes: np.ndarray,
-        order: np.ndarray,
-        taken: Sequence[Taken] = (),
+        records: np.ndarray,  # uint8 (n, record length), in file order, also of others
+        codes: np.ndarray,  # uint64 (k,), of the points of the branch, ascending
+        order: np.ndarray,  # unsigned integers (k,), their rows in `records`
+        taken: Sequence[Taken] = (),  # cells of each depth that earlier points took
         progress: Progress = SILENT,
     ) -> None:
         self.branch, self._records = branch, records
@@ -246,13 +191,7 @@ def most_in_memory(memory: int, record_length: int) -> int:
 
 
 class Taken:
-    """The cells of a depth from which points were taken, as bits.
-
-    Parameters
-    ----------
-    depth : int
-        Depth below that of the branch.
-    """
+    """The cells of a depth below that of the branch from which points were taken, as bits."""
 
     def __init__(self, depth: int) -> None:
         bits = 3 * (depth + _GRID_BITS)
@@ -275,12 +214,8 @@ def _depths(
     taken: Sequence[Taken],
     progress: Progress,
 ) -> np.ndarray:
-    """Return the depth of a branch that takes each point, if no node above ends the branch.
-
-    Returns
-    -------
-    numpy.ndarray of uint16, shape (n,)
-        Depths below that of the branch; the number of its depths for points that are left.
+    """Return the depth below the branch that takes each point, if no node above ends the branch,
+    uint16 (n,); the number of depths for points that are left.
     """
     depths = np.full(len(codes), branch.depths, dtype=np.uint16)
     left = np.arange(len(codes), dtype=order.dtype)

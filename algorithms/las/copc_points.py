@@ -26,13 +26,7 @@ _NUMBER = 4
 
 
 class Steady(Progress):
-    """Reports the progress of the whole, also during parts whose own progress is unknown.
-
-    Parameters
-    ----------
-    whole : Progress
-        Receives progress.
-    """
+    """Reports the progress of the whole, also during parts whose own progress is unknown."""
 
     def __init__(self, whole: Progress) -> None:
         self._whole, self._start, self._end = whole, 0.0, 0.0
@@ -48,26 +42,11 @@ class Steady(Progress):
 
 
 class Room:
-    """The number of points that may be in memory, and an unnamed temporary file for the others.
-
-    The system removes the file at the end of the block, or when the process ends.
-
-    Parameters
-    ----------
-    folder : Path
-        Folder of the file.
-    most : int
-        Points that may be in memory.
-    progress : Progress
-        Receives progress.
-
-    Attributes
-    ----------
-    cube : Cube
-        Cube of the octree, once it is known.
+    """The most points that may be in memory, and an unnamed temporary file in a folder for the
+    others, gone when the block or the process ends.
     """
 
-    cube: Cube
+    cube: Cube  # of the octree, once it is known
 
     def __init__(self, folder: Path, most: int, progress: Progress) -> None:
         self._folder, self._files = folder, contextlib.ExitStack()
@@ -92,21 +71,8 @@ class Room:
 
 
 class WaitingPoints:
-    """The points of a branch in a temporary file.
-
-    Parameters
-    ----------
-    branch : Branch
-        The branch.
-    parts : iterable of numpy.ndarray of uint8, shape (k, record length)
-        Its points in file order, part by part.
-    room : Room
-        Memory and file for the points.
-
-    Attributes
-    ----------
-    branch, counts
-        As in `BranchPoints`.
+    """The points of a branch in a temporary file, given in file order part by part, as records,
+    uint8 (k, record length).
     """
 
     def __init__(self, branch: Branch, parts: Iterable[np.ndarray], room: Room) -> None:

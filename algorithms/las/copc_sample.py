@@ -8,18 +8,8 @@ import numpy as np
 
 
 def sample_of(path: Path, dimension: str) -> np.ndarray:
-    """Return a dimension of the points in the uppermost node of the octree.
-
-    Parameters
-    ----------
-    path : Path
-        A COPC file that this package wrote. It is not checked.
-    dimension : str
-        Its name in laspy: "z" for heights in units of the CRS, or that of an extra dimension.
-
-    Returns
-    -------
-    numpy.ndarray of float, shape (n,)
+    """Return a dimension, named as in laspy, of the points in the uppermost node of a COPC file
+    that this package wrote, which is not checked.
     """
     import laspy
 

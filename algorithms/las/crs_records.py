@@ -20,20 +20,12 @@ _WKT_BIT = 0x10
 
 
 def read_crs(file: LasFile, progress: Progress = SILENT) -> Crs:
-    """Return the CRS of a file: that of its records, or the one that the user states instead.
-
-    A file can have well-known text and GeoTIFF keys. Point formats 6 to 10 need text; of others,
-    the global encoding of the header says which one is valid. What that lacks comes from the other.
-    Most files of a survey have equal records, which are read only once.
-
-    Parameters
-    ----------
-    file : LasFile
-        The file.
-    progress : Progress
-        Receives a message about units that are assumed, and one if the user states another CRS than
-        the file.
+    """Return the CRS of a file: that of its records, or the one that the user states instead, which
+    is told if it differs, as are assumed units.
     """
+    # A file can have well-known text and GeoTIFF keys. Point formats 6 to 10 need text; of others,
+    # the global encoding of the header says which one is valid. What that lacks comes from the
+    # other.
     every: tuple[Vlr | Evlr, ...] = (*file.vlrs, *file.evlrs)
     texts = (each.data or b"" for each in every if each.key == WKT_RECORD)
     records = (file.vlr(key) for key in GEOKEY_RECORDS)
@@ -71,10 +63,7 @@ def _given(wkt: str, stated: Crs | None) -> tuple[Crs | None, tuple[tuple[str, s
 def _stated(
     texts: tuple[bytes, ...], keys: tuple[bytes, ...], prefers_text: bool, library: object
 ) -> tuple[Crs | None, tuple[tuple[str, str], ...]]:
-    """Return the CRS from records, with messages about it.
-
-    The result also depends on the library for EPSG codes.
-    """
+    """Return the CRS from records, with messages about it."""
     notes = Notes()
     crs = crs_of_records([*map(text_of, texts)], read_geokeys(*keys), prefers_text, notes)
     return crs, tuple(notes.messages)

@@ -17,31 +17,16 @@ from .records import MOST_KEPT, check_class, column, named, read_records
 
 @dataclass(frozen=True)
 class Edits:
-    """New values of points, of shape (n,) in file order; None for what does not change.
+    """New values of points, of shape (n,) in file order; None for what does not change."""
 
-    Attributes
-    ----------
-    classification : numpy.ndarray of uint8 or None
-        Classes.
-    key_points : numpy.ndarray of int8 or None
-        1 sets the flag for model key points, 0 clears it, -1 leaves it as it is.
-    z : numpy.ndarray of int32 or None
-        Heights as integers in the scale of the file.
-    z_offset : float or None
-        Their offset; by default that of the file.
-    extra, remembered : ExtraDimension or None
-        Dimensions in extra bytes.
-    kept : numpy.ndarray of bool or None
-        Which points are written; by default all.
-    """
-
-    classification: np.ndarray | None = None
+    classification: np.ndarray | None = None  # uint8
+    # int8; 1 sets the flag for model key points, 0 clears it, -1 leaves it.
     key_points: np.ndarray | None = None
-    z: np.ndarray | None = None
-    z_offset: float | None = None
+    z: np.ndarray | None = None  # int32, in the scale of the file
+    z_offset: float | None = None  # by default that of the file
     extra: ExtraDimension | None = None
     remembered: ExtraDimension | None = None
-    kept: np.ndarray | None = None
+    kept: np.ndarray | None = None  # bool, which points are written; by default all
 
     def columns(self) -> list[np.ndarray]:
         """Return the arrays that are given."""
@@ -55,26 +40,8 @@ class Edits:
 
 
 class EditedFile:
-    """A file with its changes.
-
-    Parameters
-    ----------
-    source : LasFile
-        The file.
-    changes : Edits
-        The changes of its points.
-    records : numpy.ndarray of uint8, shape (n, record length), optional
-        Its records, if they were kept when it was read. They are changed in place.
-
-    Attributes
-    ----------
-    source, target : LasFile
-        The file, and the same with the header and records of the output.
-
-    Raises
-    ------
-    BareEarthError
-        If the changes do not fit the file.
+    """A file (`source`) with its changes, and the same with header and records of the output
+    (`target`); records that were kept are changed in place.
     """
 
     def __init__(self, source: LasFile, changes: Edits, records: np.ndarray | None = None) -> None:
@@ -111,16 +78,8 @@ class EditedFile:
         return given[0] if len(given) == 1 and given[0] is self._changes.classification else None
 
     def points(self) -> Iterator[tuple[np.ndarray, np.ndarray, float]]:
-        """Yield the points to write part by part, with all changes but the classes.
-
-        Yields
-        ------
-        records : numpy.ndarray of uint8, shape (k, record length of the target)
-            The next part can reuse its memory.
-        classes : numpy.ndarray of uint8, shape (k,)
-            Their new classes.
-        done : float
-            Share of the source read so far.
+        """Yield part by part the records to write, whose memory the next can reuse, their new
+        classes, and the share of the source read so far.
         """
         start = 0
         for old in self._sources():

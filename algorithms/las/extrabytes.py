@@ -30,19 +30,11 @@ _UNDOCUMENTED, _MOST_UNDOCUMENTED = "undocumented", 255
 
 @dataclass(frozen=True)
 class ExtraDimension:
-    """A number for each point, stored in extra bytes.
+    """A number for each point, stored in extra bytes."""
 
-    Attributes
-    ----------
-    name, description : str
-        Up to 32 bytes each.
-    values : numpy.ndarray of float32 or uint8, shape (n,)
-        Values in file order.
-    """
-
-    name: str
-    description: str
-    values: np.ndarray
+    name: str  # up to 32 bytes
+    description: str  # up to 32 bytes
+    values: np.ndarray  # float32 or uint8 (n,), in file order
 
 
 @dataclass(frozen=True)
@@ -54,28 +46,8 @@ class Place:
 
 
 def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile, Place]:
-    """Add a dimension to the records of a file.
-
-    Parameters
-    ----------
-    layout : LasFile
-        The file.
-    dimension : ExtraDimension
-        The dimension, which replaces one of the same name.
-
-    Returns
-    -------
-    layout : LasFile
-        The file with the dimension: with longer records, unless it exists already, and with its
-        description.
-    place : Place
-        Position of the values.
-
-    Raises
-    ------
-    BareEarthError
-        If the description of the extra bytes does not fit the points, or a dimension of that name
-        has an unsuitable type.
+    """Return a file with longer records, unless it has a dimension of that name, and with its
+    description, and where its values go; refuse an unsuitable type.
     """
     descriptors = _descriptors(layout)
     if descriptors is None:
@@ -103,11 +75,10 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
 
 
 def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
-    """Return name, type and bytes of each dimension in extra bytes, in the terms of PDAL.
-
-    The type is "unsigned", "signed" or "floating". Deprecated pairs and triples, and undescribed
-    bytes, are left out.
+    """Return name, type ("unsigned", "signed" or "floating") and bytes of each dimension in extra
+    bytes, in the terms of PDAL.
     """
+    # Deprecated pairs and triples, and undescribed bytes, are left out.
     found = []
     for descriptor in _descriptors(layout) or ():
         kind, options = descriptor[2], descriptor[3]
@@ -132,9 +103,8 @@ def dimension_names(layout: LasFile) -> list[str]:
 
 
 def runs_of_bytes(layout: LasFile) -> list[tuple[str, int]]:
-    """Return the extra bytes of a point as runs, each with its name and size.
-
-    The dimension `REMEMBERED`, if there is one, is a separate run.
+    """Return the extra bytes of a point as runs, each with its name and size, with the dimension
+    `REMEMBERED` as a separate one.
     """
     count, start = layout.extra_bytes, 0
     for each in (_descriptors(layout) or ()) if count else ():

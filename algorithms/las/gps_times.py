@@ -25,13 +25,7 @@ _BLOCK = 1 << 24
 
 
 def check_gps_times(layout: LasFile) -> None:
-    """Refuse a compressed file whose GPS times would crash the decompressor.
-
-    Raises
-    ------
-    BareEarthError
-        If there are such times.
-    """
+    """Refuse a compressed file whose GPS times would crash the decompressor."""
     if not layout.laszip or not layout.has_gps_times:
         return
     with open_source(layout.path) as file:

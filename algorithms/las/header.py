@@ -13,18 +13,10 @@ from typing import Any, NamedTuple
 
 
 class Field(NamedTuple):
-    """A field of the header.
+    """A field of the header."""
 
-    Attributes
-    ----------
-    start : int
-        Its first byte.
-    layout : str
-        Format of its values for `struct`.
-    """
-
-    start: int
-    layout: str
+    start: int  # its first byte
+    layout: str  # for `struct`
 
     def get(self, header: bytes | bytearray) -> Any:
         """Return the value in a header; a tuple if there are several."""

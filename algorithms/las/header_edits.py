@@ -46,14 +46,8 @@ def with_count(layout: LasFile, count: int) -> LasFile:
 def with_statistics(
     layout: LasFile, lowest: Sequence[int], highest: Sequence[int], returns: Sequence[int]
 ) -> LasFile:
-    """Return the layout with another extent, and other numbers of points of each return.
-
-    Parameters
-    ----------
-    lowest, highest : sequence of int
-        Smallest and largest x, y and z as integers.
-    returns : sequence of int
-        Numbers of first, second, ... returns; fifteen numbers.
+    """Return the layout with another extent (x, y and z as integers), and other numbers of first,
+    second, ... returns, fifteen of them.
     """
     header = bytearray(layout.header)
     extent = [

@@ -59,36 +59,20 @@ class Vlr:
 
 @dataclass(frozen=True)
 class Evlr:
-    """An extended variable length record; `data` is None if it was not read.
+    """An extended variable length record; `data` is None if it was not read."""
 
-    Attributes
-    ----------
-    key : tuple of (str, int)
-        User id and record id.
-    start, length : int
-        Position of the record in the file, and its size with its header.
-    """
-
-    key: tuple[str, int]
+    key: tuple[str, int]  # user id and record id
     description: str
-    start: int
-    length: int
+    start: int  # in the file
+    length: int  # with its header
     data: bytes | None
 
 
 class Unpacked(NamedTuple):
-    """The uncompressed records of a file, as `unpack` writes them.
+    """The uncompressed records of a file, as `unpack` writes them."""
 
-    Attributes
-    ----------
-    file : Path or file
-        Where they are; a file that is open stays so.
-    columns : tuple of str or None
-        The layers that were decompressed, as for `read_records`; None for all.
-    """
-
-    file: Path | BinaryIO
-    columns: tuple[str, ...] | None = None
+    file: Path | BinaryIO  # one that is open stays so
+    columns: tuple[str, ...] | None = None  # as for `read_records`; None for all
 
     def has(self, columns: Sequence[str] | None) -> bool:
         """Return whether some layers are here; None stands for all."""
@@ -99,41 +83,18 @@ class Unpacked(NamedTuple):
 
 @dataclass(frozen=True)
 class LasFile:
-    """A LAS, LAZ or COPC file: its header, its records and the position of its points.
-
-    Attributes
-    ----------
-    path : Path
-        The file.
-    size : int
-        Its size in bytes.
-    header : bytes
-        The header, with any bytes that users added.
-    vlrs : tuple of Vlr
-        The records after the header.
-    padding : bytes
-        The bytes between the last VLR and the points.
-    evlrs : tuple of Evlr
-        The records after the points (LAS 1.4).
-    waveform_record : int
-        Position of waveform packets inside this file (LAS 1.3 and 1.4); 0 if there are none.
-    state : FileState
-        State of the file, by which later changes are noticed.
-    stated : str or None
-        The CRS that the user states in place of its records, as well-known text.
-    unpacked : Unpacked or None
-        Where its records are uncompressed, too.
-    """
+    """A LAS, LAZ or COPC file: its header, its records and the position of its points."""
 
     path: Path
-    size: int
-    header: bytes
+    size: int  # bytes
+    header: bytes  # with any bytes that users added
     vlrs: tuple[Vlr, ...]
-    padding: bytes
-    evlrs: tuple[Evlr, ...]
-    waveform_record: int
-    state: FileState
-    stated: str | None = None
+    padding: bytes  # between the last VLR and the points
+    evlrs: tuple[Evlr, ...]  # LAS 1.4
+    waveform_record: int  # position of waveform packets in this file; 0 for none
+    state: FileState  # when it was opened, to notice later changes
+    stated: str | None = None  # the CRS that the user states in place of its records
+    # Where its records are uncompressed, too.
     unpacked: Unpacked | None = field(default=None, compare=False)
 
     @property
@@ -199,12 +160,12 @@ class LasFile:
 
     @property
     def minimum(self) -> tuple[float, float, float]:
-        """Smallest x, y and z in units of the CRS. These values of the header can be wrong."""
+        """Smallest x, y and z in units of the CRS as in the header, which can be wrong."""
         return fields.EXTENT.get(self.header)[1::2]
 
     @property
     def maximum(self) -> tuple[float, float, float]:
-        """Largest x, y and z in units of the CRS. These values of the header can be wrong."""
+        """Largest x, y and z in units of the CRS as in the header, which can be wrong."""
         return fields.EXTENT.get(self.header)[0::2]
 
     @property
@@ -225,9 +186,8 @@ class LasFile:
 
     @property
     def states_extent(self) -> bool:
-        """Whether integers of points can have the extent in the header.
-
-        Heights only have to be finite.
+        """Whether integers of points can have the extent in the header, of which heights only have
+        to be finite.
         """
         corners = self.minimum, self.maximum
         return all(math.isfinite(corner[2]) for corner in corners) and all(
@@ -248,11 +208,9 @@ class LasFile:
 
     @cached_property
     def tail_start(self) -> int:
-        """Position of the first byte after the points that is to be kept.
-
-        In LAS, it is the end of the points. In LAZ, it is the first EVLR or waveform packet, since
-        the length of the chunk table before them is not known.
-        """
+        """Position of the first byte after the points that is to be kept."""
+        # In LAS, it is the end of the points. In LAZ, it is the first EVLR or waveform packet,
+        # since the length of the chunk table before them is not known.
         if not self.is_compressed:
             return self.points_end
         starts = [evlr.start for evlr in self.evlrs[:1]]
@@ -269,12 +227,8 @@ class LasFile:
         return next((each for each in records if each.key in key), None)
 
     def check_unchanged(self) -> None:
-        """Refuse a file that has changed since it was opened.
-
-        Raises
-        ------
-        BareEarthError
-            If its size, time, place on the disk, or the bytes before its points differ.
+        """Refuse a file whose size, time, place on the disk, or bytes before the points have
+        changed since it was opened.
         """
         with open_source(self.path) as file:
             before = b"".join((self.header, *(vlr.raw for vlr in self.vlrs), self.padding))
@@ -294,12 +248,8 @@ class LasFile:
 
     @cached_property
     def chunk_table(self) -> list[tuple[int, int]]:
-        """Points and bytes of each chunk of a compressed file, from its chunk table.
-
-        Raises
-        ------
-        BareEarthError
-            If such chunks are impossible.
+        """Points and bytes of each chunk of a compressed file, from its chunk table; refuse
+        impossible ones.
         """
         import lazrs
 
@@ -341,21 +291,10 @@ class LasFile:
         return [*ranges, (start, self.size)]
 
     def pointers(self, tail: list[tuple[int, int]], new_start: int) -> dict[int, int]:
-        """Return the pointers of the header to what follows the points, after it was moved.
-
-        Parameters
-        ----------
-        tail : list of tuple of int
-            Ranges that are kept, as from `kept_tail`.
-        new_start : int
-            New position of the first range.
-
-        Returns
-        -------
-        dict of int to int
-            The pointer to write at each position in the header, without stale ones, which some
-            writers leave.
+        """Return the pointer to write at each position in the header, after the ranges of
+        `kept_tail` were moved to a new start.
         """
+        # Without stale ones, which some writers leave.
         known = [fields.WAVEFORM_START, fields.EVLR_START][: max(self.minor_version - 2, 0)]
         found = {field.start: field.get(self.header) for field in known}
         return {

@@ -38,21 +38,11 @@ _LARGEST_CHUNK = 1 << 30
 
 
 class Compression(NamedTuple):
-    """The contents of a LASzip record.
+    """The contents of a LASzip record."""
 
-    Attributes
-    ----------
-    kind : int
-        2 for single points (formats 0 to 5), 3 for layers (formats 6 to 10).
-    chunk_size : int or None
-        Points of a chunk; None if chunks differ.
-    items : tuple of tuple of int
-        Type, bytes and version of each part of a point.
-    """
-
-    kind: int
-    chunk_size: int | None
-    items: tuple[tuple[int, int, int], ...]
+    kind: int  # 2 for single points (formats 0 to 5), 3 for layers (formats 6 to 10)
+    chunk_size: int | None  # points; None if chunks differ
+    items: tuple[tuple[int, int, int], ...]  # type, bytes and version of each part of a point
 
     @classmethod
     def of(cls, record: bytes) -> Compression | None:
@@ -88,10 +78,8 @@ class Compression(NamedTuple):
         return sum(size for _, size, _ in self.items)
 
     def is_of(self, point_format: int) -> bool:
-        """Return whether these are the parts of points of a format.
-
-        The decompressor takes the length of a part from its type, not from the record.
-        """
+        """Return whether these are the parts of points of a format."""
+        # The decompressor takes the length of a part from its type, not from the record.
         parts = self.items
         if parts[-1][0] in (_EXTRA_BYTES, _EXTRA_BYTES_14):
             parts = parts[:-1]
@@ -100,19 +88,17 @@ class Compression(NamedTuple):
         )
 
     def chunk_count_fits(self, chunks: int, count: int, size: int) -> bool:
-        """Return whether so many chunks can hold so many points in so many bytes.
-
-        Each chunk begins with an uncompressed point.
+        """Return whether so many chunks, which all begin with an uncompressed point, can hold so
+        many points in so many bytes.
         """
         most = 1 + size // self.record_length
         capacity = chunks * self.chunk_size if self.chunk_size else size * _MOST_POINTS_A_BYTE
         return chunks <= most and count <= min(capacity, size * _MOST_POINTS_A_BYTE)
 
     def table_fits(self, table: Sequence[tuple[int, int]], count: int, size: int) -> bool:
-        """Return whether the numbers of points and bytes in a chunk table are possible.
-
-        If all chunks have the same size, the last one can have fewer points than the table states.
-        """
+        """Return whether the numbers of points and bytes in a chunk table are possible."""
+        # If all chunks have the same size, the last one can have fewer points than the table
+        # states.
         points = 0
         for chunk_points, chunk_bytes in table:
             if self.chunk_size:
@@ -126,18 +112,12 @@ class Compression(NamedTuple):
 
 
 class ChunkHead(NamedTuple):
-    """The head of a chunk of layers: a point, the number of points, and the lengths of the layers.
-
-    Attributes
-    ----------
-    record_length : int
-        Bytes of a point.
-    layers : int
-        Number of layers.
+    """The head of a chunk of layers: a point, the number of points, and the lengths of
+    the layers.
     """
 
-    record_length: int
-    layers: int
+    record_length: int  # bytes of a point
+    layers: int  # number of layers
 
     @property
     def size(self) -> int:
@@ -167,10 +147,8 @@ def with_chunk_size(record: bytes, points: int) -> bytes:
 
 
 def with_wave_packets_of_1(record: bytes) -> bytes:
-    """Return a LASzip record whose wave packets have version 1.
-
-    lazrs writes the same bytes as version 2, which LASzip 3.5 refuses to read.
-    """
+    """Return a LASzip record whose wave packets have version 1."""
+    # lazrs writes the same bytes as version 2, which LASzip 3.5 refuses to read.
     changed = bytearray(record)
     for start in range(_HEAD.size, len(record) - _ITEM.size + 1, _ITEM.size):
         kind, size, version = _ITEM.unpack_from(record, start)

@@ -31,19 +31,8 @@ _SMALLEST_SCALE, _LARGEST_SCALE, _LARGEST_OFFSET = 1e-12, 1e6, 1e12
 
 
 def open_las(path: Path | LasFile, stated: str | None = None) -> LasFile:
-    """Open a file and read everything but its points. An opened file is returned as it is.
-
-    Parameters
-    ----------
-    path : Path or LasFile
-        The file.
-    stated : str, optional
-        The CRS that the user states in place of its records, as for `stated_wkt`.
-
-    Raises
-    ------
-    BareEarthError
-        If it cannot be opened, is not LAS or LAZ, is truncated, or has no points.
+    """Open a file (an opened one is returned) with the CRS that a user states, if any, and read all
+    but its points; refuse what is not LAS or LAZ, truncated or without points.
     """
     if isinstance(path, LasFile):
         return path
@@ -81,11 +70,9 @@ def _read_header(path: Path, file: BinaryIO, size: int) -> bytes:
 
 
 def _split_vlrs(block: bytes, count: int) -> tuple[tuple[Vlr, ...], bytes]:
-    """Split the bytes between header and points into VLRs and padding.
-
-    The list ends at a record that does not fit, or if there are fewer records than announced. The
-    points can be read in spite of this.
-    """
+    """Split the bytes between header and points into VLRs and padding."""
+    # The list ends at a record that does not fit, or if there are fewer records than announced. The
+    # points can be read in spite of this.
     vlrs: list[Vlr] = []
     start = 0
     while len(vlrs) < count and start + VLR_HEADER <= len(block):
@@ -152,11 +139,9 @@ def _check_points(layout: LasFile) -> None:
 
 
 def _check_compressed(layout: LasFile) -> None:
-    """Refuse damaged LAZ files before anything is decompressed.
-
-    The first eight bytes of the points are the position of the chunk table behind the points.
-    Writers that cannot seek write -1 there, and the position in the last eight bytes of the file.
-    """
+    """Refuse damaged LAZ files before anything is decompressed."""
+    # The first eight bytes of the points are the position of the chunk table behind the points.
+    # Writers that cannot seek write -1 there, and the position in the last eight bytes of the file.
     if layout.laszip is None:
         raise BareEarthError(
             f"{layout.path} has compressed points but does not say how they are compressed. Copy"

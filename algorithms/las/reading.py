@@ -44,28 +44,8 @@ _COLUMNS: dict[str, tuple[str, type]] = {
 def read_cloud(
     path: Path | LasFile, progress: Progress = SILENT, keep_records: bool = False
 ) -> PointCloud:
-    """Read the points of a LAS, LAZ or COPC file.
-
-    Parameters
-    ----------
-    path : Path or LasFile
-        The file, or what `open_las` returned for it.
-    progress : Progress
-        Receives progress, and messages about the CRS.
-    keep_records : bool
-        Whether to keep the records, so that the file need not be read again for writing.
-
-    Returns
-    -------
-    PointCloud
-        All points in file order.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read, with what to do about it.
-    Cancelled
-        If the user asked to stop.
+    """Read all points of a LAS, LAZ or COPC file in file order, and keep the records if the file is
+    not to be read again for writing.
     """
     layout = open_las(path)
     require_packages(layout)
@@ -90,26 +70,8 @@ def read_cloud(
 def read_parts(
     path: Path | LasFile, progress: Progress = SILENT, strips: bool = False, times: bool = False
 ) -> Iterator[PointCloud]:
-    """Read a file part by part, if it may not fit into memory.
-
-    Parameters
-    ----------
-    path, progress
-        As for `read_cloud`.
-    strips, times : bool
-        Whether to read the flight strip and the flag of synthetic points, and the GPS times.
-
-    Yields
-    ------
-    PointCloud
-        The next points in file order. The parts of a file are always the same.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read, with what to do about it.
-    Cancelled
-        If the user asked to stop.
+    """Yield the points of a file in file order, in parts that are always the same; strips come with
+    the flag of synthetic points.
     """
     layout = open_las(path)
     require_packages(layout)
@@ -129,21 +91,7 @@ def read_parts(
 
 @dataclass(frozen=True)
 class Description:
-    """The description of a file, for `bare-earth info`.
-
-    Attributes
-    ----------
-    minimum, maximum : tuple of float
-        Extent of the points in units of the CRS.
-    density : float or None
-        Points per square metre of the extent; None if it cannot be measured.
-    length_scale : float
-        How many metres of the CRS a true metre takes here; not 1 for Web Mercator and its kin.
-    classes, returns : dict of int to int
-        Number of points of each class, and of each return number.
-    records : list of str
-        User id, number and description of each VLR and EVLR.
-    """
+    """The description of a file, for `bare-earth info`."""
 
     path: str
     file_size: int
@@ -151,22 +99,22 @@ class Description:
     encoding: str
     point_format: int
     point_count: int
-    minimum: tuple[float, float, float]
-    maximum: tuple[float, float, float]
+    minimum: tuple[float, float, float]  # in units of the CRS
+    maximum: tuple[float, float, float]  # in units of the CRS
     scale: tuple[float, float, float]
     offset: tuple[float, float, float]
-    density: float | None
+    density: float | None  # points per square metre of the extent; None if it cannot be measured
     crs: str
     epsg: int | None
     is_geographic: bool
     horizontal_unit: float
     vertical_unit: float
-    length_scale: float
-    classes: dict[int, int]
-    returns: dict[int, int]
+    length_scale: float  # metres of the CRS in a true metre; not 1 for Web Mercator and its kin
+    classes: dict[int, int]  # number of points by class
+    returns: dict[int, int]  # number of points by return number
     withheld: int
     extra_dimensions: list[str]
-    records: list[str]
+    records: list[str]  # user id, number and description of each VLR and EVLR
     system_identifier: str
     software: str
 
@@ -207,13 +155,7 @@ class Description:
 
 
 def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
-    """Describe a file, after reading all of its points.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read, with what to do about it.
-    """
+    """Describe a file, after reading all of its points."""
     layout = open_las(path)
     cloud = read_cloud(layout, progress)
     if cloud.from_zero:
@@ -266,10 +208,8 @@ def require_packages(layout: LasFile) -> None:
 def read_chunks(
     layout: LasFile, times: bool = False, strips: bool = False
 ) -> Iterator[laspy.PackedPointRecord]:
-    """Yield all points in parts, which are always the same. Parts share their memory.
-
-    The GPS times are undefined in point formats 6 to 10, unless `times` is true, and the point
-    source ids unless `strips` is.
+    """Yield all points in parts, which are always the same and share their memory; GPS times and
+    point source ids are undefined in point formats 6 to 10 unless wanted.
     """
     pieces, columns = parts_of(layout.count, _CHUNK), needed(layout, times, strips)
     for records in read_records(layout, _CHUNK, columns=columns, pieces=pieces):

@@ -28,24 +28,10 @@ _LARGEST_LEGACY_CLASS = 31
 
 
 def check_class(path: object, point_format: int, value: int, what: str) -> None:
-    """Refuse a class that does not fit into the point format of a file.
-
-    Parameters
-    ----------
-    path : path-like
-        The file.
-    point_format : int
-        Its point format. Formats 0 to 5 have five bits for the class.
-    value : int
-        The class.
-    what : str
-        What the class is for, such as "the ground".
-
-    Raises
-    ------
-    BareEarthError
-        If the class does not fit.
+    """Refuse a class that does not fit into the point format of a file; `what` it is for, such as
+    "the ground", is part of the error.
     """
+    # Formats 0 to 5 have five bits for the class.
     if point_format < FIRST_EXTENDED_FORMAT and value > _LARGEST_LEGACY_CLASS:
         raise BareEarthError(
             f"Point format {point_format} holds classes up to {_LARGEST_LEGACY_CLASS}, not {value}."
@@ -54,12 +40,10 @@ def check_class(path: object, point_format: int, value: int, what: str) -> None:
 
 
 def needed(layout: LasFile, times: bool = False, strips: bool = False) -> tuple[str, ...]:
-    """Return the layers of points (formats 6 to 10) that a `PointCloud` needs.
-
-    GPS times, and the strips of points (point source ids), are needed only if that is said.
-
-    x, y, returns and scanner channel are always decompressed, and not in this list.
+    """Return the layers of points (formats 6 to 10) that a `PointCloud` needs, with those of GPS
+    times and strips (point source ids) if wanted.
     """
+    # x, y, returns and scanner channel are always decompressed, and not in this list.
     layers = (*_NEEDED, _REMEMBERED) if remembers(layout) else _NEEDED
     return (*layers, *[_TIMES] * times, *[_STRIPS] * strips)
 
@@ -81,34 +65,14 @@ def read_records(
     columns: Sequence[str] | None = None,
     pieces: Iterable[slice] | None = None,
 ) -> Iterator[np.ndarray]:
-    """Yield the records of a file.
-
-    Parameters
-    ----------
-    layout : LasFile
-        The file.
-    most : int
-        Most points to read at a time; fewer if that takes long.
-    into : numpy.ndarray of uint8, shape (n, record length), optional
-        Array for all records.
-    columns : sequence of str, optional
-        Layers to decompress (formats 6 to 10), by their names in `laspy.DecompressionSelection`, as
-        in `needed`. x, y, returns and scanner channel always are. Other layers are undefined. By
-        default all are decompressed.
-    pieces : iterable of slice, optional
-        Which points to read at a time, without gaps, none longer than `most`. By default about as
-        many as are read in half a second.
-
-    Yields
-    ------
-    numpy.ndarray of uint8, shape (up to `most`, record length)
-        A writable array: a part of `into`, or one whose memory the next can reuse.
-
-    Raises
-    ------
-    BareEarthError
-        If the file is damaged.
+    """Yield the records of a file as writable arrays, uint8 (up to `most`, record length), parts of
+    `into`, or ones whose memory the next can reuse.
     """
+    # `columns` are the layers to decompress (formats 6 to 10, named as in
+    # `laspy.DecompressionSelection`), by default all; x, y, returns and scanner channel always are,
+    # others are undefined.
+    # `pieces` are what to read at a time, without gaps, none longer than `most`; by default about
+    # as many points as are read in half a second.
     with _reader(layout, columns) as read:
         if into is None:
             buffer = np.empty((min(most, layout.count), layout.record_length), dtype=np.uint8)
@@ -172,22 +136,14 @@ def column(records: np.ndarray, start: int, kind: str | np.dtype) -> np.ndarray:
 
 
 class HeaderCounts:
-    """Counts what a header states about points, while they are written.
-
-    Attributes
-    ----------
-    lowest, highest : numpy.ndarray of int64, shape (3,)
-        Smallest and largest x, y and z as integers.
-    returns : numpy.ndarray of int64, shape (15,)
-        Numbers of first, second, ... returns.
-    """
+    """Counts what a header states about points, while they are written."""
 
     def __init__(self, layout: LasFile) -> None:
         self._layout = layout
         limits = np.iinfo(np.int64)
-        self.lowest = np.full(3, limits.max)
-        self.highest = np.full(3, limits.min)
-        self.returns = np.zeros(15, dtype=np.int64)
+        self.lowest = np.full(3, limits.max)  # int64 (3,), x, y and z as integers
+        self.highest = np.full(3, limits.min)  # int64 (3,)
+        self.returns = np.zeros(15, dtype=np.int64)  # int64 (15,), of first, second, ... returns
 
     def add(self, records: np.ndarray) -> None:
         """Count the points of some records."""
@@ -230,7 +186,7 @@ class LazRecordWriter:
         self._call(self._compressor.compress_many, records.reshape(-1))
 
     def write_chunks(self, chunks: list[np.ndarray]) -> None:
-        """Append points, each array as a chunk. Only for chunks of different sizes."""
+        """Append points, each array as a chunk, if chunks may have different sizes."""
         self._call(self._compressor.compress_chunks, [chunk.reshape(-1) for chunk in chunks])
 
     def finish(self) -> None:
@@ -283,20 +239,10 @@ class _ErrorKeeper:
 
 
 def laszip_vlr(point_format: int, extra_bytes: int, variable_chunks: bool = False) -> Vlr:
-    """Return the LASzip record for compressing points.
-
-    Parameters
-    ----------
-    point_format, extra_bytes : int
-        Format of the points, and number of extra bytes.
-    variable_chunks : bool
-        Whether chunks can have different numbers of points.
-
-    Raises
-    ------
-    BareEarthError
-        If the installed lazrs does not know the format; 0.5 does not know those with waveforms.
+    """Return the LASzip record for compressing points; refuse a format that the installed lazrs
+    does not know.
     """
+    # lazrs 0.5 does not know those with waveforms.
     import lazrs
 
     try:
@@ -311,12 +257,8 @@ def laszip_vlr(point_format: int, extra_bytes: int, variable_chunks: bool = Fals
 
 
 def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None:
-    """Append the bytes of `source` from `start` to `end` to `target`.
-
-    Raises
-    ------
-    BareEarthError
-        If the source ends before.
+    """Append the bytes of `source` from `start` to `end` to `target`; refuse a source that ends
+    before.
     """
     source.seek(start)
     while start < end:

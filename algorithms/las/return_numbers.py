@@ -17,18 +17,13 @@ _CUT_OFF = 0.2
 
 
 def count_from_one(cloud: PointCloud) -> PointCloud:
-    """Return points whose return numbers begin at 1, also if those of the file begin at 0.
-
-    They do if pulses with several returns have a return 0, others above it, and none with the
-    number of returns; or if numbers of returns begin at 0, too, so that all returns 0 are as many
-    as those that have the number of returns. Files whose return numbers are all 0 do not count
-    returns at all.
-
-    Parameters
-    ----------
-    cloud : PointCloud
-        Points that were just read; those that count from 0 get other return numbers.
+    """Return points that were just read with return numbers that begin at 1, also if those of the
+    file begin at 0.
     """
+    # They do if pulses with several returns have a return 0, others above it, and none with the
+    # number of returns; or if numbers of returns begin at 0, too, so that all returns 0 are as many
+    # as those that have the number of returns. Files whose return numbers are all 0 do not count
+    # returns at all.
     number, total = cloud.return_number, cloud.number_of_returns
     if number.all():
         return cloud

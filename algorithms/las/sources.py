@@ -12,26 +12,14 @@ from ..core.errors import BareEarthError
 
 
 def read_text(path: Path) -> str:
-    """Return the contents of a text file in UTF-8.
-
-    Raises
-    ------
-    BareEarthError
-        If it cannot be read.
-    UnicodeDecodeError
-        If it is not UTF-8.
-    """
+    """Return the contents of a text file, or raise UnicodeDecodeError if it is not UTF-8."""
     with open_source(path) as file:
         return file.read().decode("utf-8-sig")
 
 
 def open_source(path: Path) -> BinaryIO:
-    """Open a file to read its bytes.
-
-    Raises
-    ------
-    BareEarthError
-        If it is missing, a folder or no ordinary file, or cannot be read.
+    """Open a file to read its bytes; refuse what is missing, a folder, no ordinary file or not
+    readable.
     """
     try:
         kind = os.stat(path).st_mode
@@ -53,21 +41,11 @@ def open_source(path: Path) -> BinaryIO:
 
 
 class FileState(NamedTuple):
-    """The state of a file, which shows whether it has changed.
+    """The state of a file, which shows whether it has changed."""
 
-    Attributes
-    ----------
-    size : int
-        Its size in bytes.
-    modified : int
-        Time of the last change, in nanoseconds.
-    inode, device : int
-        The file and its disk, since another file can have replaced it.
-    """
-
-    size: int
-    modified: int
-    inode: int
+    size: int  # bytes
+    modified: int  # nanoseconds
+    inode: int  # another file can have replaced it
     device: int
 
     @classmethod
@@ -77,10 +55,8 @@ class FileState(NamedTuple):
         return cls(now.st_size, now.st_mtime_ns, now.st_ino, now.st_dev)
 
     def is_same(self, other: FileState) -> bool:
-        """Return whether two states belong to the same, unchanged file.
-
-        Other computers of a cluster have other inodes and devices for the same file.
-        """
+        """Return whether two states belong to the same, unchanged file."""
+        # Other computers of a cluster have other inodes and devices for the same file.
         is_here = self.device == other.device
         return self[:2] == other[:2] and (self.inode == other.inode or not is_here)
 
@@ -100,11 +76,11 @@ def damaged(path: Path) -> BareEarthError:
 
 @contextlib.contextmanager
 def damage_told(path: Path) -> Iterator[None]:
-    """Turn all errors of the libraries on a damaged file into one sentence.
-
-    Wrap only calls of these libraries: their errors have many types, and panics of the
-    decompressor, which is written in Rust, do not even derive from `Exception`.
+    """Turn all errors of the libraries on a damaged file into one sentence; wrap only calls of
+    them.
     """
+    # Their errors have many types, and panics of the decompressor, which is written in Rust, do not
+    # even derive from `Exception`.
     try:
         yield
     except (MemoryError, BareEarthError):

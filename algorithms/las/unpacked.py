@@ -27,32 +27,8 @@ def unpack(
     columns: Sequence[str] | None = None,
     progress: Progress = SILENT,
 ) -> LasFile:
-    """Write the records of a compressed file into an open one.
-
-    Parameters
-    ----------
-    layout : LasFile
-        The file.
-    file : file
-        An empty binary file.
-    columns : sequence of str, optional
-        Layers to decompress, as for `read_records`. The others are undefined.
-    progress : Progress
-        Receives progress.
-
-    Returns
-    -------
-    LasFile
-        The file, whose records are read from the open one. It must stay open.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read.
-    OSError
-        If the records cannot be written.
-    Cancelled
-        If the user asked to stop.
+    """Write the records of a compressed file into an empty open one, from which those of the
+    returned file are read, so that it must stay open.
     """
     done = 0
     for records in read_records(layout, columns=columns):

@@ -36,12 +36,8 @@ _EXTENDED_WITH_WAVEFORMS = (9, 10)
 
 
 def check_writable(target: Path) -> None:
-    """Refuse, before any work is done, a file name or format that cannot be written.
-
-    Raises
-    ------
-    BareEarthError
-        If the suffix is not .las, .laz or .copc.laz, or a package is missing.
+    """Refuse, before any work is done, a file name that is not .las, .laz or .copc.laz, or whose
+    format lacks a package.
     """
     target = Path(target)
     if target.suffix.lower() not in (".las", ".laz"):
@@ -51,12 +47,8 @@ def check_writable(target: Path) -> None:
 
 
 def check_cloud(source: Path, target: Path) -> None:
-    """Refuse, before any work is done, a point cloud that cannot be written.
-
-    Raises
-    ------
-    BareEarthError
-        If its name or folder is unsuitable, or it is the input.
+    """Refuse, before any work is done, a point cloud that is the input, or has an unsuitable name
+    or folder.
     """
     check_output(target, (source,))
     check_writable(target)
@@ -65,15 +57,7 @@ def check_cloud(source: Path, target: Path) -> None:
 def write_classified(
     source: Path | LasFile, target: Path, classification: np.ndarray, progress: Progress = SILENT
 ) -> None:
-    """Write `source` with other classes.
-
-    Parameters
-    ----------
-    classification : numpy.ndarray of uint8, shape (n,)
-        The class of every point, in file order.
-    source, target, progress
-        As for `write_changed`.
-    """
+    """Write `source` with other classes, uint8 (n,) in file order, as `write_changed`."""
     write_changed(source, target, Edits(classification=classification), progress)
 
 
@@ -85,38 +69,15 @@ def write_changed(
     cloud: PointCloud | None = None,
     memory: int | None = None,
 ) -> None:
-    """Write `source` with changes of its points.
-
-    Everything else stays: the order of the points, integers, extra bytes, header and records,
-    except for what compression needs. If the changes leave out points, header and counts describe
-    the others. For .copc.laz, the order of the points changes, and point formats 0 to 5 become 6
-    to 8, as its specification requires.
-
-    Parameters
-    ----------
-    source : Path or LasFile
-        The input. If it was opened before its points were read, or `cloud` is given, a file that
-        has changed since is refused.
-    target : Path
-        The output: .las, .laz or .copc.laz.
-    changes : Edits
-        The changes.
-    progress : Progress
-        Receives progress, and warnings about what the output cannot hold.
-    cloud : PointCloud, optional
-        Points of `source`. If it holds all of them, less is read again. Records that were kept are
-        changed in place.
-    memory : int, optional
-        About how many bytes of memory to use for COPC. Further points wait in a temporary file
-        beside the target. By default all points are in memory.
-
-    Raises
-    ------
-    BareEarthError
-        If the input cannot be read or the output cannot be written; nothing is left behind.
-    Cancelled
-        If the user asked to stop; nothing is left behind.
+    """Write `source` with changes of its points, and all else as it was, or leave nothing; records
+    that `cloud` keeps are changed in place.
     """
+    # The order of the points, integers, extra bytes, header and records stay, except for what
+    # compression needs. If the changes leave out points, header and counts describe the others. For
+    # .copc.laz, the order of the points changes, and point formats 0 to 5 become 6 to 8, as its
+    # specification requires; `memory` is as for `write_copc`.
+    # A source that has changed since is refused if it was opened before its points were read, or if
+    # `cloud` is given. If that holds all points, less is read again.
     target = Path(target)
     check_writable(target)
     layout = open_las(source)
@@ -145,27 +106,15 @@ def is_copc(target: Path) -> bool:
 
 
 class Kept(NamedTuple):
-    """Positions in a compressed file that allow to copy everything but the classes.
-
-    Attributes
-    ----------
-    layers : ClassLayers
-        The layers of classes.
-    index : CopcIndex or None
-        Index of a COPC file, if the output is COPC as well.
-    """
+    """Positions in a compressed file that allow to copy everything but the classes."""
 
     layers: ClassLayers
-    index: CopcIndex | None
+    index: CopcIndex | None  # if the output is COPC as well
 
 
 def layers_kept(source: LasFile, target: Path) -> Kept | None:
-    """Return what is needed to replace only the classes of a compressed file.
-
-    Returns
-    -------
-    Kept or None
-        None if the output is of another kind than the source, or the source has no layers.
+    """Return what is needed to replace only the classes of a compressed file, None if the output is
+    of another kind, or the source has no layers.
     """
     if target.suffix.lower() != ".laz" or is_copc(target) > source.is_copc:
         return None
@@ -245,10 +194,8 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
 
 
 def _check_channels(layout: LasFile, channels: set[int]) -> None:
-    """Refuse points that lazrs compresses wrongly.
-
-    It mixes up the waveform packets of several scanner channels (seen with 0.6.0 and 0.8.2).
-    """
+    """Refuse points that lazrs compresses wrongly."""
+    # It mixes up the waveform packets of several scanner channels (seen with 0.6.0 and 0.8.2).
     if len(channels) > 1:
         raise BareEarthError(
             f"The points of {layout.path} have waveforms and several scanner channels, which cannot"
