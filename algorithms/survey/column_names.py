@@ -20,20 +20,14 @@ def words_of(text: str) -> frozenset[str]:
 
 
 def without_accents(text: str) -> str:
-    """Return a text without accents.
-
-    >>> without_accents("Höhe, Straße")
-    'Hohe, Strasse'
-    """
+    """Return a text without accents, such as "Hohe, Strasse" for "Höhe, Straße"."""
     text = unicodedata.normalize("NFKD", text.translate(_LETTERS))
     return "".join(each for each in text if not unicodedata.combining(each))
 
 
 def parts_of(text: str) -> list[str]:
-    """Return the words and numbers in a text, also those that only capitals part.
-
-    >>> parts_of("TallGrass_2")
-    ['Tall', 'Grass', '2']
+    """Return the words and numbers in a text, also those that only capitals part: Tall, Grass and 2
+    in "TallGrass_2".
     """
     return _PARTS.findall(without_accents(text))
 
@@ -85,25 +79,15 @@ _PAIR = re.compile(r"\s*(\w+)\s*=\s*(.+?)\s*$")
 
 
 class ColumnName(NamedTuple):
-    """What the name of a column says.
+    """What the name of a column says."""
 
-    Attributes
-    ----------
-    words : tuple of str
-        Its words, without accents, units and numbers, with their capitals.
-    unit : float or None
-        The unit that it states, in metres.
-    """
-
-    words: tuple[str, ...]
-    unit: float | None
+    words: tuple[str, ...]  # without accents, units and numbers, with their capitals
+    unit: float | None  # metres
 
     @classmethod
     def of(cls, name: str) -> ColumnName:
-        """Return the words and the unit of a name.
-
-        >>> ColumnName.of("Elevation_NAVD88 (ft)")
-        ColumnName(words=('Elevation', 'NAVD'), unit=0.3048)
+        """Return the words and the unit of a name: Elevation, NAVD and 0.3048 of "Elevation_NAVD88
+        (ft)".
         """
         text = without_accents(str(name).replace("U.S.", "US"))
         words: list[str] = []
@@ -171,12 +155,8 @@ class ColumnName(NamedTuple):
 
 
 def columns_in(text: str | None) -> dict[str, str]:
-    """Return the columns that a user chooses, such as ``x=E,y=N,z=H,cover=Class,type=Use,name=ID``.
-
-    Raises
-    ------
-    BareEarthError
-        If it is written in another way.
+    """Return the columns that a user chooses, such as ``x=E,y=N,z=H,cover=Class,type=Use,name=ID``;
+    refuse what is written in another way.
     """
     chosen = {}
     for part in filter(str.strip, (text or "").split(",")):
@@ -193,21 +173,8 @@ def columns_in(text: str | None) -> dict[str, str]:
 def columns_of(
     names: Sequence[str], chosen: Mapping[str, str], path: Path | str
 ) -> dict[str, list[int]]:
-    """Return the columns that can hold each role, the best first.
-
-    Parameters
-    ----------
-    names : sequence of str
-        The names of the columns.
-    chosen : mapping of str to str
-        Names, or numbers from 1 on, that the user gave for roles: the only ones for these.
-    path : Path or str
-        The file, for messages.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no column that the user chose.
+    """Return the columns that can hold each role, the best first, given for some roles the only
+    ones, as names or numbers from 1 on; refuse one that is not there.
     """
     found = {role: [_place_of(each, names, path)] for role, each in chosen.items()}
     used = {places[0] for places in found.values()}

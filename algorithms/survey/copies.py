@@ -14,21 +14,11 @@ _MOST_NAMES = 3
 
 
 def copies_in(tiles: Sequence[LasFile], are_named: Sequence[bool], progress: Progress) -> set[Path]:
-    """Return files that hold the same points as a file of the same name beside them.
-
-    QGIS writes such a .copc.laz file beside each file that it shows. Of the files, that with the
-    shortest ending is used.
-
-    Parameters
-    ----------
-    tiles : sequence of LasFile
-        The files of a survey.
-    are_named : sequence of bool
-        For each of them, whether the user named the file itself, and not only its folder. Such
-        files are all used.
-    progress : Progress
-        Receives a message on the files that are left out.
+    """Return files that hold the same points as a file of the same name beside them, and tell of
+    them, except for those that the user named and not only their folder.
     """
+    # QGIS writes such a .copc.laz file beside each file that it shows. Of the files, that with the
+    # shortest ending is used.
     first: dict[tuple[object, ...], LasFile] = {}
     copies: dict[Path, str] = {}
     pairs = zip(are_named, tiles)

@@ -79,27 +79,15 @@ NO_CORRECTIONS = Corrections()
 
 
 class ByHand(NamedTuple):
-    """Classes of points that were set by hand.
+    """Classes of points that were set by hand."""
 
-    Attributes
-    ----------
-    known : numpy.ndarray of bool, shape (n,)
-        Which points have a class that was set by hand.
-    classes : numpy.ndarray of uint8, shape (n,)
-        The classes; for other points, their present class.
-    """
-
-    known: np.ndarray
-    classes: np.ndarray
+    known: np.ndarray  # bool (n,), points with a class set by hand
+    classes: np.ndarray  # uint8 (n,); for other points, their present class
 
 
 def changed_since(part: PointCloud) -> np.ndarray:
-    """Return which points have another class than the remembered one of an earlier run.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
-        False for points that were set to 0, never classified: they are classified again.
+    """Return which points have another class than the remembered one of an earlier run, bool (n,),
+    but not those set to 0, never classified, which are classified again.
     """
     if part.remembered is None:
         return np.zeros(part.count, dtype=bool)
@@ -108,13 +96,9 @@ def changed_since(part: PointCloud) -> np.ndarray:
 
 
 def to_remember(part: PointCloud, classes: np.ndarray) -> np.ndarray:
-    """Return the values to remember for the new classes of points.
-
-    Returns
-    -------
-    numpy.ndarray of uint8, shape (n,)
-        The class. For points that keep a class set by hand, another value than their class, so
-        that the next run detects them again.
+    """Return the values to remember for the new classes of points, uint8 (n,): the class, or
+    another value for points that keep a class set by hand.
     """
+    # So the next run detects these again.
     stays = changed_since(part) & (classes == part.classification)
     return np.where(stays, _LARGEST_CLASS - classes, classes)

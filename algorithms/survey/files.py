@@ -42,24 +42,12 @@ class BrokenTile:
 
 @dataclass(frozen=True)
 class Survey:
-    """The files of a survey, sorted by their paths.
+    """The files of a survey, sorted by their paths."""
 
-    Attributes
-    ----------
-    tiles : tuple of LasFile
-        The files that can be read, at least one, all in the same CRS.
-    broken : tuple of BrokenTile
-        The files that cannot be read.
-    crs : Crs
-        The common CRS.
-    stated : str or None
-        The CRS that the user states in place of their records, as well-known text.
-    """
-
-    tiles: tuple[LasFile, ...]
-    broken: tuple[BrokenTile, ...]
+    tiles: tuple[LasFile, ...]  # at least one, all in the same CRS
+    broken: tuple[BrokenTile, ...]  # those that cannot be read
     crs: Crs
-    stated: str | None = None
+    stated: str | None = None  # the CRS that the user states in place of the records, as WKT
 
     @property
     def count(self) -> int:
@@ -90,27 +78,8 @@ def open_survey(
     progress: Progress = SILENT,
     stated: str | None = None,
 ) -> Survey:
-    """Find the files of a survey, and read their headers.
-
-    Parameters
-    ----------
-    sources : iterable of Path
-        LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc), and text files (.txt)
-        with one path in each line, relative to the folder of the text file. Files that are given
-        twice count once.
-    recursive : bool
-        Whether subfolders are searched, too.
-    progress : Progress
-        Receives progress and warnings.
-    stated : str, optional
-        The CRS that the user states in place of the records of the files, as well-known text.
-
-    Raises
-    ------
-    BareEarthError
-        If nothing is found, nothing can be read, or the files differ in CRS or units.
-    Cancelled
-        If the user asked to stop.
+    """Find the files of a survey in sources as of `find_files`, and read their headers; refuse a
+    survey if nothing can be read, or the files differ in CRS or units.
     """
     sources = [Path(sources)] if isinstance(sources, (str, Path)) else [*map(Path, sources)]
     paths = find_files(sources, recursive, progress)
@@ -147,21 +116,8 @@ def find_files(
     progress: Progress = SILENT,
     may_be_none: bool = False,
 ) -> list[Path]:
-    """Return the paths of all point clouds in the sources, sorted and without duplicates.
-
-    Parameters
-    ----------
-    sources, recursive
-        As for `open_survey`.
-    progress : Progress
-        Receives a warning if a virtual point cloud lists files outside of its folder.
-    may_be_none : bool
-        Whether an empty list is returned if there are no files.
-
-    Raises
-    ------
-    BareEarthError
-        If a source is of another kind, or there are no files.
+    """Return the paths of all point clouds in files, folders (with subfolders if recursive), .vpc,
+    and .txt with one path in each line relative to it, sorted, without duplicates.
     """
     if isinstance(sources, (str, Path)):
         sources = [Path(sources)]

@@ -18,17 +18,10 @@ from .selection import Selection
 
 @dataclass
 class GroundCounts:
-    """Counts of the parts of a file so far.
+    """Counts of the parts of a file so far."""
 
-    Attributes
-    ----------
-    ground : int
-        Number of ground points.
-    classes : numpy.ndarray of int64, shape (256,)
-        Number of points of each class.
-    """
-
-    ground: int = 0
+    ground: int = 0  # ground points
+    # int64 (256,), points of each class.
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
 
 

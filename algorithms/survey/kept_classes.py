@@ -31,16 +31,8 @@ ALL_CLASSES = "all"
 
 
 def tell_of_kept(counts: PointCounts, others: Collection[int], progress: Progress) -> None:
-    """Name the classes that stay by default, and how to classify them too.
-
-    Parameters
-    ----------
-    counts : PointCounts
-        The points of each class.
-    others : collection of int
-        Further classes that are decided anew, or are known ground.
-    progress : Progress
-        Receives the messages.
+    """Name the classes that stay by default, and how to classify them too, but not `others`, which
+    are decided anew, or are known ground.
     """
     present = set(np.flatnonzero(counts.classes).tolist())
     kept = present - {*DECIDED, *NOISE, *others}
@@ -68,29 +60,16 @@ def _counted(counts: PointCounts, classes: Sequence[int]) -> str:
 
 
 def overlapping(cloud: PointCloud) -> np.ndarray:
-    """Return which points are of the overlap of strips: by their flag, or by class 12.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
+    """Return which points are of the overlap of strips, by their flag, or by class 12,
+    bool (n,).
     """
     found = cloud.classification == OVERLAP
     return found if cloud.overlap is None else found | cloud.overlap
 
 
 def used(cloud: PointCloud, overlap: str) -> np.ndarray:
-    """Return which points are used, of any class: not withheld, nor overlap that is left out.
-
-    Parameters
-    ----------
-    cloud : PointCloud
-        The points.
-    overlap : str
-        "use" or "leave-out".
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
+    """Return which points of any class are not withheld, nor overlap if that is "leave-out", not
+    "use", bool (n,).
     """
     if overlap == "leave-out":
         return ~(cloud.withheld | overlapping(cloud))

@@ -17,41 +17,17 @@ _SIDE = 250.0
 
 
 def middle_window(files: Sequence[LasFile], unit: float) -> Box:
-    """Return a square window in the middle of the extent of a survey, without reading points.
-
-    Parameters
-    ----------
-    files : sequence of LasFile
-        The files.
-    unit : float
-        Metres in one unit of the CRS.
-
-    Returns
-    -------
-    tuple of float
-        Smallest x and y, largest x and y in units of the CRS: whole numbers, except where the
-        survey ends before. It holds no point if the survey has a gap there.
+    """Return a square window in the middle of the extent of a survey, in units of the CRS (`unit`
+    metres), without reading points, so that it may hold none.
     """
+    # Its borders are whole numbers, except where the survey ends before.
     west, south, east, north = extent = _extent(files)
     return _square((west + east) / 2.0, (south + north) / 2.0, unit, extent)
 
 
 def nearest_window(files: Sequence[LasFile], unit: float, progress: Progress = SILENT) -> Box:
-    """Return a square window round the point that is nearest to the middle of a survey.
-
-    Parameters
-    ----------
-    files, unit
-        As for `middle_window`. All points of the nearest files are read.
-    progress : Progress
-        Receives progress.
-
-    Raises
-    ------
-    BareEarthError
-        If a file cannot be read.
-    Cancelled
-        If the user asked to stop.
+    """Return a square window as `middle_window` round the point that is nearest to the middle of a
+    survey; all points of the nearest files are read.
     """
     west, south, east, north = extent = _extent(files)
     middle = (west + east) / 2.0, (south + north) / 2.0

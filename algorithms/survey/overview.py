@@ -43,30 +43,11 @@ def is_overview(path: Path) -> bool:
 
 
 def write_overview(vpc: Path, files: Sequence[LasFile], progress: Progress = SILENT) -> Path | None:
-    """Write the overview of a virtual point cloud, from the uppermost nodes of its COPC files.
-
-    Parameters
-    ----------
-    vpc : Path
-        The virtual point cloud, which need not exist yet.
-    files : sequence of LasFile
-        Its files.
-    progress : Progress
-        Receives progress.
-
-    Returns
-    -------
-    Path or None
-        The overview. None without one: if a file is not COPC, viewers do not show its points at any
-        scale, and other files must not be overwritten.
-
-    Raises
-    ------
-    BareEarthError
-        If a file cannot be read, or the output cannot be written.
-    Cancelled
-        If the user asked to stop.
+    """Write the overview of a virtual point cloud, which need not exist yet, from the uppermost
+    nodes of its COPC files, or return None.
     """
+    # If a file is not COPC, viewers do not show its points at any scale, and other files must not
+    # be overwritten.
     target, filled = overview_of(vpc), [each for each in files if each.count]
     is_one_of_them = any(each.path.resolve() == target.resolve() for each in files)
     if not filled or is_one_of_them or not all(each.is_copc for each in files):

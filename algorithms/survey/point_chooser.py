@@ -21,38 +21,18 @@ from .shapes import outside
 
 @dataclass(frozen=True)
 class PointChooser:
-    """Chooses the points of a run, part by part.
-
-    Attributes
-    ----------
-    selection : Selection
-        Which points take part.
-    area : Area or None
-        Where points are classified; everywhere if it is None.
-    context : float
-        Points up to this distance from the area take part as well, in metres.
-    corrections : Corrections
-        Classes set by hand, in addition to those remembered in the files.
-    """
+    """Chooses the points of a run, part by part."""
 
     selection: Selection
-    area: Area | None = None
-    context: float = 0.0
-    corrections: Corrections = NO_CORRECTIONS
+    area: Area | None = None  # where points are classified; None for everywhere
+    context: float = 0.0  # metres from the area in which points take part as well
+    corrections: Corrections = NO_CORRECTIONS  # in addition to those remembered in the files
 
     def choose(
         self, part: PointCloud, counts: PointCounts
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return which points lie in the area, take part, and are known ground; count them.
-
-        Returns
-        -------
-        inside, selected, known : numpy.ndarray of bool, shape (n,)
-
-        Raises
-        ------
-        BareEarthError
-            If the CRS is geographic, or the point format cannot hold a class.
+        """Return which points lie in the area, take part, and are known ground, each bool (n,), and
+        count them; refuse a geographic CRS and classes that do not fit.
         """
         part.require_projected()
         self.check_classes(part.path, part.point_format)
@@ -84,12 +64,8 @@ class PointChooser:
         return np.ones(part.count, dtype=bool) if self.area is None else self.area.of(part)
 
     def tell(self, counts: PointCounts, path: Path, progress: Progress) -> None:
-        """Tell how many points lie in the area and take part, when all points are counted.
-
-        Raises
-        ------
-        BareEarthError
-            If no point lies in the area, or none in the area takes part.
+        """Tell how many points lie in the area and take part, when all points are counted; refuse a
+        file without any.
         """
         if self.area is not None:
             if not counts.inside:

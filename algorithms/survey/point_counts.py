@@ -15,44 +15,26 @@ _STEP = 1 << 20
 
 @dataclass
 class PointCounts:
-    """Counts of the parts of a file so far.
+    """Counts of the parts of a file so far."""
 
-    Attributes
-    ----------
-    points, withheld, unnumbered, overlap : int
-        All points, withheld points, points without return number, and points of overlap.
-    from_zero : bool
-        Whether the return numbers begin at 0.
-    free : int
-        Points in the area and its surroundings that are not withheld.
-    eligible, of_returns : int
-        Points that may change their class, and how many of these are of the chosen returns.
-    known, by_hand, selected : int
-        Points of known ground, points whose class was set by hand, and all that take part.
-    classes, classes_within : numpy.ndarray of int64, shape (256,)
-        Points of each class: all, and those in the area and its surroundings.
-    inside, wanted : int
-        Points in the area itself, and how many of these take part.
-    bounds : tuple of float or None
-        Smallest x and y, largest x and y of all points, in units of the CRS.
-    """
-
-    points: int = 0
+    points: int = 0  # all
     withheld: int = 0
-    unnumbered: int = 0
+    unnumbered: int = 0  # without return number
     overlap: int = 0
-    from_zero: bool = False
-    free: int = 0
-    eligible: int = 0
-    of_returns: int = 0
-    known: int = 0
-    by_hand: int = 0
-    selected: int = 0
+    from_zero: bool = False  # whether the return numbers begin at 0
+    free: int = 0  # in the area and its surroundings, not withheld
+    eligible: int = 0  # may change their class
+    of_returns: int = 0  # of these, of the chosen returns
+    known: int = 0  # of known ground
+    by_hand: int = 0  # with a class set by hand
+    selected: int = 0  # all that take part
+    # int64 (256,), points of each class.
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+    # int64 (256,), those in the area and its surroundings.
     classes_within: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
-    inside: int = 0
-    wanted: int = 0
-    bounds: Box | None = None
+    inside: int = 0  # in the area itself
+    wanted: int = 0  # of these, those that take part
+    bounds: Box | None = None  # smallest x and y, largest x and y, in units of the CRS
 
     def add(self, part: PointCloud, within: np.ndarray | None, **masks: np.ndarray) -> None:
         """Count the points of a part, and of masks named as the attributes."""

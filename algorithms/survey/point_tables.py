@@ -31,24 +31,12 @@ _CHECK = "CHK-"
 
 
 class Table(NamedTuple):
-    """The cells of a table.
+    """The cells of a table."""
 
-    Attributes
-    ----------
-    names : tuple of str or None
-        The names of the columns; None if it has no header.
-    rows : list of list of str
-        The cells of each row.
-    numbers : list of int
-        The number of each row's line in the file, for messages.
-    crs : str or None
-        The CRS that it states.
-    """
-
-    names: tuple[str, ...] | None
-    rows: list[list[str]]
-    numbers: list[int]
-    crs: str | None = None
+    names: tuple[str, ...] | None  # of the columns; None without a header
+    rows: list[list[str]]  # the cells
+    numbers: list[int]  # the line of each row in the file
+    crs: str | None = None  # that it states
 
 
 class _Line(NamedTuple):
@@ -60,20 +48,12 @@ class _Line(NamedTuple):
 
 
 def read_table(path: Path) -> Table:
-    """Read a text file with one point in each row.
-
-    Parameters
-    ----------
-    path : Path
-        The file, in UTF-8, UTF-16 or the code page 1252. Cells are separated by semicolons, tabs,
-        bars, commas or spaces. Rows without any value and lines that begin with #, //, % or ! are
-        skipped; one of those before the first row may hold the names of the columns, or the CRS.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read, or holds no rows with three numbers.
+    """Read a text file with one point in each row, in UTF-8, UTF-16 or the code page 1252; refuse
+    one without rows with three numbers.
     """
+    # Cells are separated by semicolons, tabs, bars, commas or spaces. Rows without any value and
+    # lines that begin with #, //, % or ! are skipped; one of those before the first row may hold
+    # the names of the columns, or the CRS.
     lines, crs = _lines_of(path)
     texts = [each.text for each in lines if not each.is_comment]
     counts = [_count(_cells(texts[:_SAMPLE], each)) for each in _DELIMITERS]
@@ -114,11 +94,9 @@ def _lines_of(path: Path) -> tuple[list[_Line], str | None]:
 
 
 def _header_of(cells: list[list[str]], lines: list[_Line]) -> tuple[tuple[str, ...] | None, int]:
-    """Return the names of the columns, None for none, and the number of lines before the rows.
-
-    The lines are those before the first that holds three numbers. If none of them has known names,
-    the last is the header.
-    """
+    """Return the names of the columns, None for none, and the number of lines before the rows."""
+    # The lines are those before the first that holds three numbers. If none of them has known
+    # names, the last is the header.
     units: list[str] = []
     last, start = None, len(cells)
     for number in reversed(range(len(cells))):
@@ -147,11 +125,9 @@ def _are_units(row: list[str]) -> bool:
 
 
 def _control_points(table: Table) -> Table:
-    """Return the points of a list of ground control points of ODM, each once.
-
-    A row holds x, y, z, a place in an image, the image, and the name of the point; the name may be
-    missing.
-    """
+    """Return the points of a list of ground control points of ODM, each once."""
+    # A row holds x, y, z, a place in an image, the image, and the name of the point, which may be
+    # missing.
     some = table.rows[0]
     if len(some) < 6 or _numbers_in(some[:5]) < 5 or not _IMAGE.fullmatch(some[5]):
         return table
@@ -169,11 +145,9 @@ def _control_points(table: Table) -> Table:
 
 
 def places_without_names(rows: Sequence[Sequence[str]]) -> dict[str, int]:
-    """Return the places of the columns of a table without a header: name, x, y, z, cover.
-
-    The first column is the name if it is no number, or if it holds whole numbers before three other
-    columns of numbers. The cover is the first column of words behind z.
-    """
+    """Return the places of the columns of a table without a header: name, x, y, z, cover."""
+    # The first column is the name if it is no number, or if it holds whole numbers before three
+    # other columns of numbers. The cover is the first column of words behind z.
     some = [row for row in rows[:_SAMPLE] if _numbers_in(row) >= 3]
     width = min(map(len, some))
     is_number = [all(number_of(row[each]) is not None for row in some) for each in range(width)]
@@ -195,10 +169,8 @@ def places_without_names(rows: Sequence[Sequence[str]]) -> dict[str, int]:
 
 
 def number_of(value: Any) -> float | None:
-    """Return the number in a cell; None if it is none.
-
-    >>> number_of("512345,67"), number_of("5'400'000.5"), number_of("1.234,5"), number_of("P1")
-    (512345.67, 5400000.5, 1234.5, None)
+    """Return the number in a cell such as "512345,67", "5'400'000.5" or "1.234,5"; None if it is
+    none.
     """
     if isinstance(value, (int, float)):
         return float(value) if math.isfinite(value) else None

@@ -17,31 +17,20 @@ _SPREAD = (0xBF58476D1CE4E5B9, 0x94D049BB133111EB)
 
 
 class RepeatedPoints:
-    """Tells which points of a survey were there before, in the order of its files.
-
-    Points are the same if their coordinates, return numbers and, where all files have them, GPS
-    times are equal. They are compared by keys of 64 bits: of a billion points, one in thirty
-    surveys has a pair of equal keys by chance.
-
-    Parameters
-    ----------
-    tiles : sequence of LasFile
-        The files of the survey.
-    array : callable
-        ``array(name, shape, kind)`` returns an array of zeros, in memory or on disk.
-
-    Attributes
-    ----------
-    has_times : bool
-        Whether the parts must have GPS times.
-    shared, duplicates : int
-        Points that an earlier file holds as well, and other points that repeat one of their file.
+    """Tells which points of a survey were there before, in the order of its files; `array(name,
+    shape, kind)` returns an array of zeros, in memory or on disk.
     """
+
+    # Points are the same if their coordinates, return numbers and, where all files have them, GPS
+    # times are equal. They are compared by keys of 64 bits: of a billion points, one in thirty
+    # surveys has a pair of equal keys by chance.
 
     def __init__(
         self, tiles: Sequence[LasFile], array: Callable[[str, tuple[int, ...], str], np.ndarray]
     ) -> None:
+        # Whether the parts must have GPS times.
         self.has_times = all(tile.has_gps_times for tile in tiles)
+        # Points that an earlier file holds as well, and other points that repeat one of their file.
         self.shared = self.duplicates = 0
         # Coordinates are compared in the smallest unit of all files.
         self._unit = tuple(min(tile.scale[axis] for tile in tiles) for axis in range(3))

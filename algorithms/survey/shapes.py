@@ -14,34 +14,16 @@ from ..crs.system import Crs
 
 
 class Place(NamedTuple):
-    """Where the points of a run lie.
+    """Where the points of a run lie."""
 
-    Attributes
-    ----------
-    name : str
-        The file, or "the files", for messages.
-    crs : Crs
-        Their CRS.
-    box : tuple of float or None
-        Smallest x and y, largest x and y, in units of the CRS; None if it is not known.
-    """
-
-    name: str
+    name: str  # the file, or "the files", for messages
     crs: Crs
-    box: Box | None = None
+    box: Box | None = None  # in units of the CRS; None if it is not known
 
 
 class Shapes(tuple):  # type: ignore[type-arg]
-    """Lines or polygons from a file, and the CRS that the file states.
-
-    Parameters
-    ----------
-    shapes : sequence
-        Polygons, as in `Area`, or lines: numpy.ndarray of float64, shape (n, 3).
-    crs : str or None
-        Their CRS, such as ``EPSG:25833``, or well-known text; None if the file states none.
-    source : str
-        The file, for messages.
+    """Polygons as in `Area`, or lines, float64 (n, 3), from a file (`source`, for messages), and
+    the CRS that it states, as code or well-known text.
     """
 
     crs: str | None
@@ -60,19 +42,8 @@ class Geometry:
     """Base of what holds lines and polygons: an area, corrections, constraints."""
 
     def located(self, place: Place, progress: Progress = SILENT) -> Any:
-        """Return the same with all lines and polygons in the CRS of the points.
-
-        Parameters
-        ----------
-        place : Place
-            Where the points lie.
-        progress : Progress
-            Receives messages on what was transformed.
-
-        Raises
-        ------
-        BareEarthError
-            If the CRS cannot be transformed, or all of a kind lies outside of the points.
+        """Return the same with all lines and polygons in the CRS of the points; refuse a kind of
+        them that all lies outside of the points.
         """
         raise NotImplementedError
 
@@ -84,28 +55,12 @@ def located(
     progress: Progress = SILENT,
     near: float | None = None,
 ) -> tuple[Any, ...]:
-    """Return shapes in the CRS of the points.
-
-    Shapes of `Shapes` are transformed from the CRS that their file states. If it states none, they
-    are longitudes and latitudes if their numbers say so and those of the points do not. All others
-    are in the CRS of the points already. Heights (z) stay as they are.
-
-    Parameters
-    ----------
-    shapes : sequence
-        Polygons or lines, as for `Shapes`.
-    what : str
-        What they are, for the error: "the area".
-    place, progress
-        As for `Geometry.located`.
-    near : float, optional
-        How far from the points, in metres, shapes have an effect; for lines.
-
-    Raises
-    ------
-    BareEarthError
-        If they cannot be transformed, or all of them lie outside of the points.
+    """Return lines or polygons in the CRS of the points; refuse them if all are outside of it,
+    lines if all are farther than `near` metres from the points.
     """
+    # Shapes of `Shapes` are transformed from the CRS that their file states. If it states none,
+    # they are longitudes and latitudes if their numbers say so and those of the points do not. All
+    # others are in the CRS of the points already. Heights (z) stay as they are.
     if place.crs.is_geographic:  # the run refuses such points
         return tuple(shapes)
     found = _in_crs(shapes, place, progress) if isinstance(shapes, Shapes) else tuple(shapes)
@@ -122,16 +77,8 @@ def located(
 
 
 def outside(what: str, bounds: Box, of: str, box: Box, near: float | None = None) -> BareEarthError:
-    """Return the error for geometry that lies outside of the points.
-
-    Parameters
-    ----------
-    what, of : str
-        What lies outside, and the file or files of the points.
-    bounds, box : tuple of float
-        The extents of both.
-    near : float, optional
-        As for `located`.
+    """Return the error for geometry (`what`) that lies outside of the points (`of` a file or
+    files), or farther than `near` metres.
     """
     lies = "in" if near is None else f"within {near:g} m of"
     return BareEarthError(

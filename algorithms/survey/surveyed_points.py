@@ -24,21 +24,11 @@ _SAME = 0.002
 
 
 class Record(NamedTuple):
-    """A row of a table, or a point of a layer.
+    """A row of a table, or a point of a layer."""
 
-    Attributes
-    ----------
-    where : str
-        The row, for messages.
-    cells : sequence
-        The value of each column.
-    place : numpy.ndarray of float64, shape (3,), or None
-        The geometry; z is NaN if it has none. None for rows of tables.
-    """
-
-    where: str
-    cells: Sequence[Any]
-    place: np.ndarray | None = None
+    where: str  # the row, for messages
+    cells: Sequence[Any]  # the value of each column
+    place: np.ndarray | None = None  # float64 (3,); z is NaN without one, None for rows of tables
 
 
 # Where heights stand, the heights, and metres in a unit of them if it is known.
@@ -46,31 +36,17 @@ OtherHeights = Tuple[str, np.ndarray, Optional[float]]
 
 
 class SurveyedPoints(NamedTuple):
-    """Points with what their columns say.
+    """Points with what their columns say."""
 
-    Attributes
-    ----------
-    places : numpy.ndarray of float64, shape (n, 3)
-        x, y and z as they are written.
-    names, covers, types : tuple of str
-        Their names, land covers and uses.
-    units : tuple of float or None
-        Metres in a unit of x and y, and of z, if the names of the columns state these.
-    notes : tuple of str
-        What the user must know about the choice of columns.
-    is_ordered : bool
-        Whether it is known which column is x.
-    others : tuple of tuple
-        Other heights: where they stand, numpy.ndarray of float64, shape (n,), and their unit.
-    """
-
-    places: np.ndarray
+    places: np.ndarray  # float64 (n, 3), x, y and z as they are written
     names: tuple[str, ...]
-    covers: tuple[str, ...]
-    types: tuple[str, ...]
+    covers: tuple[str, ...]  # land covers
+    types: tuple[str, ...]  # uses
+    # Metres in a unit of x and y, and of z, if names of columns state them.
     units: tuple[float | None, float | None] = (None, None)
-    notes: tuple[str, ...] = ()
-    is_ordered: bool = True
+    notes: tuple[str, ...] = ()  # what the user must know about the choice of columns
+    is_ordered: bool = True  # whether it is known which column is x
+    # Other heights: where they stand, float64 (n,), and their unit.
     others: tuple[OtherHeights, ...] = ()
 
     @classmethod
@@ -78,30 +54,11 @@ class SurveyedPoints(NamedTuple):
         cls,
         names: Sequence[str],
         records: Sequence[Record],
-        chosen: Mapping[str, str],
+        chosen: Mapping[str, str],  # columns of x, y, z, cover, type and name
         path: Path | str,
-        usual: Mapping[str, int] | None = None,
+        usual: Mapping[str, int] | None = None,  # columns of a table without names
     ) -> SurveyedPoints:
-        """Return the points of rows.
-
-        Parameters
-        ----------
-        names : sequence of str
-            The names of the columns.
-        records : sequence of Record
-            The rows, at least one.
-        chosen : mapping of str to str
-            Names or numbers of columns that the user gave for x, y, z, cover, type and name.
-        path : Path or str
-            The file, for messages.
-        usual : mapping of str to int, optional
-            The columns of a table without names.
-
-        Raises
-        ------
-        BareEarthError
-            If a column is missing, or a coordinate is.
-        """
+        """Return the points of rows, at least one; refuse a missing column or coordinate."""
         if records[0].place is not None:
             chosen = {role: name for role, name in chosen.items() if role not in "xy"}
         given = {role: found for role, found in columns_of(names, chosen, path).items() if found}
@@ -112,22 +69,12 @@ class SurveyedPoints(NamedTuple):
 
 
 class _Reader(NamedTuple):
-    """Reads points from rows.
-
-    Attributes
-    ----------
-    names, records, path
-        As for `SurveyedPoints.of`.
-    columns : dict of str to list of int
-        The columns that can hold each role, the best first.
-    has_chosen : bool
-        Whether the user chose the column of z.
-    """
+    """Reads points from rows; `columns` are those that can hold each role, the best first."""
 
     names: Sequence[str]
     records: list[Record]
     columns: dict[str, list[int]]
-    has_chosen: bool
+    has_chosen: bool  # whether the user chose the column of z
     path: str
 
     def points(self, is_ordered: bool) -> SurveyedPoints:

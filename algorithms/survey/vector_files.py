@@ -98,23 +98,8 @@ def read_lines(path: Path) -> tuple[np.ndarray, ...]:
 
 
 def read_points(path: Path) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
-    """Read the points of a file with all of their attributes.
-
-    Parameters
-    ----------
-    path : Path
-        A file as for `read_boundary`, but no .wkt.
-
-    Returns
-    -------
-    Shapes of tuple
-        x, y and z of each point, numpy.ndarray of float64, shape (3,), and its attributes; NaN for
-        z where the file has none.
-
-    Raises
-    ------
-    BareEarthError
-        As for `read_boundary`.
+    """Read x, y and z of the points of a file, as of `read_boundary` but no .wkt, float64 (3,), NaN
+    for z where there is none, and all of their attributes.
     """
     return _shapes(path, "Point", lambda place, attributes: (_line([place])[0], attributes))
 

@@ -29,29 +29,11 @@ class _Layer(NamedTuple):
 def read_features(
     path: Path | str, kind: str, attribute: str | None
 ) -> tuple[list[tuple[Any, dict[str, Any]]], str | None]:
-    """Read the geometries of a kind from a vector file.
-
-    Parameters
-    ----------
-    path : Path or str
-        The file; ``FILE|layername=NAME`` for one layer of it.
-    kind : str
-        "Polygon", "LineString" or "Point".
-    attribute : str or None
-        The attribute to read as well, if there is one of this name; None for all attributes.
-
-    Returns
-    -------
-    features : list of tuple
-        Coordinates, as in GeoJSON, and attributes of each geometry.
-    crs : str or None
-        The CRS of the layer, as a code or well-known text.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no library, the file cannot be read, or several layers hold such geometries.
+    """Read the geometries of a kind ("Polygon", "LineString" or "Point") with attributes, None for
+    all, and the CRS of the layer as code or WKT.
     """
+    # Coordinates are as in GeoJSON; ``FILE|layername=NAME`` is one layer of a file, without which
+    # several layers with such geometries are refused.
     name, _, wanted = str(path).partition(_LAYER)
     _check(Path(name))
     reads = _library(name)

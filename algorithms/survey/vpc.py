@@ -45,7 +45,7 @@ _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 
 
 class Dimension(NamedTuple):
-    """A dimension of points, in the terms of PDAL. QGIS offers them for styles."""
+    """A dimension of points, in the terms of PDAL, which QGIS offers for styles."""
 
     name: str
     type: str
@@ -76,17 +76,8 @@ _COLOURS = [Dimension(name, "unsigned", 2) for name in ("Red", "Green", "Blue")]
 
 
 def read_vpc(path: Path) -> list[Path]:
-    """Return the files that a virtual point cloud lists, without opening them.
-
-    Parameters
-    ----------
-    path : Path
-        A .vpc file. Paths in it that are not absolute are relative to its folder.
-
-    Raises
-    ------
-    BareEarthError
-        If it cannot be read, is not valid or empty, or lists files that are not on this computer.
+    """Return the files that a virtual point cloud lists, relative to its folder if they are not
+    absolute, without opening them; refuse one without files on this computer.
     """
     path = Path(path)
     try:
@@ -130,32 +121,11 @@ def write_vpc(
     overview: bool = False,
     stated: str | None = None,
 ) -> None:
-    """Write a virtual point cloud. QGIS shows the points of COPC files, and outlines of others.
-
-    Only the headers of the files are read, and a few points for an overview. Paths are relative to
-    the folder of `path`, so that it can be moved together with the files.
-
-    Parameters
-    ----------
-    path : Path
-        The .vpc file to make.
-    files : iterable of Path
-        LAS, LAZ or COPC files.
-    progress : Progress
-        Receives progress, and a warning if the CRS of files is not known.
-    overview : bool
-        Whether to write an overview beside it, as `write_overview` does. Without one, an old
-        overview is removed.
-    stated : str, optional
-        The CRS that the user states in place of their records, as well-known text.
-
-    Raises
-    ------
-    BareEarthError
-        If a file cannot be read, or the output cannot be written.
-    Cancelled
-        If the user asked to stop.
+    """Write a virtual point cloud, with paths relative to its folder, so that it can be moved
+    together with the files, and with an overview, or remove an old overview.
     """
+    # QGIS shows the points of COPC files, and outlines of others. Only the headers of the files are
+    # read, and a few points for an overview.
     path, files = Path(path), [Path(each) for each in files]
     check_vpc(path)
     if not files:

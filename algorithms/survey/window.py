@@ -25,46 +25,17 @@ Change = Callable[[slice, PointCloud], PointCloud]
 
 def read_window(
     path: Path | LasFile,
-    box: Box,
+    box: Box,  # smallest x and y, largest x and y in units of the CRS
     progress: Progress = SILENT,
-    trust_header: bool = False,
+    trust_header: bool = False,  # skip LAS and LAZ whose stated extent does not touch the box
     times: bool = False,
-    change: Change | None = None,
+    change: Change | None = None,  # gets indices in the file and all points in file order
 ) -> PointCloud:
-    """Read the points of a LAS, LAZ or COPC file that lie in a rectangle.
-
-    Of a COPC file only the nodes of its octree that touch the rectangle are read, unless the octree
-    is damaged. LAS and LAZ files are read completely, part by part.
-
-    Parameters
-    ----------
-    path : Path or LasFile
-        The file, or the result of `open_las`.
-    box : tuple of float
-        Smallest x and y, largest x and y in units of the CRS; the border belongs to the box.
-    progress : Progress
-        Receives progress, and warnings about CRS, header and octree.
-    trust_header : bool
-        Whether to skip a LAS or LAZ file if the extent in its header does not touch the rectangle.
-        If the header is wrong, points are missed.
-    times : bool
-        Whether to read the GPS times, too.
-    change : callable, optional
-        Returns points with other values than in the file, given their indices in the file and the
-        points. It gets all points of the file in their order.
-
-    Returns
-    -------
-    PointCloud
-        The points in file order; it can be empty.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read, or the rectangle is not valid.
-    Cancelled
-        If the user asked to stop.
+    """Read the points of a LAS, LAZ or COPC file in a rectangle, which includes its border, in file
+    order, perhaps none.
     """
+    # Of a COPC file only the nodes of its octree that touch the rectangle are read, unless the
+    # octree is damaged. LAS and LAZ files are read completely, part by part.
     west, south, east, north = map(float, box)
     area = Area(box=(west, south, east, north))
     layout = open_las(path)

@@ -20,27 +20,10 @@ _MOST_LEVELS = 20
 
 
 def geometries_of(data: bytes) -> Iterator[tuple[str, Any]]:
-    """Yield the points, lines and polygons of a geometry, also those of collections.
-
-    Yields
-    ------
-    str
-        "Point", "LineString" or "Polygon".
-    numpy.ndarray of float64, shape (n, 2) or (n, 3), or list of such
-        The corners of a line, or the rings of a polygon; of a point one row, shape (2,) or (3,).
-        m is left out, and so are empty points.
-
-    Raises
-    ------
-    ValueError
-        If the data is not valid, or has another type of geometry, such as an arc.
-
-    Examples
-    --------
-    >>> line = struct.pack("<BII4d", 1, 2, 2, 0.0, 1.0, 2.0, 3.0)
-    >>> [(name, corners.tolist()) for name, corners in geometries_of(line)]
-    [('LineString', [[0.0, 1.0], [2.0, 3.0]])]
+    """Yield the points, float64 (2,) or (3,), lines (n, 2) or (n, 3), and polygons (lists of rings)
+    of a geometry, also of collections; ValueError for others, such as arcs.
     """
+    # m is left out, and so are empty points.
     try:
         found: list[tuple[str, Any]] = []
         _read(data, 0, found, 0)
