@@ -37,36 +37,19 @@ _COLOURS = "red", "green", "blue", "palette"
 
 @dataclass(frozen=True)
 class RasterGrid:
-    """A north-up grid of square cells in the CRS of the survey.
+    """A north-up grid of square cells in the CRS of the survey."""
 
-    Attributes
-    ----------
-    west, north : float
-        Upper left corner in units of the CRS. It is a multiple of the cell size, so that rasters of
-        neighbouring tiles fit together.
-    cell_size : float
-        Side of a cell, in units of the CRS.
-    columns, rows : int
-        Size of the raster.
-    frame : Frame
-        The frame of the local metres.
-    """
-
-    west: float
-    north: float
-    cell_size: float
+    west: float  # in units of the CRS, a multiple of the cell size, so that tiles fit together
+    north: float  # likewise
+    cell_size: float  # in units of the CRS
     columns: int
     rows: int
-    frame: Frame
+    frame: Frame  # of the local metres
 
     @classmethod
     def over(cls, points: Points, frame: Frame, cell_size: float) -> RasterGrid:
-        """Return the grid that covers `points`, with cells of `cell_size` metres.
-
-        Raises
-        ------
-        BareEarthError
-            If there are no points, or the grid would be too large.
+        """Return the grid that covers `points`, with cells of `cell_size` metres; refuse no points,
+        and a grid that would be too large.
         """
         if points.count == 0:
             raise BareEarthError(
@@ -131,30 +114,15 @@ def _covered(points: Points) -> float:
 
 
 class Raster(NamedTuple):
-    """A band of a raster file in memory.
+    """A band of a raster file in memory."""
 
-    Attributes
-    ----------
-    heights : numpy.ndarray of float32, shape (rows, columns)
-        The cells in file order, in the vertical unit of `frame`; NaN where there is no value.
-    geotransform : tuple of float
-        Geotransform of GDAL.
-    frame : Frame
-        The CRS and its units; the origin is not used.
-    unit : str
-        Unit of the band; empty if it states none.
-    whole : tuple of int
-        Rows and columns of the file, if only some cells were read.
-    states_unit : bool
-        Whether the band, its description or the CRS states the unit of the heights.
-    """
-
+    # float32 (rows, columns), in file order and the vertical unit; NaN without value.
     heights: np.ndarray
-    geotransform: tuple[float, ...]
-    frame: Frame
-    unit: str = ""
-    whole: tuple[int, int] = (0, 0)
-    states_unit: bool = False
+    geotransform: tuple[float, ...]  # as of GDAL
+    frame: Frame  # its origin is not used
+    unit: str = ""  # of the band; empty if it states none
+    whole: tuple[int, int] = (0, 0)  # rows and columns of the file, if only some cells were read
+    states_unit: bool = False  # whether band, description or CRS state the unit of the heights
 
     @property
     def cell_metres(self) -> tuple[float, float]:
@@ -176,26 +144,11 @@ def read_raster(
     progress: Progress = SILENT,
     window: Window | None = None,
 ) -> Raster:
-    """Read one band of a raster file as heights.
-
-    Parameters
-    ----------
-    source : str or Path
-        The file, or a part of one as GDAL names it: ``GPKG:survey.gpkg:dsm``.
-    band : int
-        Number of the band, from 1.
-    progress : Progress
-        Receives messages on units that are not stated, but assumed.
-    window : tuple of int, optional
-        First column and row, and numbers of columns and rows to read; by default all. The
-        geotransform is that of the whole file.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no library to read rasters with, the raster is not on this computer, the band
-        cannot be read, or the CRS is geographic.
+    """Read one band (from 1) of a raster file, or of a part as GDAL names it
+    (``GPKG:survey.gpkg:dsm``), as heights; refuse a geographic CRS.
     """
+    # A window is first column and row, and numbers of columns and rows; the geotransform stays that
+    # of the whole file.
     content = read_content(source, band, window)
     values, valid = content.values, content.valid
     if content.colour.lower() in _COLOURS:
@@ -216,9 +169,8 @@ def read_raster(
 
 
 class Content(NamedTuple):
-    """Cells of a band, and what the file says of them.
-
-    `shape` is that of the whole file, `colour` what the band holds in a picture of bytes.
+    """Cells of a band, and what the file says of them: `shape` is that of the whole file, `colour`
+    what the band holds in a picture of bytes.
     """
 
     values: np.ndarray

@@ -13,41 +13,19 @@ _ROUNDING = 0.01
 
 
 class GivenGrid(NamedTuple):
-    """The grid of a raster whose cells are square, with north up.
+    """The grid of a raster whose cells are square, with north up."""
 
-    Attributes
-    ----------
-    west, north : float
-        Upper left corner in units of the CRS.
-    cell_size : float
-        Side of a cell in units of the CRS.
-    columns, rows : int
-        Size of the raster.
-    wkt : str
-        The CRS as well-known text; empty if the raster states none.
-    """
-
-    west: float
-    north: float
-    cell_size: float
+    west: float  # in units of the CRS
+    north: float  # in units of the CRS
+    cell_size: float  # in units of the CRS
     columns: int
     rows: int
-    wkt: str
+    wkt: str  # empty if the raster states no CRS
 
 
 def read_grid(source: str | Path) -> GivenGrid:
-    """Read the grid of a raster file.
-
-    Parameters
-    ----------
-    source : str or Path
-        The file, or a part of one as GDAL names it.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no library to read rasters with, the raster cannot be read or is not on this
-        computer, or its cells are not square with north up.
+    """Read the grid of a raster file, or of a part as GDAL names it; refuse cells that are not
+    square with north up.
     """
     content = read_content(source, window=NO_CELLS)
     (rows, columns), (west, width, tilt, north, lean, height) = content.shape, content.geotransform

@@ -22,14 +22,8 @@ def library(
 
 
 class GdalErrors:
-    """Collects the error messages of GDAL, in each of its error modes.
-
-    Parameters
-    ----------
-    gdal : module
-        ``osgeo.gdal``.
-    what : str
-        "read" or "write", for the messages.
+    """Collects the error messages of GDAL, in each of its error modes; `what` it does for them,
+    "read" or "write".
     """
 
     def __init__(self, gdal: Any, what: str) -> None:

@@ -14,29 +14,13 @@ from .geotiff import NO_CELLS, frame_of, read_content, read_raster, stated_units
 
 
 class RowsOfRaster(NamedTuple):
-    """The first band of a raster file, of any size.
-
-    Attributes
-    ----------
-    source : str or Path
-        The file.
-    shape : tuple of int
-        Rows and columns.
-    geotransform : tuple of float
-        Geotransform of GDAL.
-    frame : Frame
-        The CRS and its units.
-    unit : str
-        Symbol of the unit of heights; empty if the file states neither unit nor CRS.
-    epsg : int or None
-        EPSG code of the CRS.
-    """
+    """The first band of a raster file, of any size."""
 
     source: str | Path
-    shape: tuple[int, int]
-    geotransform: tuple[float, ...]
+    shape: tuple[int, int]  # rows and columns
+    geotransform: tuple[float, ...]  # as of GDAL
     frame: Frame
-    unit: str
+    unit: str  # symbol of the unit of heights; empty if the file states neither unit nor CRS
     epsg: int | None
 
     @classmethod

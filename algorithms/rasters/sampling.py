@@ -147,18 +147,7 @@ class _Square(NamedTuple):
 
 
 class HeightSampler:
-    """Returns heights of a raster at places; only one thread may use it.
-
-    Parameters
-    ----------
-    raster : HeightRaster
-        The raster.
-
-    Attributes
-    ----------
-    unit : float or None
-        As in `HeightRaster`.
-    """
+    """Returns heights of a raster at places, in its unit; only one thread may use it."""
 
     def __init__(self, raster: HeightRaster) -> None:
         self._raster, self.unit = raster, raster.unit
@@ -169,19 +158,8 @@ class HeightSampler:
         self._inverse = np.linalg.inv([[a, b], [c, d]])
 
     def heights(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return heights between the centres of cells, in the unit of the raster.
-
-        Bilinear interpolation. Neighbours without a value are left out.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray of float, shape (n,)
-            In the CRS of the raster.
-
-        Returns
-        -------
-        numpy.ndarray of float64, shape (n,)
-            NaN outside of the raster, and in cells without a value.
+        """Return heights at places (n,) in the CRS of the raster, bilinear between centres of cells
+        that have a value, in its unit; NaN outside and in cells without one.
         """
         west, north = self._raster.geotransform[0], self._raster.geotransform[3]
         column, row = self._inverse @ np.array([x - west, y - north])

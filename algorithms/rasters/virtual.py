@@ -18,26 +18,12 @@ def write_virtual(
     target: Path,
     folder: Path,
     grid: RasterGrid,
-    parts: Mapping[Path, RasterGrid],
-    kind: str,
-    band: Band,
+    parts: Mapping[Path, RasterGrid],  # equal where they overlap
+    kind: str,  # "float32" or "uint8"
+    band: Band,  # of the parts, or their bands
 ) -> None:
-    """Write a virtual raster, as ``gdalbuildvrt`` does. Its parts need not exist yet.
-
-    Parameters
-    ----------
-    target : Path
-        The file to write.
-    folder : Path
-        The folder in which it will lie. The paths of its parts are relative to this folder.
-    grid : RasterGrid
-        The grid of the virtual raster.
-    parts : mapping of Path to RasterGrid
-        The rasters and their grids. Where they overlap, their cells must be equal.
-    kind : str
-        Type of the cells, "float32" or "uint8".
-    band : Band
-        The band of the parts, or their bands.
+    """Write a virtual raster of parts that need not exist yet, as ``gdalbuildvrt`` does, with paths
+    relative to the folder in which it will lie.
     """
     transform = ", ".join(repr(float(each)) for each in grid.geotransform)
     lines = [

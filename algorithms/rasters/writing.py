@@ -35,32 +35,19 @@ _WAITING = {"TILED": "YES", "BIGTIFF": "IF_SAFER", "SPARSE_OK": "TRUE"}
 
 
 def raster_file(outputs: Outputs, path: Path) -> Path:
-    """Return a temporary file for a raster; the .aux.xml file of an old one will be removed.
-
-    It has statistics of the old cells, by which QGIS would stretch its colours.
-    """
+    """Return a temporary file for a raster; the .aux.xml file of an old one will be removed."""
+    # It has statistics of the old cells, by which QGIS would stretch its colours.
     return outputs.file(path, [f"{path.name}.aux.xml"])
 
 
 class Rows(NamedTuple):
-    """The cells of a raster, in strips of rows.
+    """The cells of a raster, in strips of rows."""
 
-    Attributes
-    ----------
-    shape : tuple of int
-        Rows and columns of the raster.
-    kind : str
-        "float32" or "uint8".
-    strips : iterable of numpy.ndarray, shape (some rows, columns) or (bands, some rows, columns)
-        From north to south.
-    bands : int
-        Number of bands: 1, or 3 for red, green and blue.
-    """
-
-    shape: tuple[int, int]
-    kind: str
+    shape: tuple[int, int]  # rows and columns of the raster
+    kind: str  # "float32" or "uint8"
+    # (some rows, columns) or (bands, some rows, columns), from north to south.
     strips: Iterable[np.ndarray]
-    bands: int = 1
+    bands: int = 1  # 1, or 3 for red, green and blue
 
 
 class Band(NamedTuple):
@@ -89,34 +76,14 @@ class Band(NamedTuple):
 
 def write_geotiff(
     target: Path,
-    values: np.ndarray | Rows,
+    values: np.ndarray | Rows,  # (rows, columns) from north to south
     grid: RasterGrid | Raster,
-    nodata: float,
+    nodata: float,  # for cells without a value
     progress: Progress,
-    shows: str,
+    shows: str,  # name of the band; {unit} becomes the vertical unit
 ) -> None:
-    """Write a cloud-optimised GeoTIFF, of one band, or of three for red, green and blue.
-
-    Parameters
-    ----------
-    target : Path
-        The file to make.
-    values : numpy.ndarray of float32 or uint8, shape (rows, columns), or Rows
-        The cells from north to south; `nodata` where there is no value.
-    grid : RasterGrid or Raster
-        The grid of the cells.
-    nodata : float
-        The value for no data.
-    progress : Progress
-        Receives a warning if the CRS cannot be written.
-    shows : str
-        Description of the cells, which programs show as the name of the band. ``{unit}`` is
-        replaced by the symbol of the vertical unit.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no library to write rasters with, or the file cannot be written.
+    """Write a cloud-optimised GeoTIFF of float32 or uint8, of one band, or of three for red, green
+    and blue.
     """
     check_output(target)
     if isinstance(values, np.ndarray):
@@ -142,14 +109,10 @@ def _writer() -> Callable[..., None]:
 
 
 def _waiting_file(path: Path, rows: Rows) -> Path | None:
-    """Return the file in which the cells are collected, or None for memory.
-
-    Raises
-    ------
-    OSError
-        If the disk has too little space for the file. If it becomes full later, rasterio raises no
-        error, or an unexpected one.
+    """Return the file in which the cells are collected, or None for memory; OSError if the disk has
+    too little space for it.
     """
+    # If the disk becomes full later, rasterio raises no error, or an unexpected one.
     if rows.shape[0] * rows.shape[1] * rows.bands <= _MOST_IN_MEMORY:
         return None
     tiles = math.prod(-(-each // _TILE) for each in rows.shape)
@@ -210,7 +173,7 @@ def _write_with_gdal(
 
 
 def _tags(about: Band) -> dict[str, str]:
-    """Return what the file says about itself. It has no time, so that equal runs are equal."""
+    """Return what the file says about itself, without a time, so that equal runs are equal."""
     return {
         "TIFFTAG_SOFTWARE": f"Bare Earth {__version__}",
         "TIFFTAG_IMAGEDESCRIPTION": about.description,
