@@ -13,24 +13,12 @@ from .trend import between_blocks
 
 
 class CellBlocks(NamedTuple):
-    """Square blocks of cells, anchored at (0, 0) of the points' frame.
+    """Square blocks of cells, anchored at (0, 0) of the points' frame."""
 
-    Attributes
-    ----------
-    size : float
-        Side of a block in metres.
-    side : int
-        Side of a block in cells.
-    first : tuple of int
-        Row and column of the first cell within its block.
-    first_block : tuple of int
-        Row and column of the first block.
-    """
-
-    size: float
-    side: int
-    first: tuple[int, int]
-    first_block: tuple[int, int]
+    size: float  # side in metres
+    side: int  # in cells
+    first: tuple[int, int]  # row and column of the first cell within its block
+    first_block: tuple[int, int]  # row and column
 
     @classmethod
     def over(cls, cells: Cells, size: float, least: int = 2) -> CellBlocks:

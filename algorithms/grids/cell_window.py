@@ -12,18 +12,10 @@ _ROUNDING = 1e-6
 
 
 class CellWindow(NamedTuple):
-    """A rectangle of square cells, which are counted from (0, 0) to the north and to the east.
+    """A rectangle of square cells, which are counted from (0, 0) to the north and to the east."""
 
-    Attributes
-    ----------
-    row, column : int
-        The first cell, in the southwest.
-    rows, columns : int
-        Size of the window.
-    """
-
-    row: int
-    column: int
+    row: int  # of the first cell, in the southwest
+    column: int  # of the first cell
     rows: int
     columns: int
 
@@ -75,21 +67,8 @@ class CellWindow(NamedTuple):
     def places(
         self, x: np.ndarray, y: np.ndarray, corner: tuple[float, float], cell: float
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return the row and the column, in the window, of the cell that holds each place.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray of float64, shape (n,)
-            Metres from the corner.
-        corner : tuple of float
-            x and y of that corner in metres.
-        cell : float
-            Side of a cell in metres.
-
-        Returns
-        -------
-        rows, columns : numpy.ndarray of int64, shape (n,)
-            Negative or too large for places outside the window.
+        """Return row and column, int64 (n,), in the window of the cells that hold places in metres
+        from a corner in metres; negative or too large outside the window.
         """
         start_x, start_y = (at - by for at, by in zip(self.corner(cell), corner))
         rows = np.floor((y - start_y) / cell + _ROUNDING).astype(np.int64)

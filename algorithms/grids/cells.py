@@ -35,44 +35,19 @@ _CELLS_A_REACH, _LEAST_GAP = 10, 5.0
 
 @dataclass(frozen=True)
 class Cells:
-    """A grid of square cells, as a rule anchored at (0, 0) of the points' frame.
+    """A grid of square cells, as a rule anchored at (0, 0) of the points' frame."""
 
-    Attributes
-    ----------
-    size : float
-        Side of a cell in metres.
-    first_row, first_column : int
-        The row (from south) and column (from west) of the frame at which the grid begins.
-    rows, columns : int
-        Size of the grid.
-    index : numpy.ndarray of int32, shape (n,)
-        The cell of each point, in the flattened grid.
-    """
-
-    size: float
-    first_row: int
-    first_column: int
+    size: float  # side of a cell in metres
+    first_row: int  # of the frame, from south
+    first_column: int  # of the frame, from west
     rows: int
     columns: int
-    index: np.ndarray
+    index: np.ndarray  # int32 (n,), the cell of each point in the flattened grid
 
     @classmethod
     def over(cls, points: Points, size: float, shift: float = 0.0) -> Cells:
-        """Return the cells that cover `points`.
-
-        Parameters
-        ----------
-        points : Points
-            At least one.
-        size : float
-            Side of a cell in metres.
-        shift : float
-            Metres by which the borders of the cells are shifted to the west and south.
-
-        Raises
-        ------
-        BareEarthError
-            If the cells would not fit into memory.
+        """Return the cells of `size` metres that cover points, at least one, with borders shifted
+        so many metres to west and south; refuse more cells than fit into memory.
         """
         first_column, first_row, last_column, last_row = (
             math.floor((extreme + shift) / size) for extreme in points.box
@@ -106,9 +81,8 @@ class Cells:
         return self.rows, self.columns
 
     def minimum(self, z: np.ndarray, which: np.ndarray | slice = slice(None)) -> np.ndarray:
-        """Return the lowest of `z` (n,) in each cell, shape (rows, columns); NaN in empty cells.
-
-        `which` selects the points, as a mask or an index array; by default all.
+        """Return the lowest `z` (n,) of the points of a mask or indices, by default all, in each
+        cell (rows, columns); NaN in empty cells.
         """
         lowest = np.full(self.rows * self.columns, np.inf)
         lower_at(lowest, self.index[which], z[which])
@@ -116,11 +90,9 @@ class Cells:
         return lowest.reshape(self.shape)
 
     def lowest_points(self, points: Points) -> np.ndarray:
-        """Return the index of the lowest point of each occupied cell, in the order of the cells.
-
-        If several points of a cell are equally low, the one with the smallest x, then y, is taken:
-        the choice must not depend on the order of the points.
-        """
+        """Return the index of the lowest point of each occupied cell, in the order of the cells."""
+        # If several points of a cell are equally low, the one with the smallest x, then y, is
+        # taken: the choice must not depend on the order of the points.
         lowest = self.minimum(points.z).ravel()
         is_lowest = np.empty(points.count, dtype=bool)
 
@@ -158,9 +130,8 @@ class Cells:
         return np.concatenate(in_threads(found, parts) or [np.empty(0, dtype=np.intp)])
 
     def spacing(self, counts: np.ndarray, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
-        """Return the usual distance between points in metres, from the count of each cell.
-
-        As the function `spacing`, with blocks of whole cells.
+        """Return the usual distance between points in metres, from the count of each cell, as the
+        function `spacing` with blocks of whole cells.
         """
         return _rounded(self._apart(counts), dense, step)
 
@@ -184,9 +155,8 @@ class Cells:
         return holding.reshape(self.shape)
 
     def at(self, grid: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Interpolate a grid (rows, columns) bilinearly between cell centres at places in metres.
-
-        Beyond the outermost centres the value of the border is taken.
+        """Interpolate a grid (rows, columns) bilinearly between cell centres at places in metres;
+        beyond the outermost centres the value of the border is taken.
         """
         from scipy import ndimage
 
@@ -195,9 +165,8 @@ class Cells:
         return ndimage.map_coordinates(grid, (row, column), order=1, mode="nearest")
 
     def resampled(self, grid: np.ndarray, other: Cells) -> np.ndarray:
-        """Return a grid on the cells of `other`, with the value of the cell that holds the centre.
-
-        Beyond this grid the value of the border is taken.
+        """Return a grid on the cells of `other`, with the value of the cell that holds the centre,
+        or beyond this grid the value of the border.
         """
         row = np.floor((other.first_row + np.arange(other.rows) + 0.5) * other.size / self.size)
         column = np.floor(
@@ -209,23 +178,10 @@ class Cells:
 
 
 def apart(points: Points, reach: float) -> tuple[np.ndarray, int]:
-    """Divide points into groups that are separated by gaps.
-
-    Parameters
-    ----------
-    points : Points
-        At least one.
-    reach : float
-        Points of different groups are farther apart than this, in metres. Gaps that are a quarter
-        wider, and at least 65 m wide, always separate groups.
-
-    Returns
-    -------
-    numpy.ndarray of int32, shape (n,)
-        The group of each point; empty if there is only one group.
-    int
-        Number of groups.
+    """Return the group of each point, int32 (n,), empty if there is only one, and the number of
+    groups that are farther apart than `reach` metres.
     """
+    # Gaps that are a quarter wider, and at least 65 m wide, always separate groups.
     from scipy import ndimage
 
     cells = Cells.over(points, max(reach / _CELLS_A_REACH, _LEAST_GAP))
@@ -241,23 +197,10 @@ def apart(points: Points, reach: float) -> tuple[np.ndarray, int]:
 
 
 def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray:
-    """Return the index of the first element of each cell, in the order of the cells.
-
-    Parameters
-    ----------
-    index : numpy.ndarray of int, shape (n,)
-        The cell of each element, from 0 to `size` - 1.
-    size : int
-        Number of cells.
-    *keys : numpy.ndarray of float, shape (n,)
-        Sort keys. The first element of a cell has the least first key; the next key decides between
-        equal ones.
-
-    Returns
-    -------
-    numpy.ndarray of intp, shape (m,)
-        One element for each occupied cell.
+    """Return the index of the first element of each occupied cell, intp (m,), in the order of the
+    cells (0 to `size` - 1).
     """
+    # The first element of a cell has the least first key; the next key decides between equal ones.
     which = np.arange(len(index))
     for key in keys:
         cell, values = index[which], key[which]
@@ -276,28 +219,16 @@ def are_inside(row: np.ndarray, column: np.ndarray, shape: tuple[int, ...]) -> n
 
 
 def numbered(counts: np.ndarray) -> np.ndarray:
-    """Return 0, 1, ... to each count (which is not included), one run after the other.
-
-    Examples
-    --------
-    >>> numbered(np.array([2, 0, 3])).tolist()
-    [0, 1, 0, 1, 2]
+    """Return 0, 1, ... to each count (which is not included), one run after the other: 0, 1, 0, 1,
+    2 for [2, 0, 3].
     """
     starts = np.cumsum(counts) - counts
     return np.arange(int(counts.sum())) - np.repeat(starts, counts)
 
 
 def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:
-    """Lower each element of an array to the least value given for it, as `numpy.minimum.at`.
-
-    Parameters
-    ----------
-    target : numpy.ndarray, shape (m,)
-        Changed in place.
-    index : numpy.ndarray of int, shape (n,)
-        The element that each value belongs to.
-    values : numpy.ndarray, shape (n,)
-        The values.
+    """Lower each element of an array in place to the least of the values (n,) whose index (n,) it
+    is, as `numpy.minimum.at`.
     """
     for part in parts_of(len(index), _VALUES_A_PART):
         left, some = index[part], values[part]
@@ -312,21 +243,12 @@ def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:
 
 
 def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
-    """Return the usual distance between points in metres, in coarse steps.
-
-    It follows from the median number of points in blocks of 10 m within the survey. So gaps, the
-    extent and a few points do not change it. It is rounded, below a metre to densities that differ
-    by a factor of two, so that it is hardly ever different in a crop.
-
-    Parameters
-    ----------
-    points : Points
-        All points.
-    dense : float
-        Least distance to return, in metres.
-    step : float
-        Distances of a metre and more are multiples of this, in metres.
+    """Return the usual distance between points in metres, at least `dense`, and rounded to `step`
+    from a metre on.
     """
+    # It follows from the median number of points in blocks of 10 m within the survey. So gaps, the
+    # extent and a few points do not change it. It is rounded, below a metre to densities that
+    # differ by a factor of two, so that it is hardly ever different in a crop.
     area = math.prod(points.sides)
     if _SURELY * area <= dense**2 * points.count:
         return dense

@@ -25,33 +25,16 @@ _FAR = 1e13
 
 
 def enclosing_triangles(
-    x: np.ndarray,
-    y: np.ndarray,
-    window: np.ndarray,
-    quarters: list[np.ndarray] | None = None,
+    x: np.ndarray,  # (k, q), vertices near each query, relative to it; `NOWHERE` if missing
+    y: np.ndarray,  # (k, q)
+    window: np.ndarray,  # (4,) or (4, q), distances to its west, south, east, north border
+    quarters: list[np.ndarray] | None = None,  # of the vertices SW, SE, NE and NW of it
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the Delaunay triangles that hold queries, and whether they are certain.
-
-    Parameters
-    ----------
-    x, y : numpy.ndarray of float64, shape (k, q)
-        Vertices near each query, relative to it; `NOWHERE` in the place of one that is missing.
-    window : numpy.ndarray of float64, shape (4,) or (4, q)
-        Distances from the query to the west, south, east and north border of the window. All
-        vertices in the window must be given.
-    quarters : list of numpy.ndarray of int, optional
-        Indices of the vertices that can lie southwest, southeast, northeast and northwest of the
-        query. By default they are found from x and y.
-
-    Returns
-    -------
-    corners : numpy.ndarray of intp, shape (3, q)
-        Which of the k vertices are the corners.
-    found : numpy.ndarray of bool, shape (q,)
-        Whether there is a triangle.
-    sure : numpy.ndarray of bool, shape (q,)
-        Whether its circumcircle lies in the window, so that no vertex beyond matters.
+    """Return the corners of the Delaunay triangles that hold queries, intp (3, q), whether there is
+    one, and whether it is certain, each bool (q,).
     """
+    # All vertices in the window must be given. A triangle is certain if its circumcircle lies in
+    # the window, so that no vertex beyond matters.
     count = x.shape[1]
     corners, found = np.zeros((3, count), dtype=np.intp), np.zeros(count, dtype=bool)
     sure, window = found.copy(), np.broadcast_to(np.reshape(window, (4, -1)), (4, count))
@@ -94,25 +77,14 @@ def picked(values: np.ndarray, which: np.ndarray) -> np.ndarray:
 def heights_of_four(
     x: np.ndarray, y: np.ndarray, z: np.ndarray, max_edge: float = np.inf
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return heights on the triangulation of the four vertices round each query.
-
-    It nearly always equals the triangulation of all vertices: in dense land 99 of 100 heights are
-    the same, and the others differ by some millimetres.
-
-    Parameters
-    ----------
-    x, y, z, max_edge
-        As for `enclosing_triangles`, with k = 4: the vertices southwest, southeast, northeast and
-        northwest.
-
-    Returns
-    -------
-    heights : numpy.ndarray of float64, shape (q,)
-        NaN where no triangle holds the query, and in gaps.
-    found : numpy.ndarray of bool, shape (q,)
-        Where all four are there and one of their triangles holds the query.
+    """Return heights (q,) on the triangulation of the four vertices round each query (southwest,
+    southeast, northeast, northwest), NaN outside and in gaps, and where they are found.
     """
     # The edges from each vertex to the next one and to the one before.
+    # It nearly always equals the triangulation of all vertices: in dense land 99 of 100 heights are
+    # the same, and the others differ by some millimetres. A height is found where all four are
+    # there and one of their triangles holds the query. x, y and z are (4, q), relative to the
+    # query.
     ahead_x, ahead_y = (np.roll(each, -1, axis=0) - each for each in (x, y))
     behind_x, behind_y = -np.roll(ahead_x, 1, axis=0), -np.roll(ahead_y, 1, axis=0)
     dot = ahead_x * behind_x + ahead_y * behind_y
@@ -158,11 +130,9 @@ def _nearest_of_quarters(
 
 
 def _lowest(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lowest value of each column (k, q), and its row; changes `values`.
-
-    The number of the row is stored in the last bits of the values, because an argmin down the
-    columns takes ten times as long as a minimum.
-    """
+    """Return the lowest value of each column (k, q), and its row; changes `values`."""
+    # The number of the row is stored in the last bits of the values, because an argmin down the
+    # columns takes ten times as long as a minimum.
     mask = (1 << int(len(values) - 1).bit_length()) - 1
     bits = values.view(np.int64)
     bits &= ~mask
@@ -201,12 +171,8 @@ def circumcircles(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray,
 
 
 def interpolated(a: np.ndarray, b: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """Return heights at queries in triangles; NaN where the corners lie on one line.
-
-    Parameters
-    ----------
-    a, b, z : numpy.ndarray of float64, shape (3, q)
-        x and y of the corners, relative to the query, and their heights.
+    """Return heights at queries in triangles with corners at `a`, `b` and `z` (3, q), relative to
+    the query; NaN where the corners lie on one line.
     """
     weights = np.maximum(_opposite_areas(a, b), 0.0)
     with np.errstate(invalid="ignore"):
@@ -214,14 +180,8 @@ def interpolated(a: np.ndarray, b: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 
 def leaving_corner(a: np.ndarray, b: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return which corner a new vertex replaces so that the triangle still holds the query.
-
-    Parameters
-    ----------
-    a, b : numpy.ndarray of float64, shape (3, q)
-        x and y of the corners, relative to the query.
-    x, y : numpy.ndarray of float64, shape (q,)
-        x and y of the new vertices, relative to the query.
+    """Return which corner (`a`, `b`, (3, q), relative to the query) a new vertex (q,) replaces so
+    that the triangle still holds the query.
     """
     shares, weights = _opposite_areas(a - x, b - y), _opposite_areas(a, b)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -34,26 +34,15 @@ _A_LITTLE = 0.01
 
 
 class DenseSurface:
-    """The TIN of the thinned points.
-
-    Parameters
-    ----------
-    points : Points
-        At least one point. The vertices are the point nearest to the centre of each lattice cell,
-        and the corners of the convex hull.
-    cell : float
-        Side of a raster cell in metres; a lattice cell has half of it.
-    anchor : tuple of float
-        x and y of a corner of cells in metres.
-    progress : Progress
-        Receives progress.
+    """The TIN of points, at least one, thinned to the one nearest to the centre of each lattice
+    cell, half a raster cell wide, and the corners of the convex hull.
     """
 
     def __init__(
         self,
         points: Points,
-        cell: float,
-        anchor: tuple[float, float] = (0.0, 0.0),
+        cell: float,  # metres
+        anchor: tuple[float, float] = (0.0, 0.0),  # a corner of cells, in metres
         progress: Progress = SILENT,
     ) -> None:
         self._points, self._cell = points, cell
@@ -65,21 +54,8 @@ class DenseSurface:
         max_edge: float | None = None,
         progress: Progress = SILENT,
     ) -> np.ndarray:
-        """Return the heights at the centres of the cells north and east of the anchor.
-
-        Parameters
-        ----------
-        shape : tuple of int
-            Rows and columns.
-        max_edge : float, optional
-            Triangles with a longer edge, in metres, are gaps.
-        progress : Progress
-            Receives progress.
-
-        Returns
-        -------
-        numpy.ndarray of float64, shape (rows, columns)
-            Metres, rows from south to north; NaN outside the convex hull, and in gaps.
+        """Return the heights at the centres of the cells north and east of the anchor, float64
+        (rows, columns) from south, NaN outside the hull and in triangles with a longer edge.
         """
         heights, sure = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
         side = TILE // VERTICES_A_SIDE
@@ -117,19 +93,8 @@ class DenseSurface:
         max_edge: float | None = None,
         progress: Progress = SILENT,
     ) -> np.ndarray:
-        """Return the height at each query.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray of float64, shape (q,)
-            Queries in metres.
-        max_edge, progress
-            As for `raster`.
-
-        Returns
-        -------
-        numpy.ndarray of float64, shape (q,)
-            Metres; NaN outside the convex hull, and in gaps.
+        """Return the height at each query, float64 (q,), all in metres; NaN outside the convex
+        hull, and in triangles with a longer edge.
         """
         heights, sure = np.full(len(x), np.nan), np.zeros(len(x), dtype=bool)
 
@@ -151,10 +116,9 @@ class DenseSurface:
         return heights
 
     def nearest(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return the height of the vertex nearest to each query.
-
-        Only tiles that may hold it are searched: it is never farther than the nearest hull corner.
-        """
+        """Return the height of the vertex nearest to each query."""
+        # Only tiles that may hold it are searched: it is never farther than the nearest hull
+        # corner.
         from scipy.spatial import cKDTree
 
         def tree(which: np.ndarray) -> cKDTree:

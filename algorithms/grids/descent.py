@@ -23,28 +23,13 @@ _STATIONS = 5
 
 
 class Network(NamedTuple):
-    """Stations in water, and which of them are neighbours.
+    """Stations in water, and which of them are neighbours."""
 
-    Attributes
-    ----------
-    size : int
-        Number of stations.
-    edges : numpy.ndarray of int64, shape (m, 2)
-        Pairs of neighbours, each once.
-    """
-
-    size: int
-    edges: np.ndarray
+    size: int  # number of stations
+    edges: np.ndarray  # int64 (m, 2), pairs of neighbours, each once
 
     def chains(self) -> list[np.ndarray]:
-        """Return the ways between stations that have not two neighbours.
-
-        Examples
-        --------
-        >>> fork = Network(4, np.array([[0, 1], [1, 2], [1, 3]]))
-        >>> [each.tolist() for each in fork.chains()]
-        [[0, 1], [1, 2], [1, 3]]
-        """
+        """Return the ways between stations that have not two neighbours."""
         beside: list[list[int]] = [[] for _ in range(self.size)]
         for one, other in self.edges.tolist():
             beside[one].append(other)
@@ -87,43 +72,21 @@ def _way_on(beside: list[list[int]], start: int, second: int) -> list[int]:
 
 
 class Descent(NamedTuple):
-    """Levels on a network.
+    """Levels on a network."""
 
-    Attributes
-    ----------
-    levels : numpy.ndarray of float64, shape (size,)
-        At each station.
-    chains : list of numpy.ndarray of int64
-        The stations of each chain, downstream.
-    """
-
-    levels: np.ndarray
-    chains: list[np.ndarray]
+    levels: np.ndarray  # float64 (size,), at each station
+    chains: list[np.ndarray]  # int64, the stations of each chain, downstream
 
 
 def descent(
     network: Network, station: np.ndarray, heights: np.ndarray, percentile: float = 50.0
 ) -> Descent:
-    """Return the levels nearest to heights, which rise in no chain downstream.
-
-    The sum of distances is least (isotonic regression), so that single heights do not count; the
-    direction of each chain is that of smoothed levels. Chains share the level of a junction.
-
-    Parameters
-    ----------
-    network : Network
-        The stations.
-    station : numpy.ndarray of int64, shape (n,)
-        The station beside each height.
-    heights : numpy.ndarray of float64, shape (n,)
-        Heights of banks or of the surface. At least one.
-    percentile : float
-        The level is this percentile of the heights beside a station, compared with their trend.
-
-    Returns
-    -------
-    Descent
+    """Return the levels nearest to heights (n,), at least one, beside stations (n,), which rise in
+    no chain downstream.
     """
+    # A level is the percentile of the heights beside a station, compared with their trend.
+    # The sum of distances is least (isotonic regression), so that single heights do not count; the
+    # direction of each chain is that of smoothed levels. Chains share the level of a junction.
     usual = _percentiles(network.size, station, heights, 50.0)
     usual = _medians_near(network, usual, _STRAY_STATIONS)
     near = np.abs(heights - usual[station]) <= _STRAY
@@ -233,13 +196,10 @@ def _medians_near(network: Network, values: np.ndarray, steps: int) -> np.ndarra
 
 
 def isotonic(values: np.ndarray, weights: np.ndarray | None = None) -> np.ndarray:
-    """Return the non-decreasing values with the least squared distance, shape (n,).
-
-    Neighbours that violate the order are pooled (Ayer et al. 1955).
-
-    >>> isotonic(np.array([1.0, 3.0, 2.0, 4.0])).tolist()
-    [1.0, 2.5, 2.5, 4.0]
+    """Return the non-decreasing values with the least squared distance, shape (n,), such as 1, 2.5,
+    2.5, 4 for [1, 3, 2, 4].
     """
+    # Neighbours that violate the order are pooled (Ayer et al. 1955).
     values = np.asarray(values, dtype=np.float64)
     shares = np.ones(len(values)) if weights is None else weights
     pools: list[tuple[float, float, int]] = []

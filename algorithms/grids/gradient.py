@@ -6,20 +6,10 @@ import numpy as np
 
 
 def gradient(surface: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the slope of a surface towards north and east, rise over run.
-
-    Parameters
-    ----------
-    surface : numpy.ndarray of float, shape (rows, columns)
-        Heights in metres without NaN, rows from south.
-    size : float
-        Side of a cell in metres.
-
-    Returns
-    -------
-    north, east : numpy.ndarray of float, shape (rows, columns)
-        Central differences, one-sided at the border; 0 along an axis of one cell.
+    """Return the slope of a surface in metres without NaN, rows from south, towards north and east,
+    rise over run, with cells of `size` metres.
     """
+    # Central differences, one-sided at the border; 0 along an axis of one cell.
     north, east = (
         np.gradient(surface, size, axis=axis) if surface.shape[axis] > 1 else np.zeros_like(surface)
         for axis in (0, 1)

@@ -28,36 +28,27 @@ _STEPS_A_METRE = 1e5
 
 
 class GrowingTin:
-    """A Delaunay triangulation of vertices, to which more are added within its convex hull.
-
-    A vertex splits the triangle that holds it into three; then edges are flipped until no vertex
-    lies in the circumcircle of a triangle (Lawson 1977). All splits, and all flips that do not
-    touch each other, are done at once. Where four vertices lie on one circle, the diagonal from the
-    westernmost is used, so that the triangles depend on the vertices only.
-
-    Half-edge `3 * t + k` is the side of triangle `t` opposite to its corner `k`.
-
-    Parameters
-    ----------
-    vertices : Points
-        The first vertices in metres, near the origin. No two are at the same place, and not all are
-        on one line. They include the corners of the convex hull of all vertices to come.
-
-    Attributes
-    ----------
-    vertices : Points
-        All vertices so far, in the order in which they were added.
-    corners : numpy.ndarray of int32, shape (3 * t,)
-        The vertex opposite to each half-edge; those of a triangle run counterclockwise.
-    twins : numpy.ndarray of int32, shape (3 * t,)
-        The half-edge of the neighbouring triangle on the same edge; -1 on the hull.
+    """A Delaunay triangulation of vertices in metres near the origin, to which more are added
+    within its convex hull.
     """
+
+    # A vertex splits the triangle that holds it into three; then edges are flipped until no vertex
+    # lies in the circumcircle of a triangle (Lawson 1977). All splits, and all flips that do not
+    # touch each other, are done at once. Where four vertices lie on one circle, the diagonal from
+    # the westernmost is used, so that the triangles depend on the vertices only.
+    # Half-edge `3 * t + k` is the side of triangle `t` opposite to its corner `k`.
+    # Of the first vertices no two are at the same place, and not all are on one line. They include
+    # the corners of the convex hull of all vertices to come.
 
     def __init__(self, vertices: Points) -> None:
         tin = Tin(*vertices)
-        self.vertices = vertices
+        self.vertices = vertices  # all so far, in the order in which they were added
         triangles, neighbours = _without_flat(tin)
+        # int32 (3 * t,): the vertex opposite to each half-edge; those of a triangle run
+        # counterclockwise.
         self.corners = tin.source[triangles].astype(np.int32).ravel()
+        # int32 (3 * t,): the half-edge of the neighbouring triangle on the same edge; -1 on the
+        # hull.
         self.twins = _twins(neighbours)
         self._moved = np.arange(len(self.corners), dtype=np.int32)
         self._flip(np.arange(len(self.corners)), np.zeros(self.count, dtype=bool))
@@ -76,25 +67,11 @@ class GrowingTin:
     def add(
         self, points: Points, triangle: np.ndarray, rank: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Add vertices.
-
-        Parameters
-        ----------
-        points : Points
-            The new vertices, (n,).
-        triangle : numpy.ndarray of int, shape (n,)
-            The triangle that holds each, no two the same.
-        rank : numpy.ndarray of float, shape (n,)
-            Of two vertices in neighbouring triangles, one of which lies on the common edge, only
-            the one with the greater rank is added.
-
-        Returns
-        -------
-        added : numpy.ndarray of bool, shape (n,)
-            Which of them were added.
-        changed : numpy.ndarray of bool, shape (t,)
-            Which triangles have changed.
+        """Add vertices (n,), each in another triangle; return which were added, bool (n,), and
+        which triangles have changed, bool (t,).
         """
+        # Of two vertices in neighbouring triangles, one of which lies on the common edge, only the
+        # one with the greater rank is added.
         edge, is_on_edge = self._nearest_edge(points, triangle)
         added = self._apart(triangle, edge, is_on_edge, rank)
         triangle, edge, is_on_edge = triangle[added], edge[added], is_on_edge[added]
@@ -108,22 +85,10 @@ class GrowingTin:
         return added, changed
 
     def heights(self, x: np.ndarray, y: np.ndarray, triangle: np.ndarray) -> np.ndarray:
-        """Return the heights of the surface at queries within the hull.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray of float64, shape (q,)
-            Queries.
-        triangle : numpy.ndarray of int32, shape (q,)
-            A triangle near each query. Changed in place to the one that holds it, or to a nearer
-            one.
-
-        Returns
-        -------
-        numpy.ndarray of float64, shape (q,)
-            Heights, linear in each triangle. NaN where the triangle is farther away: call again for
-            these.
+        """Return the heights at queries (q,) within the hull, linear in each triangle; `triangle`
+        (q,), one near each query, is changed to the one that holds it, or to a nearer one.
         """
+        # Heights are NaN where the triangle is farther away: call again for these.
         heights = np.full(len(x), np.nan)
         which, here = np.arange(len(x)), triangle
         for _ in range(_STEPS):
@@ -270,9 +235,8 @@ class GrowingTin:
         self.twins[one], self.twins[other] = other, one
 
     def _flip(self, edges: np.ndarray, changed: np.ndarray) -> None:
-        """Flip half-edges, and those round them, until no circumcircle holds a vertex.
-
-        Triangles with a flipped edge are set in `changed` (t,).
+        """Flip half-edges, and those round them, until no circumcircle holds a vertex; set
+        triangles with a flipped edge in `changed` (t,).
         """
         owner = np.zeros(self.count, dtype=np.int64)
         for _ in range(_MOST_STEPS):
@@ -290,9 +254,8 @@ class GrowingTin:
             changed[pair[now].ravel()] = True
 
     def _flipped(self, edges: np.ndarray, later: np.ndarray) -> np.ndarray:
-        """Flip half-edges, no two in the same triangle; return the edges to check next.
-
-        `later` are other edges to check; they are returned too, with their new numbers.
+        """Flip half-edges, no two in the same triangle, and return the edges to check next, with
+        those of `later` by their new numbers.
         """
         t, k = np.divmod(edges, 3)
         u, j = np.divmod(self.twins[edges], 3)
@@ -321,10 +284,8 @@ class GrowingTin:
         return wrong
 
     def _circles(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return three masks of quadrangles (4, n).
-
-        They tell whether the fourth corner lies in the circle of the others, whether all four lie
-        on one circle, and whether the other diagonal lies inside.
+        """Return whether the fourth corner (4, n) lies in the circle of the others, whether all
+        four lie on one circle, and whether the other diagonal lies inside.
         """
         x, y = (values.take(corners) for values in self.vertices[:2])
         bx, by, cx, cy, qx, qy = (each[k] - each[0] for k in (1, 2, 3) for each in (x, y))
@@ -337,10 +298,8 @@ class GrowingTin:
         return total < -rounding, equal, (p_b_q > 0.0) & (p_q_c > 0.0)
 
     def _quadrangles(self, edges: np.ndarray) -> np.ndarray:
-        """Return the corners (4, n) of the two triangles at inner half-edges.
-
-        The edge runs from the second to the third; the first lies to its left, the fourth to its
-        right.
+        """Return the corners (4, n) of the two triangles at inner half-edges, which run from the
+        second to the third; the first lies to their left, the fourth to their right.
         """
         t, k = np.divmod(edges, 3)
         at = np.stack((edges, 3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3, self.twins[edges]))

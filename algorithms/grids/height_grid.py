@@ -10,21 +10,11 @@ from .inpaint import RELAXATIONS, First, inpaint
 
 
 class HeightGrid(NamedTuple):
-    """Heights on square cells.
+    """Heights on square cells."""
 
-    Attributes
-    ----------
-    values : numpy.ndarray of float, shape (rows, columns)
-        Metres; NaN where nothing is known.
-    size : float
-        Side of a cell in metres.
-    origin : tuple of int
-        Row and column of the first cell in the grid of the CRS.
-    """
-
-    values: np.ndarray
-    size: float
-    origin: First = (0, 0)
+    values: np.ndarray  # (rows, columns), metres; NaN where nothing is known
+    size: float  # side of a cell in metres
+    origin: First = (0, 0)  # row and column of the first cell in the grid of the CRS
 
     @property
     def known(self) -> np.ndarray:

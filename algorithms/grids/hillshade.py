@@ -17,26 +17,10 @@ CellSize = Union[float, tuple[float, float]]
 def hillshade(
     heights: np.ndarray, cell_size: CellSize, azimuth: float = 315.0, altitude: float = 45.0
 ) -> np.ndarray:
-    """Return how brightly a surface is lit.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Heights from north to south, in metres; NaN where there is none.
-    cell_size : float or tuple of float
-        Side of a cell in metres, or distances between neighbours in a row and in a column.
-    azimuth, altitude : float
-        Where the light comes from, in degrees clockwise from north and above the horizon.
-
-    Returns
-    -------
-    numpy.ndarray of uint8, shape (rows, columns)
-        1 (dark) to 255 (bright); 0 where there is no height.
-
-    References
-    ----------
-    Horn, B. K. P. (1981): Hill shading and the reflectance map. Proceedings of the IEEE 69.
+    """Return how brightly a surface in metres, rows from north, is lit, uint8, 1 (dark) to 255, 0
+    for NaN; azimuth is clockwise from north, altitude above the horizon.
     """
+    # Horn, B. K. P. (1981): Hill shading and the reflectance map. Proceedings of the IEEE 69.
     dx, dy = _gradient(heights, cell_size)
     return _as_bytes(heights, _lit(dx, dy, azimuth, altitude))
 
@@ -44,29 +28,16 @@ def hillshade(
 def multidirectional_hillshade(
     heights: np.ndarray, cell_size: CellSize, altitude: float = 45.0
 ) -> np.ndarray:
-    """Return how brightly a surface is lit from the southwest, west, northwest and north at once.
-
-    Each light counts most on slopes that face it or turn away from it, so that ridges and valleys
-    of any direction stand out.
-
-    Parameters
-    ----------
-    heights, cell_size, altitude
-        As for `hillshade`.
-
-    Returns
-    -------
-    numpy.ndarray of uint8, shape (rows, columns)
-        1 (dark) to 255 (bright); 0 where there is no height.
-
-    References
-    ----------
-    Mark, R. K. (1992): A multidirectional, oblique-weighted, shaded-relief image of the Island of
-    Hawaii. U.S. Geological Survey Open-File Report 92-422. The four lights are his. He weights them
-    by the squared sine of the angle between light and aspect, with the aspect of a smoothed
-    surface: the aspect of each cell would leave little contrast. The weights here (squared cosines)
-    and the altitude are those of ``gdaldem hillshade -multidirectional``.
+    """Return how brightly a surface is lit from the southwest, west, northwest and north at once,
+    as `hillshade` does for one light.
     """
+    # Each light counts most on slopes that face it or turn away from it, so that ridges and valleys
+    # of any direction stand out.
+    # Mark, R. K. (1992): A multidirectional, oblique-weighted, shaded-relief image of the Island of
+    # Hawaii. U.S. Geological Survey Open-File Report 92-422. The four lights are his. He weights
+    # them by the squared sine of the angle between light and aspect, with the aspect of a smoothed
+    # surface: the aspect of each cell would leave little contrast. The weights here (squared
+    # cosines) and the altitude are those of ``gdaldem hillshade -multidirectional``.
     dx, dy = _gradient(heights, cell_size)
     # Level land has no aspect, and is equally bright from all sides.
     aspect = np.arctan2(dx, dy)
@@ -79,17 +50,8 @@ def multidirectional_hillshade(
 
 
 def slope(heights: np.ndarray, cell_size: CellSize) -> np.ndarray:
-    """Return how steep a surface is, in degrees, as ``gdaldem slope`` does.
-
-    Parameters
-    ----------
-    heights, cell_size
-        As for `hillshade`.
-
-    Returns
-    -------
-    numpy.ndarray of float32, shape (rows, columns)
-        0 (level) to 90; NaN where there is no height.
+    """Return how steep a surface is, float32, 0 (level) to 90 degrees, NaN where there is no
+    height, as ``gdaldem slope`` does.
     """
     return np.degrees(np.arctan(np.hypot(*_gradient(heights, cell_size)))).astype(np.float32)
 
@@ -115,12 +77,10 @@ def _as_bytes(heights: np.ndarray, lit: np.ndarray) -> np.ndarray:
 
 
 def _gradient(heights: np.ndarray, cell_size: CellSize) -> tuple[np.ndarray, np.ndarray]:
-    """Return the rise to the east and to the north by Horn's 3 x 3 weights.
-
-    A neighbour that is missing lies on the line through the cell and the neighbour opposite, so
-    that the edge of the data is as steep as its inside. If both are missing, they are as high as
-    the cell.
-    """
+    """Return the rise to the east and to the north by Horn's 3 x 3 weights."""
+    # A neighbour that is missing lies on the line through the cell and the neighbour opposite, so
+    # that the edge of the data is as steep as its inside. If both are missing, they are as high as
+    # the cell.
     width, height = cell_size if isinstance(cell_size, tuple) else (cell_size, cell_size)
     padded = np.pad(heights, 1, constant_values=np.nan)
     rows, columns = heights.shape

@@ -40,18 +40,12 @@ class Neighbour(NamedTuple):
 
 
 class Surroundings:
-    """Heights and what lies round each cell, also beyond the border of the data.
-
-    There the land goes on as the plane that fits the surroundings of a cell best. If such places
-    were left out, directions would end one after the other towards a border, in visible steps.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Heights in metres; NaN where there is none.
-    reach : tuple of int
-        Rows and columns up to which neighbours lie.
+    """Heights in metres (NaN for none) and what lies up to `reach` rows and columns round each
+    cell, also beyond the border of the data.
     """
+
+    # There the land goes on as the plane that fits the surroundings of a cell best. If such places
+    # were left out, directions would end one after the other towards a border, in visible steps.
 
     def __init__(self, heights: np.ndarray, reach: tuple[int, int]) -> None:
         (rows, columns), (down, right) = heights.shape, reach
@@ -74,17 +68,7 @@ class Surroundings:
 
 
 class Piece:
-    """Cells whose neighbours are looked at together, so that they stay in the processor's cache.
-
-    Attributes
-    ----------
-    place : tuple of slice
-        Its rows and columns.
-    own : numpy.ndarray of float32, shape (rows, columns)
-        Its heights; 0 where there is none.
-    known : numpy.ndarray of bool, shape (rows, columns)
-        Which cells have a height.
-    """
+    """Cells whose neighbours are looked at together, so that they stay in the processor's cache."""
 
     def __init__(
         self, wide: np.ndarray, reach: tuple[int, int], rows: slice, columns: slice
@@ -93,7 +77,8 @@ class Piece:
         ends = (each.stop + 2 * by for each, by in zip(self.place, reach))
         self._wide = wide[tuple(slice(each.start, end) for each, end in zip(self.place, ends))]
         own = self._at(0, 0)
-        self.known = np.isfinite(own)
+        self.known = np.isfinite(own)  # bool (rows, columns), cells with a height
+        # float32 (rows, columns), heights; 0 where there is none.
         self.own = np.where(self.known, own, np.float32(0.0))
 
     def _at(self, row: int, column: int) -> np.ndarray:
@@ -116,9 +101,8 @@ class Piece:
 
     @cached_property
     def _planes(self) -> list[np.ndarray] | None:
-        """Heights of the planes, and their rises to the next row and to the next column.
-
-        None if all neighbours have a height.
+        """Heights of the planes, and their rises to the next row and to the next column, None if
+        all neighbours have a height.
         """
         if np.isfinite(self._wide).all():
             return None
@@ -142,34 +126,22 @@ def _farthest(radius: float, cells: Cells) -> float:
 
 
 def sky_view(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
-    """Return the sky-view factor: the share of the sky that can be seen, as a mean of directions.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Heights in metres; NaN where there is none.
-    cells : tuple of float
-        Distance in metres between neighbours in a row, and in a column.
-    radius : float
-        Up to this distance in metres the terrain can hide the sky; at least one cell.
-
-    Returns
-    -------
-    numpy.ndarray of float32, shape (rows, columns)
-        1 on level land and on summits, less in hollows; NaN where there is no height. Beyond the
-        border of the data the land goes on as a plane. A cell depends on others up to
-        `horizon_reach`.
+    """Return the sky-view factor: the share of the sky that can be seen, as a mean of directions,
+    float32, 1 on level land and on summits; NaN where there is no height.
     """
+    # Up to `radius` metres, at least one cell, the terrain can hide the sky. Beyond the border of
+    # the data the land goes on as a plane. A cell depends on others up to `horizon_reach`.
     return _means(heights, cells, (0.0, radius), _sky)[0]
 
 
 def openness(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
-    """Return the positive openness: the mean angle between the zenith and the horizon, in degrees.
-
-    Negative openness is that of the heights upside down (``-heights``): the mean angle between the
-    nadir and the surface. Arguments and result are as for `sky_view`. Both are 90 degrees on level
-    land and on even slopes. Positive openness is greater on ridges, negative openness in hollows.
+    """Return the positive openness: the mean angle between the zenith and the horizon, in
+    degrees.
     """
+    # Negative openness is that of the heights upside down (``-heights``): the mean angle between
+    # the nadir and the surface. Arguments and result are as for `sky_view`. Both are 90 degrees on
+    # level land and on even slopes. Positive openness is greater on ridges, negative openness in
+    # hollows.
     return _means(heights, cells, (0.0, radius), _zenith)[0]
 
 

@@ -18,28 +18,14 @@ First = tuple[int, int]
 
 
 def inpaint(grid: np.ndarray, relaxations: int = RELAXATIONS, first: First = (0, 0)) -> np.ndarray:
-    """Return `grid` with its NaN cells filled by an approximate membrane.
-
-    The known cells are averaged to coarser and coarser grids. These are interpolated back into the
-    gaps ("push-pull"; Gortler et al. 1996), and on each level relaxed towards the mean of the four
-    neighbours (Laplace's equation). The cost grows with the number of cells, the reach with the
-    width of the gaps.
-
-    Parameters
-    ----------
-    grid : numpy.ndarray of float, shape (rows, columns)
-        Heights; NaN where there is none.
-    relaxations : int
-        Sweeps on each level.
-    first : tuple of int
-        Row and column of the first cell in the grid of the CRS: coarser cells begin at even rows
-        and columns there.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (rows, columns)
-        Known cells as they were; all zero if no cell is known.
+    """Return `grid` with its NaN cells filled by an approximate membrane; all zero if no cell is
+    known.
     """
+    # The known cells are averaged to coarser and coarser grids. These are interpolated back into
+    # the gaps ("push-pull"; Gortler et al. 1996), and on each level relaxed towards the mean of the
+    # four neighbours (Laplace's equation). The cost grows with the number of cells, the reach with
+    # the width of the gaps. Coarser cells begin at even rows and columns of the CRS, in which
+    # `first` is the first cell.
     known = np.isfinite(grid)
     if known.all():
         return np.array(grid, dtype=np.float64)
@@ -122,9 +108,8 @@ def _pad_again(padded: np.ndarray) -> None:
 
 
 def _coarser(grid: np.ndarray, known: np.ndarray, odd: First) -> tuple[np.ndarray, np.ndarray]:
-    """Return the mean of the known cells in each 2 x 2 cells, and where there is a mean.
-
-    A first row or column with an odd number has no partner and is averaged alone.
+    """Return the mean of the known cells in each 2 x 2 cells, and where there is a mean; a first
+    row or column with an odd number has no partner and is averaged alone.
     """
     total, count = np.where(known, grid, np.float32(0.0)), known.astype(np.uint8)
     for axis in (0, 1):

@@ -25,17 +25,10 @@ _SADDLES = {
 
 
 class Isoline(NamedTuple):
-    """A line of equal height.
+    """A line of equal height."""
 
-    Attributes
-    ----------
-    level : int
-        Its height is so many times the interval.
-    places : numpy.ndarray of float64, shape (n, 2)
-        Row and column of its corners; whole numbers are centres of cells.
-    """
-
-    level: int
+    level: int  # its height is so many times the interval
+    # float64 (n, 2), row and column of its corners; whole numbers are centres of cells.
     places: np.ndarray
 
     @property
@@ -53,16 +46,8 @@ class _Piece(NamedTuple):
 
 
 class Isolines:
-    """Finds the lines of equal height of a raster whose rows are given strip by strip.
-
-    Only lines that cross the last row so far are kept in memory.
-
-    Parameters
-    ----------
-    interval : float
-        The height between the lines.
-    columns : int
-        Columns of the raster.
+    """Finds the lines of equal height, an interval apart, of a raster whose rows are given strip by
+    strip, and keeps only those that cross the last row so far in memory.
     """
 
     def __init__(self, interval: float, columns: int) -> None:
@@ -71,16 +56,8 @@ class Isolines:
         self._by_last: dict[int, _Piece] = {}
 
     def add(self, heights: np.ndarray, row: int, is_last: bool) -> Iterator[Isoline]:
-        """Add a strip, and yield the lines that are complete.
-
-        Parameters
-        ----------
-        heights : numpy.ndarray of float, shape (rows, columns)
-            NaN where there is none. The first row is the last one of the strip before.
-        row : int
-            Number of the first row in the raster.
-        is_last : bool
-            Whether no strip follows.
+        """Add a strip (NaN for no height), and yield the lines that are complete; its first `row`,
+        numbered in the raster, is the last one of the strip before.
         """
         found = _segments(heights, self._interval, row)
         seam = np.iinfo(np.int64).max if is_last else 2 * (row + len(heights) - 1) * self._columns

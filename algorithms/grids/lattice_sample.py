@@ -27,47 +27,18 @@ _MOST_SMALL = 1 << 16
 
 
 class Tile(NamedTuple):
-    """The points of a tile.
+    """The points of a tile."""
 
-    Attributes
-    ----------
-    slots : numpy.ndarray of int32, shape (n,)
-        The cell of each point, in the flattened lattice of the tile; ascending.
-    x, y : numpy.ndarray of float64, shape (n,)
-        Coordinates in cells, from the corner of the tile.
-    which : numpy.ndarray of intp, shape (n,)
-        Their indices in the points before thinning.
-    outer : numpy.ndarray of intp, shape (m,)
-        Indices of the points of the tile that may be corners of the convex hull.
-    """
-
-    slots: np.ndarray
-    x: np.ndarray
-    y: np.ndarray
-    which: np.ndarray
-    outer: np.ndarray
+    slots: np.ndarray  # int32 (n,), the cell of each point in the flattened lattice; ascending
+    x: np.ndarray  # float64 (n,), in cells, from the corner of the tile
+    y: np.ndarray  # float64 (n,)
+    which: np.ndarray  # intp (n,), indices in the points before thinning
+    outer: np.ndarray  # intp (m,), indices of points that may be corners of the convex hull
 
 
 class LatticeSample:
-    """The point nearest to the centre of each occupied cell; of equally near points, the lowest.
-
-    Parameters
-    ----------
-    points : Points
-        At least one.
-    side : float
-        Side of a cell in metres.
-    anchor : tuple of float
-        x and y of a corner of cells, in metres.
-    progress : Progress
-        Receives progress.
-
-    Attributes
-    ----------
-    points, side, anchor
-        As given.
-    tiles : dict of (int, int) to Tile
-        The tiles with points, by row and column.
+    """The point nearest to the centre of each occupied cell, of a side in metres from an anchor in
+    metres; of equally near points, the lowest.
     """
 
     def __init__(
@@ -90,7 +61,7 @@ class LatticeSample:
             return self._tile(order[bounds[number] : bounds[number + 1]], places[number])
 
         thinned = in_threads(thin, filled, progress.part(0.5, 1.0))
-        self.tiles = dict(zip((places[k] for k in filled), thinned))
+        self.tiles = dict(zip((places[k] for k in filled), thinned))  # by row and column
 
     def _tile_of_each(self, progress: Progress) -> tuple[np.ndarray, list[tuple[int, int]]]:
         """Return the number of the tile of each point (n,), and row and column of each tile."""
@@ -148,14 +119,8 @@ class LatticeSample:
         return outer[hull_corners(self.points.x[outer], self.points.y[outer])]
 
     def window(self, place: tuple[int, int], margin: int) -> Window:
-        """Return the lattice of a tile with the points of a margin round it.
-
-        Parameters
-        ----------
-        place : tuple of int
-            Row and column of the tile.
-        margin : int
-            Width of the margin in cells, at most that of a tile.
+        """Return the lattice of a tile (row and column) with the points of a margin round it, in
+        cells, at most as wide as a tile.
         """
         width = TILE + 2 * margin
         lattice = np.full((width, width), -1, dtype=np.int32)
@@ -181,29 +146,17 @@ class LatticeSample:
 
 
 class Window(NamedTuple):
-    """The lattice of a tile and of a margin round it.
+    """The lattice of a tile and of a margin round it."""
 
-    Attributes
-    ----------
-    lattice : numpy.ndarray of int32, shape (rows, columns)
-        The number of the point in each cell; -1 where there is none.
-    x, y : numpy.ndarray of float64, shape (n,)
-        Coordinates in cells, from the corner of the tile.
-    which : numpy.ndarray of intp, shape (n,)
-        Their indices in the points before thinning.
-    """
-
-    lattice: np.ndarray
-    x: np.ndarray
-    y: np.ndarray
-    which: np.ndarray
+    lattice: np.ndarray  # int32 (rows, columns), the number of the point in each cell; -1 for none
+    x: np.ndarray  # float64 (n,), in cells, from the corner of the tile
+    y: np.ndarray  # float64 (n,)
+    which: np.ndarray  # intp (n,), indices in the points before thinning
 
 
 def _is_inner(slots: np.ndarray) -> np.ndarray:
-    """Return which cells of a tile have points in all four quarters of the plane round them.
-
-    Their own points are no corners of the convex hull.
-    """
+    """Return which cells of a tile have points in all four quarters of the plane round them."""
+    # Their own points are no corners of the convex hull.
     occupied = np.zeros((TILE, TILE), dtype=bool)
     occupied.ravel()[slots] = True
     inner = np.ones((TILE, TILE), dtype=bool)

@@ -22,14 +22,8 @@ _BESIDE = 0.01
 
 
 class NearPlaces:
-    """The squares that hold places, and the squares round these.
-
-    Parameters
-    ----------
-    x, y : numpy.ndarray of float64, shape (n,)
-        The places.
-    side : float
-        Side of a square. Anything within this distance of a place lies in one of the squares.
+    """The squares that hold places, and the squares round these, which hold all within the side of
+    a square of a place.
     """
 
     def __init__(self, x: np.ndarray, y: np.ndarray, side: float) -> None:
@@ -49,26 +43,8 @@ def squares(x: np.ndarray, y: np.ndarray, side: float) -> np.ndarray:
 
 
 def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
-    """Return places along a line, at most a step apart, including its corners.
-
-    Parameters
-    ----------
-    line : numpy.ndarray of float64, shape (n, 3)
-        x, y and z of its corners.
-    step : float
-        In the unit of x and y.
-    is_closed : bool
-        Whether the line goes back from its end to its beginning.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (m, 3)
-        z is interpolated along the line; NaN between two corners if one has no z.
-
-    Examples
-    --------
-    >>> along(np.array([[0.0, 0.0, 1.0], [2.0, 0.0, 3.0]]), 1.0).tolist()
-    [[0.0, 0.0, 1.0], [1.0, 0.0, 2.0], [2.0, 0.0, 3.0]]
+    """Return places float64 (m, 3) along a line (n, 3), at most a step apart, including its
+    corners, with z interpolated, NaN between two corners if one has no z.
     """
     if is_closed and len(line) and not np.array_equal(line[0, :2], line[-1, :2]):
         line = np.concatenate((line, line[:1]))
@@ -85,26 +61,8 @@ def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
 def near_rings(
     x: np.ndarray, y: np.ndarray, rings: Iterable[np.ndarray], distance: float
 ) -> np.ndarray:
-    """Return which places lie within a distance of closed lines.
-
-    Parameters
-    ----------
-    x, y : numpy.ndarray of float64, shape (n,)
-        The places.
-    rings : iterable of numpy.ndarray of float64, shape (m, 2)
-        Corners; each ring goes back from its end to its beginning.
-    distance : float
-        In the unit of x and y.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
-
-    Examples
-    --------
-    >>> ring = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]])
-    >>> near_rings(np.array([2.0, 5.0, 5.0]), np.array([2.0, 4.5, 5.5]), [ring], 1.5).tolist()
-    [False, True, False]
+    """Return which places lie within a distance, in the unit of x and y, of closed lines (m, 2),
+    bool (n,).
     """
     result = np.zeros(len(x), dtype=bool)
     # When sorted by y, the places beside an edge are a slice.
@@ -136,14 +94,8 @@ def _from_edge(x: np.ndarray, y: np.ndarray, start: np.ndarray, end: np.ndarray)
 
 
 class NearestHeights:
-    """The heights of the points nearest to places.
-
-    Parameters
-    ----------
-    points : numpy.ndarray of float64, shape (m, 3)
-        Points of the terrain.
-    reach : float
-        In the unit of x and y: points farther away do not count.
+    """The heights of the points of the terrain (m, 3) nearest to places, up to a reach in the unit
+    of x and y.
     """
 
     def __init__(self, points: np.ndarray, reach: float) -> None:
@@ -153,16 +105,7 @@ class NearestHeights:
         self._tree = cKDTree(points[:, :2]) if len(points) else None
 
     def at(self, places: np.ndarray) -> np.ndarray:
-        """Return the height of the nearest point to each place; NaN where none is near.
-
-        Parameters
-        ----------
-        places : numpy.ndarray of float64, shape (n, 2)
-
-        Returns
-        -------
-        numpy.ndarray of float64, shape (n,)
-        """
+        """Return the height of the nearest point to each place (n, 2); NaN where none is near."""
         heights = np.full(len(places), np.nan)
         if self._tree is not None and len(places):
             far, nearest = self._tree.query(places, distance_upper_bound=self._reach)
@@ -171,18 +114,8 @@ class NearestHeights:
         return heights
 
     def beside(self, line: np.ndarray) -> np.ndarray:
-        """Return places on both sides of a line, with the height of the nearest point on that side.
-
-        Parameters
-        ----------
-        line : numpy.ndarray of float64, shape (n, 3)
-            Places along the line; z is not used.
-
-        Returns
-        -------
-        numpy.ndarray of float64, shape (2 n, 3)
-            The places on the left, then those on the right, a little beside the line. A point on
-            one side only gives z for both sides; z is NaN if there is none on either side.
+        """Return the places on the left of a line (n, 3), then those on the right, float64 (2 n,
+        3), with the height of the nearest point on that side, or else on the other; z may be NaN.
         """
         across = np.zeros((len(line), 2))
         if len(line) > 1:
@@ -218,30 +151,14 @@ def inside_grid(box: Box, step: float) -> np.ndarray:
 
 
 def falling(
-    lines: Sequence[np.ndarray],
-    border: np.ndarray,
-    heights: np.ndarray,
+    lines: Sequence[np.ndarray],  # (n, 2), stations of a branch, up or down, two or more
+    border: np.ndarray,  # (m, 2), on the banks
+    heights: np.ndarray,  # (m,), of the ground there, not all NaN
     places: np.ndarray,
     percentile: float,
 ) -> np.ndarray:
-    """Return the water level at places along a river and its branches; downstream it never rises.
-
-    Parameters
-    ----------
-    lines : sequence of numpy.ndarray of float64, shape (n, 2)
-        Stations along each branch, in order, up or down. At least two stations.
-    border : numpy.ndarray of float64, shape (m, 2)
-        Places on its banks.
-    heights : numpy.ndarray of float64, shape (m,)
-        Heights of the ground there; NaN where unknown. At least one is known.
-    places : numpy.ndarray of float64, shape (k, 2)
-        Where the level is wanted.
-    percentile : float
-        The level at a station is this percentile of the heights of the banks beside it.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (k,)
+    """Return the water level at `places` (k, 2) along a river and its branches, a percentile of the
+    heights of the banks beside; downstream it never rises.
     """
     from scipy.spatial import cKDTree
 
@@ -253,25 +170,8 @@ def falling(
 
 
 def joined(lines: Sequence[np.ndarray], border: np.ndarray) -> tuple[np.ndarray, Network]:
-    """Return the stations of lines as one network: lines that end near another one join it.
-
-    Parameters
-    ----------
-    lines : sequence of numpy.ndarray of float64, shape (n, 2)
-        Stations along each line.
-    border : numpy.ndarray of float64, shape (m, 2)
-        Places on the banks, which tell how far a line ends from the middle of another one.
-
-    Returns
-    -------
-    stations : numpy.ndarray of float64, shape (k, 2)
-    network : Network
-
-    Examples
-    --------
-    >>> main, branch = np.array([[0.0, 0], [9, 0], [18, 0]]), np.array([[9.0, 40], [9, 4]])
-    >>> joined([main, branch], np.array([[9.0, -4]]))[1].edges.tolist()
-    [[0, 1], [1, 2], [1, 4], [2, 3]]
+    """Return the stations (k, 2) of lines (n, 2) as one network: lines that end near another one
+    join it, as far as the banks (m, 2) are from its middle.
     """
     from scipy.spatial import cKDTree
 

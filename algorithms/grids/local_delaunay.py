@@ -33,20 +33,12 @@ _QUERIES = 1 << 16
 
 
 class Queries(NamedTuple):
-    """Places in a tile at which heights are wanted.
+    """Places in a tile at which heights are wanted."""
 
-    Attributes
-    ----------
-    x, y : numpy.ndarray of float64, shape (q,)
-        Coordinates in cells of the lattice, from the corner of the tile.
-    column, row : numpy.ndarray of intp, shape (q,)
-        The corner of cells nearest to each query.
-    """
-
-    x: np.ndarray
-    y: np.ndarray
-    column: np.ndarray
-    row: np.ndarray
+    x: np.ndarray  # float64 (q,), in cells of the lattice, from the corner of the tile
+    y: np.ndarray  # float64 (q,)
+    column: np.ndarray  # intp (q,), the corner of cells nearest to each query
+    row: np.ndarray  # intp (q,)
 
     def take(self, which: np.ndarray | slice) -> Queries:
         """Return the selected queries."""
@@ -54,20 +46,12 @@ class Queries(NamedTuple):
 
 
 class LocalDelaunay:
-    """The vertices of a tile. They give heights at queries from the vertices near each.
-
-    Parameters
-    ----------
-    thinned : LatticeSample
-        The vertices.
-    place : tuple of int
-        Row and column of the tile.
-    are_corners : bool
-        Whether the queries lie on corners of cells, so that each quarter of a window is a quarter
-        of the plane round the query.
-    max_edge : float
-        Triangles with a longer edge, in cells, are gaps.
+    """The vertices of a tile (row and column), which give heights at queries from those near each;
+    triangles with an edge longer than `max_edge` cells are gaps.
     """
+
+    # If queries lie on corners of cells (`are_corners`), each quarter of a window is a quarter of
+    # the plane round the query.
 
     def __init__(
         self,
@@ -136,10 +120,8 @@ class LocalDelaunay:
             start = stop
 
     def _counts_southwest(self, queries: Queries, half: int, across: int) -> np.ndarray:
-        """Return the number of vertices southwest of three corners of windows, shape (3, q).
-
-        The corners are the south, middle and north one in the west (`across` -1), in the middle (0)
-        or in the east (1).
+        """Return the number of vertices southwest of three corners of windows, (3, q): south,
+        middle and north, in the west (`across` -1), in the middle (0) or in the east (1).
         """
         start = queries.column + across * half + _MARGIN
         rows = queries.row + _MARGIN + np.array([[-half], [0], [half]])

@@ -30,25 +30,12 @@ def dominance_reach(radius: float, cells: Cells) -> tuple[int, int]:
 
 
 def local_dominance(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
-    """Return how steeply an observer looks down on the land around, in relation to level land.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Heights in metres; NaN where there is none.
-    cells : tuple of float
-        Distance in metres between neighbours in a row, and in a column.
-    radius : float
-        The observer looks at what lies from this distance, in metres, up to twice as far; at least
-        one cell.
-
-    Returns
-    -------
-    numpy.ndarray of float32, shape (rows, columns)
-        1 on level land, more on rises, less in hollows; NaN where there is no height. Beyond the
-        border of the data the land goes on as a plane. A cell depends on others up to
-        `dominance_reach`.
+    """Return how steeply an observer looks down on the land around, in relation to level land,
+    float32, 1 there, more on rises, less in hollows; NaN where there is no height.
     """
+    # The observer looks at what lies from `radius` metres, at least one cell, up to twice as far.
+    # Beyond the border of the data the land goes on as a plane. A cell depends on others up to
+    # `dominance_reach`.
     around = Surroundings(heights, dominance_reach(radius, cells))
     seen = list(_seen(radius, cells))
     level = np.float32(sum(weight * _EYES for _, weight in seen))

@@ -21,54 +21,28 @@ _POINTS_A_PART = 1 << 12
 
 @dataclass(frozen=True)
 class LocalPlanes:
-    """A plane for each of some points, with heights relative to its point.
+    """A plane for each of some points, with heights relative to its point."""
 
-    Attributes
-    ----------
-    rise : numpy.ndarray of float32, shape (n, 3)
-        Slope to the east, slope to the north, and height at the point in metres above it; 0 without
-        a plane.
-    on : numpy.ndarray of bool, shape (n, k)
-        Which neighbours lie on the plane; all False without a plane.
-    """
-
+    # float32 (n, 3): slope to the east, slope to the north, and height at the point in metres above
+    # it; 0 without a plane.
     rise: np.ndarray
-    on: np.ndarray
+    on: np.ndarray  # bool (n, k), neighbours on the plane; all False without one
 
     @classmethod
     def through(
         cls,
-        places: np.ndarray,
-        neighbours: np.ndarray,
-        near: np.ndarray,
-        wanted: np.ndarray,
-        tolerance: float,
-        steepest: float,
+        places: np.ndarray,  # (n, 3) in metres
+        neighbours: np.ndarray,  # (n, k), the nearest in the plane; the first is the point itself
+        near: np.ndarray,  # bool (n, k), neighbours that count
+        wanted: np.ndarray,  # bool (n,), points that get a plane
+        tolerance: float,  # metres above or below a plane
+        steepest: float,  # degrees
         progress: Progress = SILENT,
     ) -> LocalPlanes:
-        """Return the planes on which most neighbours lie.
-
-        A plane through all neighbours would not find a roof whose ridge is among them. So planes
-        are tried through the point and each two of its nearest neighbours. The one that most
-        neighbours lie on is fitted to these.
-
-        Parameters
-        ----------
-        places : numpy.ndarray of float64, shape (n, 3)
-            x, y and z in metres.
-        neighbours : numpy.ndarray of int, shape (n, k)
-            The nearest points in the plane; the first of each row is the point itself.
-        near : numpy.ndarray of bool, shape (n, k)
-            Which neighbours count.
-        wanted : numpy.ndarray of bool, shape (n,)
-            Which points get a plane.
-        tolerance : float
-            Points that are at most so many metres above or below a plane lie on it.
-        steepest : float
-            Largest slope of a plane in degrees.
-        progress : Progress
-            Receives progress.
-        """
+        """Return the planes on which most neighbours lie."""
+        # A plane through all neighbours would not find a roof whose ridge is among them. So planes
+        # are tried through the point and each two of its nearest neighbours. The one that most
+        # neighbours lie on is fitted to these.
         rise = np.zeros((len(places), 3), dtype=np.float32)
         on = np.zeros(neighbours.shape, dtype=bool)
         which, slope = np.flatnonzero(wanted), math.tan(math.radians(steepest))

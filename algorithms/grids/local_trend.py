@@ -13,6 +13,7 @@ _PIECE = 256
 # Surroundings are complete if no more than this share of their weight is missing.
 _COMPLETE = 1e-6
 
+# Standard deviations in cells, along a column and along a row.
 Sigma = tuple[float, float]
 
 
@@ -22,23 +23,12 @@ def reach_of(sigma: float) -> int:
 
 
 def local_trend(heights: np.ndarray, sigma: Sigma) -> np.ndarray:
-    """Return at each cell the height of the plane that fits its surroundings best.
-
-    The weights of the surroundings are a normal distribution. Where they are complete this is
-    their weighted mean. At an edge it differs, since the surroundings lie on one side.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Heights; NaN where there is none.
-    sigma : tuple of float
-        Standard deviation of the weights in cells, along a column and along a row.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (rows, columns)
-        NaN where the heights are NaN. A value depends only on cells up to `reach_of(sigma)`.
+    """Return at each cell the height of the plane that fits its surroundings best, float64, NaN
+    where the heights are.
     """
+    # The weights of the surroundings are a normal distribution.
+    # Where they are complete this is their weighted mean. At an edge it differs, since the
+    # surroundings lie on one side. A value depends only on cells up to `reach_of(sigma)`.
     known = np.isfinite(heights)
     if not known.any():
         return np.full(heights.shape, np.nan)
@@ -68,10 +58,8 @@ def local_trend(heights: np.ndarray, sigma: Sigma) -> np.ndarray:
 
 
 def trend_slopes(heights: np.ndarray, sigma: Sigma) -> tuple[np.ndarray, np.ndarray]:
-    """Return at each cell how the plane of `local_trend` rises along a column and along a row.
-
-    Arguments are as for it, and there must be a height. The results are rises from a cell to the
-    next, also where there is no height, of shape (rows, columns).
+    """Return how the plane of `local_trend` rises from a cell to the next, along a column and along
+    a row, also where there is no height; there must be one.
     """
     known = np.isfinite(heights)
     # Less the mean, so that rounding does not matter.

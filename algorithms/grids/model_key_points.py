@@ -72,12 +72,10 @@ class ModelKeyPoints(ParameterSet):
 
 
 def reach(parameters: ModelKeyPoints) -> float:
-    """Return the distance in metres within which a ground point affects the choice.
-
-    Measured: with a buffer of this width, a part of a survey gets the same key points as in the
-    whole survey, except for about one of a thousand at the border of the survey and beside wide
-    gaps.
-    """
+    """Return the distance in metres within which a ground point affects the choice."""
+    # Measured: with a buffer of this width, a part of a survey gets the same key points as in the
+    # whole survey, except for about one of a thousand at the border of the survey and beside wide
+    # gaps.
     return max(_REACH * parameters.grid_size, _LEAST_REACH)
 
 
@@ -87,34 +85,16 @@ def model_key_points(
     progress: Progress = SILENT,
     anchor: tuple[float, float] = (0.0, 0.0),
 ) -> np.ndarray:
-    """Choose the ground points that a terrain model needs.
-
-    The first key points are the lowest point of each cell of a grid, the outermost point of each
-    cell beside an empty one, and the corners of the convex hull. In rounds, every triangle of their
-    TIN takes the point that lies farthest beyond the tolerance. The first rounds test few points,
-    the last ones all. In the end every ground point lies within the tolerance of the TIN. Of points
-    at one place only the lowest is used.
-
-    If four key points lie on one circle, this holds for either diagonal. If more than four do, as
-    on a regular lattice, a few ground points of ten thousand may lie some centimetres beyond.
-
-    Parameters
-    ----------
-    points : Points
-        The ground points.
-    parameters : ModelKeyPoints
-        Tolerances and size of the grid.
-    progress : Progress
-        Receives progress.
-    anchor : tuple of float
-        x and y of a corner of the grid's cells in metres, so that each part of a survey has the
-        same cells.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (n,)
-        Which points were chosen. Their order does not matter.
+    """Return which ground points a terrain model needs, bool (n,), with cells that have a corner at
+    `anchor` (metres) in each part of a survey; the order of the points does not matter.
     """
+    # The first key points are the lowest point of each cell of a grid, the outermost point of each
+    # cell beside an empty one, and the corners of the convex hull. In rounds, every triangle of
+    # their TIN takes the point that lies farthest beyond the tolerance. The first rounds test few
+    # points, the last ones all. In the end every ground point lies within the tolerance of the TIN.
+    # Of points at one place only the lowest is used.
+    # If four key points lie on one circle, this holds for either diagonal. If more than four do, as
+    # on a regular lattice, a few ground points of ten thousand may lie some centimetres beyond.
     chosen = np.zeros(points.count, dtype=bool)
     if not points.count:
         return chosen
@@ -145,9 +125,8 @@ def model_key_points(
 def _sorted(
     points: Points, grid_size: float, anchor: tuple[float, float], progress: Progress
 ) -> tuple[Points, Cells, np.ndarray]:
-    """Return points sorted by cell, relative to a corner of cells; the cells; and the indices.
-
-    Of points at one place only the lowest is kept.
+    """Return points sorted by cell, relative to a corner of cells, without those above another at
+    one place; the cells; and the indices.
     """
     kept = _lowest_of_places(points)
     progress(0.4)
@@ -201,10 +180,8 @@ def _hull_corners(points: Points, cells: Cells) -> np.ndarray:
 
 
 def _outermost(points: Points, cells: Cells) -> np.ndarray:
-    """Return the point nearest to the empty cell, for each cell beside an empty one.
-
-    Without these points, triangles along a border reach from one corner of the hull to the next.
-    """
+    """Return the point nearest to the empty cell, for each cell beside an empty one."""
+    # Without these points, triangles along a border reach from one corner of the hull to the next.
     occupied, found = np.pad(cells.occupied, 1), []
     for axis, along, across in ((1, points.x, points.y), (0, points.y, points.x)):
         for step in (1, -1):
@@ -256,10 +233,9 @@ def _of_cells(cells: Cells, points: np.ndarray) -> np.ndarray:
 
 
 class _Keys:
-    """The points chosen so far (`are_keys`, a mask), and their TIN.
+    """The points chosen so far (`are_keys`, a mask), and their TIN."""
 
-    No two points may be at the same place. The seeds must include the corners of the convex hull.
-    """
+    # No two points may be at the same place. The seeds must include the corners of the convex hull.
 
     def __init__(self, points: Points, seeds: np.ndarray, parameters: ModelKeyPoints) -> None:
         self._points, self._parameters = points, parameters
@@ -274,9 +250,8 @@ class _Keys:
     def densify(
         self, pending: np.ndarray, near: np.ndarray, progress: Progress, is_last: bool = False
     ) -> None:
-        """Choose points until none of the pending (k,) lies beyond the tolerance.
-
-        `near` (k,) is a point near each of them that has been tested already.
+        """Choose points until none of the pending (k,) lies beyond the tolerance; `near` (k,) is a
+        point near each of them that has been tested already.
         """
         points, triangle, beyond = self._points, self._triangle, self._beyond
         triangle[pending] = triangle[near]
@@ -330,9 +305,8 @@ class _Keys:
         return np.concatenate(in_threads(within, parts_of(len(pending), _POINTS_A_PART)))
 
     def _ambiguous(self, pending: np.ndarray) -> np.ndarray:
-        """Test points against the other diagonal, too, where four vertices lie on one circle.
-
-        Returns these points.
+        """Test points against the other diagonal, too, where four vertices lie on one circle, and
+        return these.
         """
         edges = self._tin.ambiguous_edges()
         some = self._within(edges.reshape(-1, 3).any(axis=1), pending)

@@ -18,20 +18,11 @@ _CELLS_A_STRIP = 1 << 17
 
 
 def in_steps(grid: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return heights as whole numbers of small steps: morphology on them is three times as fast.
-
-    Parameters
-    ----------
-    grid : numpy.ndarray of float, shape (rows, columns)
-        Heights in metres without NaN. The few that lie hundreds of metres above or below the others
-        are clipped, because the steps would be coarse otherwise.
-
-    Returns
-    -------
-    steps : numpy.ndarray of int16, shape (rows, columns)
-    step : float
-        Size of a step in metres: 0.01, or more if the heights span more than 500 m.
+    """Return heights in metres without NaN as whole numbers (int16) of steps of 0.01 m, or more if
+    they span more than 500 m, and the step.
     """
+    # Morphology on them is three times as fast. The few heights that lie hundreds of metres above
+    # or below the others are clipped, because the steps would be coarse otherwise.
     low, high = float(grid.min()), float(grid.max())
     if high - low > _BEYOND:
         few = int(_NEARLY_ALL * grid.size)
@@ -50,21 +41,11 @@ def in_steps(grid: np.ndarray) -> tuple[np.ndarray, float]:
 
 
 def opening(grid: np.ndarray, radius: float) -> np.ndarray:
-    """Return the opening of a grid by a disc, which cuts off what is narrower than the disc.
-
-    Parameters
-    ----------
-    grid : numpy.ndarray of float or int, shape (rows, columns)
-        Heights without NaN.
-    radius : float
-        Radius of the disc in cells; a cell belongs to it if its centre does.
-
-    Returns
-    -------
-    numpy.ndarray of the same type, shape (rows, columns)
-        Nowhere higher than `grid`. The grid is continued with its border cells, far enough for a
-        disc outside it. Otherwise the upper border of a plain slope would be cut off.
+    """Return the opening of a grid without NaN by a disc of a radius in cells, which cuts off what
+    is narrower than the disc; a cell belongs to it if its centre does.
     """
+    # The grid is continued with its border cells, far enough for a disc outside it. Otherwise the
+    # upper border of a plain slope would be cut off.
     padded = np.pad(grid, 2 * _reach(radius), mode="edge")
     return _extreme(np.maximum, _extreme(np.minimum, padded, radius), radius)
 
@@ -81,21 +62,10 @@ def dilation(cells: np.ndarray, radius: float) -> np.ndarray:
 
 
 def closing(cells: np.ndarray, radius: float, shrink: float | None = None) -> np.ndarray:
-    """Return the closing of cells by a disc: all that no disc covers without one that is True.
-
-    Parameters
-    ----------
-    cells : numpy.ndarray of bool, shape (rows, columns)
-        The cells; those beyond the grid are False.
-    radius : float
-        Radius of the disc in cells.
-    shrink : float, optional
-        Another radius for the second half, the erosion.
-
-    Returns
-    -------
-    numpy.ndarray of bool, shape (rows, columns)
+    """Return the closing of cells by a disc, all that no disc covers without a cell that is True,
+    with another radius `shrink`, in cells, for the erosion if wanted.
     """
+    # Cells beyond the grid are False.
     shrink = radius if shrink is None else shrink
     reach = _reach(shrink)
     grown = dilation(np.pad(cells, reach), radius)
@@ -103,20 +73,8 @@ def closing(cells: np.ndarray, radius: float, shrink: float | None = None) -> np
 
 
 def within_square(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
-    """Return the extreme of a grid within a square round each cell.
-
-    Parameters
-    ----------
-    which : numpy.ufunc
-        `numpy.minimum` or `numpy.maximum`.
-    grid : numpy.ndarray of bool, int or float, shape (rows, columns)
-        Cells beyond the grid are ignored.
-    reach : int
-        The square is `2 * reach + 1` cells wide.
-
-    Returns
-    -------
-    numpy.ndarray of the same type, shape (rows, columns)
+    """Return the extreme (`numpy.minimum` or `numpy.maximum`) of a grid within a square of `2 *
+    reach + 1` cells round each cell; cells beyond the grid are ignored.
     """
     rows = len(grid)
     result = np.empty_like(grid)
@@ -132,19 +90,10 @@ def within_square(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
 
 
 def median_of_nine(grid: np.ndarray) -> np.ndarray:
-    """Return the median of the 3 x 3 cells round each, as `scipy.ndimage.median_filter` does.
-
-    This takes a tenth of the time, because it does not sort nine cells anew for each cell.
-
-    Parameters
-    ----------
-    grid : numpy.ndarray of float, shape (rows, columns)
-        Without NaN. The grid is continued with its border cells.
-
-    Returns
-    -------
-    numpy.ndarray of the same type, shape (rows, columns)
+    """Return the median of the 3 x 3 cells round each, without NaN and continued with the border
+    cells, as `scipy.ndimage.median_filter` does.
     """
+    # This takes a tenth of the time, because it does not sort nine cells anew for each cell.
     padded, median = np.pad(grid, 1, mode="edge"), np.empty_like(grid)
     strip = max(_CELLS_A_STRIP // padded.shape[1], 1)
 
@@ -217,13 +166,11 @@ def _rows_of_disc(radius: float) -> list[tuple[int, list[int]]]:
 def _in_strip(
     which: np.ufunc, padded: np.ndarray, disc: list[tuple[int, list[int]]], result: np.ndarray
 ) -> None:
-    """Fill `result` with the extreme within a disc round each cell of a strip.
-
-    A disc is a stack of rows. The extreme along rows of each length is found once, by doubling the
-    length, so that the cost grows with the radius and not with its square. This works on the
-    flattened strip, several times as fast as row by row. Runs that continue from the end of a row
-    into the next one end up outside the columns of the result.
-    """
+    """Fill `result` with the extreme within a disc round each cell of a strip."""
+    # A disc is a stack of rows. The extreme along rows of each length is found once, by doubling
+    # the length, so that the cost grows with the radius and not with its square. This works on the
+    # flattened strip, several times as fast as row by row. Runs that continue from the end of a row
+    # into the next one end up outside the columns of the result.
     rows, columns = result.shape
     width = padded.shape[1]
     reach = (width - columns) // 2

@@ -25,12 +25,8 @@ ReadRows = Callable[[int, int], np.ndarray]
 
 
 class Outline:
-    """Which cells of a raster lie inside; kept in so few bytes that any raster fits into memory.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Rows, counted from north, and columns of the raster.
+    """Which cells of a raster (rows from north) lie inside; kept in so few bytes that any raster
+    fits into memory.
     """
 
     def __init__(self, shape: tuple[int, int]) -> None:
@@ -58,18 +54,8 @@ class Outline:
                 )
 
     def rows(self, start: int, end: int, first: int = 0, last: int | None = None) -> np.ndarray:
-        """Return cells; those beyond the raster are outside.
-
-        Parameters
-        ----------
-        start, end : int
-            The rows, from north; they may lie beyond the raster.
-        first, last : int
-            The columns; they may lie beyond it too.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (end - start, last - first)
+        """Return the cells of rows, from north, and columns, up to an end that is not included;
+        those beyond the raster are outside.
         """
         rows, columns = self.shape
         last = columns if last is None else last
@@ -94,22 +80,12 @@ class Outline:
 
 
 class Discs:
-    """Morphology by discs on rows of a raster. Rows are read with the margin that is needed.
+    """Morphology by discs on rows of a raster, which are read with the margin that is needed."""
 
-    Wide discs are applied to groups of cells, which are fixed in the CRS.
-
-    Parameters
-    ----------
-    read : callable
-        Returns the cells, as `ReadRows`.
-    corner : tuple of int
-        Number of the row above the northernmost one and of the westernmost column, counted from
-        (0, 0) of the CRS.
-    grow : float
-        Radius in cells by which cells are grown.
-    shrink : float
-        Radius by which the result is shrunk: as large for a closing, 0 for none.
-    """
+    # Wide discs are applied to groups of cells, which are fixed in the CRS: `corner` is the number
+    # of the row above the northernmost one and of the westernmost column, counted from (0, 0) of
+    # it. Cells are grown by `grow`, then shrunk by `shrink`, radii in cells: as large for a
+    # closing, 0 for none.
 
     def __init__(self, read: ReadRows, corner: tuple[int, int], grow: float, shrink: float) -> None:
         self._read = read
@@ -147,21 +123,10 @@ class Discs:
 def with_gaps_inside(
     read: ReadRows, shape: tuple[int, int], progress: Progress = SILENT
 ) -> Outline:
-    """Return the outline of cells: they and the gaps that lie inside them.
-
-    A gap lies inside if no way leads from it over cells with a common side to the border of the
-    raster. The gaps of strips are joined where they touch, so the result is that of all rows at
-    once.
-
-    Parameters
-    ----------
-    read : callable
-        Returns the cells, as `ReadRows`.
-    shape : tuple of int
-        Rows and columns.
-    progress : Progress
-        Receives progress.
-    """
+    """Return the outline of cells: they and the gaps that lie inside them."""
+    # A gap lies inside if no way leads from it over cells with a common side to the border of the
+    # raster. The gaps of strips are joined where they touch, so the result is that of all rows at
+    # once.
     cells, joined = Outline(shape), _JoinedGaps()
     for start, end in cells.strips():
         part = read(start, end)

@@ -21,23 +21,13 @@ from .horizons import Cells, openness, sky_view_and_openness
 
 
 class _Land(NamedTuple):
-    """The ranges that VAT shows, for a kind of land.
+    """The ranges that VAT shows, black to white, for a kind of land."""
 
-    Attributes
-    ----------
-    sky, open, steep : tuple of float
-        Sky-view factors, openness in degrees and slopes in degrees that are black and white.
-    altitude : float
-        Angle of the light above the horizon in degrees.
-    radii : tuple of float
-        Where terrain can hide the sky, from and to, in radii.
-    """
-
-    sky: tuple[float, float]
-    open: tuple[float, float]
-    steep: tuple[float, float]
-    altitude: float
-    radii: tuple[float, float]
+    sky: tuple[float, float]  # sky-view factors
+    open: tuple[float, float]  # degrees
+    steep: tuple[float, float]  # degrees
+    altitude: float  # of the light above the horizon, in degrees
+    radii: tuple[float, float]  # where terrain can hide the sky, from and to, in radii
 
 
 # The values of Kokalj and Somrak, as in their Relief Visualization Toolbox.
@@ -52,27 +42,13 @@ _REDDEST, _DARKEST, _BRIGHTEST = 45.0, -10.0, 4.0
 
 
 def archaeological_topography(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
-    """Return the visualization for archaeological topography (VAT), for hilly and level land.
-
-    A hillshade, blended with slope, openness and sky-view factor, so that a feature is visible
-    whatever its direction. It is the mean of two such pictures: one for hilly land, and one for
-    level land, which shows what is low.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Heights in metres, from north to south; NaN where there is none.
-    cells : tuple of float
-        Distance in metres between neighbours in a row, and in a column.
-    radius : float
-        Up to this distance in metres terrain can hide the sky in hilly land, and up to twice as far
-        in level land.
-
-    Returns
-    -------
-    numpy.ndarray of uint8, shape (rows, columns)
-        1 (black) to 255 (white); 0 where there is no height.
+    """Return the visualization for archaeological topography (VAT), for hilly and level land,
+    uint8, 1 (black) to 255 (white), 0 where there is no height.
     """
+    # A hillshade, blended with slope, openness and sky-view factor, so that a feature is visible
+    # whatever its direction. It is the mean of two such pictures: one for hilly land, where terrain
+    # up to `radius` metres away can hide the sky, and one for level land, which shows what is low,
+    # with twice the radius.
     heights = heights.astype(np.float32)
     steep = slope(heights, cells)
     both = [_blended(heights, steep, cells, radius, land) for land in (_HILLY, _LEVEL)]
@@ -97,20 +73,10 @@ def _blended(
 
 
 def red_relief(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
-    """Return a red relief image map: slopes are red, ridges bright and valleys dark.
-
-    There is no light, so that all directions look the same, and rises never look like hollows.
-
-    Parameters
-    ----------
-    heights, cells, radius
-        As for `openness`.
-
-    Returns
-    -------
-    numpy.ndarray of uint8, shape (3, rows, columns)
-        Red, green and blue from 1 to 255; 0 where there is no height.
+    """Return a red relief image map, in which slopes are red, ridges bright and valleys dark, uint8
+    (3, rows, columns), 1 to 255, 0 where there is no height.
     """
+    # There is no light, so that all directions look the same, and rises never look like hollows.
     heights = heights.astype(np.float32)
     # Half of the difference is "ridge and valley", whatever the slope.
     ridge = (openness(heights, cells, radius) - openness(-heights, cells, radius)) / 2

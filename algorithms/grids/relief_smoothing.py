@@ -38,19 +38,8 @@ def smoothing_reach(cell_size: float) -> int:
 
 
 def without_noise(heights: np.ndarray, cell_size: float) -> np.ndarray:
-    """Return heights with less noise, for pictures of the relief.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float, shape (rows, columns)
-        Heights in metres; NaN where there is none.
-    cell_size : float
-        Side of a cell in metres. Cells of 4 m and more stay as they are.
-
-    Returns
-    -------
-    numpy.ndarray of float64, shape (rows, columns)
-        NaN where the heights are NaN.
+    """Return heights in metres, NaN for none, with less noise, for pictures of the relief; with
+    cells of 4 m and more, as they are.
     """
     sigma = _sigma(cell_size)
     heights = heights.astype(np.float64)

@@ -32,38 +32,25 @@ _MOST_CELLS = 500.0
 
 
 class CellLattice(NamedTuple):
-    """Cells at whose centres queries lie.
+    """Cells at whose centres queries lie."""
 
-    Attributes
-    ----------
-    anchor : tuple of float
-        x and y of a corner of cells in metres.
-    size : float
-        Side of a cell in metres.
-    """
-
-    anchor: tuple[float, float]
-    size: float
+    anchor: tuple[float, float]  # a corner of cells in metres
+    size: float  # side of a cell in metres
 
 
 class Surface:
-    """The TIN of points, which is triangulated block by block.
-
-    The heights are those of the Delaunay triangulation of all points. A triangle of a block is used
-    only if its circumcircle holds no point inside, of the block or not: then it is a triangle of
-    that triangulation (if four points lie on a circle, either diagonal may be used). Queries in
-    other triangles, for example in a lake that a block cuts, are left until all blocks are done.
-    Then vertices in circles are added to a TIN of the corners of these triangles, until there are
-    none.
-
-    Parameters
-    ----------
-    points : Points
-        Vertices. Of points with the same x and y the lowest is kept. The order does not matter.
-    meshed : numpy.ndarray of bool, shape (n,), optional
-        Which points are triangulated, including the corners of the convex hull. The triangles are
-        checked against all points. By default all are triangulated.
+    """The TIN of points in any order, the lowest of those with the same x and y, which is
+    triangulated block by block.
     """
+
+    # The heights are those of the Delaunay triangulation of all points. A triangle of a block is
+    # used only if its circumcircle holds no point inside, of the block or not: then it is a
+    # triangle of that triangulation (if four points lie on a circle, either diagonal may be used).
+    # Queries in other triangles, for example in a lake that a block cuts, are left until all blocks
+    # are done. Then vertices in circles are added to a TIN of the corners of these triangles, until
+    # there are none.
+    # If `meshed` is given, only these points are triangulated, which include the corners of the
+    # convex hull, and the triangles are checked against all points.
 
     def __init__(self, points: Points, meshed: np.ndarray | None = None) -> None:
         # Sorted by x.
@@ -80,25 +67,10 @@ class Surface:
         y: np.ndarray,
         max_edge: float | None = None,
         progress: Progress = SILENT,
-        cells: CellLattice | None = None,
+        cells: CellLattice | None = None,  # queries at their centres are faster
     ) -> np.ndarray:
-        """Return the height of the surface at each query.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray of float, shape (q,)
-            Queries in metres.
-        max_edge : float, optional
-            Triangles with a longer edge, in metres, count as a gap.
-        progress : Progress
-            Receives progress.
-        cells : CellLattice, optional
-            Cells at whose centres the queries lie. With them the triangles are found faster.
-
-        Returns
-        -------
-        numpy.ndarray of float64, shape (q,)
-            Heights in metres; NaN outside the convex hull and in gaps.
+        """Return the height of the surface at queries (q,), float64 (q,), all in metres; NaN
+        outside the convex hull and in triangles with an edge longer than `max_edge`.
         """
         heights = np.full(len(x), np.nan)
         if not len(x) or is_one_line(np.column_stack(self._vertices[:2])):
@@ -138,9 +110,8 @@ class Surface:
 
     @property
     def _hull(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The lower and the upper border of the hull, and the indices of its corners.
-
-        Borders are x and y (2, k) from west to east; the corners are counterclockwise.
+        """The lower and the upper border of the hull, x and y (2, k) from west to east, and the
+        indices of its corners, counterclockwise.
         """
         with self._lock:
             if self._border_of_all is None:
@@ -151,11 +122,9 @@ class Surface:
             return self._border_of_all
 
     def _blocks(self, x: np.ndarray, y: np.ndarray) -> Iterator[tuple[np.ndarray, float]]:
-        """Yield the indices of the queries in each block, and the longer side of its vertices.
-
-        Blocks are halved by the number of their vertices until these are few enough, so that a
-        stray vertex far away makes no difference.
-        """
+        """Yield the indices of the queries in each block, and the longer side of its vertices."""
+        # Blocks are halved by the number of their vertices until these are few enough, so that a
+        # stray vertex far away makes no difference.
         vertices = self._vertices
         waiting = [(self._meshed, np.arange(len(x)))]
         while waiting:
@@ -181,11 +150,10 @@ class Surface:
         cells: CellLattice | None,
         progress: Progress,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the heights of the queries of a block, on a TIN of the vertices round it.
-
-        Also return which queries are left (k,), because a vertex lies in the circle of their
-        triangle or they have none, and the vertices (n,) of these triangles.
+        """Return the heights of the queries of a block, on a TIN of the vertices round it, which
+        queries are left (k,), and the vertices (n,) of their triangles.
         """
+        # A query is left if a vertex lies in the circle of its triangle, or it has none.
         vertices, margin = self._vertices, max(_MARGIN * size, _ON_HULL)
         are_all = len(self._meshed) == vertices.count
         borders = x.min() - margin, y.min() - margin, x.max() + margin, y.max() + margin
@@ -219,11 +187,11 @@ class Surface:
         max_edge: float | None,
         cells: CellLattice | None,
     ) -> np.ndarray:
-        """Return heights at queries, on a TIN of some `vertices` to which those needed are added.
-
-        The time depends on the number of triangles that hold queries, not on that of the queries: a
-        lake has many more cells than vertices on its shore.
+        """Return heights at queries, on a TIN of some `vertices` to which those needed
+        are added.
         """
+        # The time depends on the number of triangles that hold queries, not on that of the queries:
+        # a lake has many more cells than vertices on its shore.
         heights, active = np.full(len(x), np.nan), np.arange(len(x))
         used, added = np.union1d(vertices, self._hull[2]), self._hull[2]
         for _ in range(_MOST_STEPS):
@@ -259,11 +227,10 @@ class Surface:
     def _in_circles(
         self, tin: Tin, triangle: np.ndarray, window: tuple[float, ...] | None = None
     ) -> np.ndarray:
-        """Return a vertex in the circle of each triangle (k,), -1 where there is none.
-
-        It is the one nearest to the centre. A triangle without one belongs to the triangulation of
-        all points. If a window is given, `tin` has all points in it.
+        """Return the vertex in the circle of each triangle (k,) that is nearest to its centre, -1
+        where there is none; with a window, `tin` has all points in it.
         """
+        # A triangle without one belongs to the triangulation of all points.
         used, back = np.unique(triangle, return_inverse=True)
         corners = tin.triangles[used].T
         # Relative to a corner, because large coordinates lose digits.

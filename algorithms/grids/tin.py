@@ -16,41 +16,27 @@ _ON_EDGE = 1e-11
 
 
 class Tin:
-    """A Delaunay triangulation of points, with heights.
-
-    `Delaunay.find_simplex` is not used: the transform it builds and its search from an arbitrary
-    triangle cost more than the triangulation. A walk over the neighbours from a vertex close to
-    the query is exact, because in a Delaunay triangulation a walk towards the query never returns
-    to a triangle (Devillers, Pion & Teillaud 2002, section 3).
-
-    Parameters
-    ----------
-    x, y, z : array_like of float, shape (n,)
-        Vertices in metres. Of vertices with the same x and y the lowest is kept. Their order does
-        not matter.
-
-    Attributes
-    ----------
-    x, y, z : numpy.ndarray of float64, shape (v,)
-        The vertices that were kept, in the order of the TIN.
-    source : numpy.ndarray of intp, shape (v,)
-        Index of each vertex in the input.
-    triangles : numpy.ndarray of int32, shape (t, 3)
-        Vertices of each triangle; empty if all vertices lie on one line.
-    neighbours : numpy.ndarray of int32, shape (t, 3)
-        The triangle opposite to each vertex; -1 beyond the convex hull.
+    """A Delaunay triangulation of points in metres in any order, the lowest of those with the same
+    x and y, with heights.
     """
+
+    # `Delaunay.find_simplex` is not used: the transform it builds and its search from an arbitrary
+    # triangle cost more than the triangulation. A walk over the neighbours from a vertex close to
+    # the query is exact, because in a Delaunay triangulation a walk towards the query never returns
+    # to a triangle (Devillers, Pion & Teillaud 2002, section 3).
 
     def __init__(self, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> None:
         x, y, z = (np.asarray(values, dtype=np.float64) for values in (x, y, z))
         kept = lowest_of_duplicates(x, y, z)
         strip, self._strip_edges = _strips(x[kept])
         order = np.lexsort((x[kept], y[kept], strip))
-        self.source = kept[order]
+        self.source = kept[order]  # intp (v,), index of each vertex in the input
         self.x, self.y, self.z = x[self.source], y[self.source], z[self.source]
         # Relative to the median, because Qhull and the walk lose digits in large coordinates.
         self._origin = (np.median(self.x), np.median(self.y)) if len(kept) else (0.0, 0.0)
         self._x, self._y = self.x - self._origin[0], self.y - self._origin[1]
+        # int32 (t, 3): the vertices of each triangle, none if all are on one line, and the triangle
+        # opposite to each vertex, -1 beyond the convex hull.
         self.triangles, self.neighbours = _triangulate(np.column_stack((self._x, self._y)))
         if len(self.triangles):
             self._y_range = float(self.y.min()), float(np.ptp(self.y))
@@ -58,17 +44,8 @@ class Tin:
             self._triangle_of_vertex = _triangle_of_vertex(self.triangles, len(self.x))
 
     def locate(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return the triangle in which each query lies.
-
-        Parameters
-        ----------
-        x, y : array_like of float, shape (q,)
-            Queries in metres.
-
-        Returns
-        -------
-        numpy.ndarray of int32, shape (q,)
-            Rows of `triangles`; -1 outside the convex hull.
+        """Return the triangle in which each query (q,) in metres lies, int32 (q,), rows of
+        `triangles`; -1 outside the convex hull.
         """
         x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
         found = np.full(len(x), -1, dtype=np.int32)
@@ -82,19 +59,8 @@ class Tin:
     def interpolate(
         self, x: np.ndarray, y: np.ndarray, triangle: np.ndarray | None = None
     ) -> np.ndarray:
-        """Return the height of the surface at each query.
-
-        Parameters
-        ----------
-        x, y
-            As for `locate`.
-        triangle : numpy.ndarray of int, shape (q,), optional
-            The result of `locate`, if it is known.
-
-        Returns
-        -------
-        numpy.ndarray of float64, shape (q,)
-            Heights in metres, linear in each triangle; NaN outside the convex hull.
+        """Return the height of the surface at each query (q,), linear in each triangle, which
+        `locate` may have found; NaN outside the convex hull.
         """
         x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
         if triangle is None:
@@ -117,19 +83,8 @@ class Tin:
         return height
 
     def lost(self, triangles: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return which triangles disappear when vertices are added: their circles hold one.
-
-        Parameters
-        ----------
-        triangles : numpy.ndarray of int, shape (q,)
-            Rows of `triangles`.
-        x, y : numpy.ndarray of float, shape (n,)
-            The new vertices in metres, at least one.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (q,)
-            True where a new vertex lies in the circumcircle or on it.
+        """Return which triangles (q,), rows of `triangles`, disappear when vertices (n,), at least
+        one, are added: one lies in their circumcircle or on it, bool (q,).
         """
         from scipy.spatial import cKDTree
 
@@ -186,15 +141,10 @@ class Tin:
 def opposite_areas(
     x: Iterable[np.ndarray], y: Iterable[np.ndarray]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return twice the signed area between queries and the edge opposite to each corner.
-
-    All three are >= 0 inside a triangle; over their sum they are the barycentric weights.
-
-    Parameters
-    ----------
-    x, y : three numpy.ndarray of float64, shape (q,)
-        The corners, relative to the queries.
+    """Return twice the signed area between queries and the edge opposite to each of three corners
+    (q,), relative to the queries.
     """
+    # All three are >= 0 inside a triangle; over their sum they are the barycentric weights.
     (ax, bx, cx), (ay, by, cy) = x, y
     return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
 
@@ -208,10 +158,8 @@ def lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndar
 
 
 def _strips(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Divide vertices along x into strips of equal counts; return their strips and the borders.
-
-    Quantiles, not equal widths: one stray point far away must not put all others into one strip.
-    """
+    """Divide vertices along x into strips of equal counts; return their strips and the borders."""
+    # Quantiles, not equal widths: one stray point far away must not put all others into one strip.
     count = max(int(np.sqrt(len(x) / 2)), 1)
     edges = (
         np.sort(x)[(np.arange(1, count, dtype=np.int64) * len(x)) // count]

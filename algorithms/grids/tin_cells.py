@@ -16,24 +16,10 @@ _PAIRS = 1 << 18
 def triangles_of_cells(
     tin: Tin, corner: tuple[float, float], cell: float, shape: tuple[int, int]
 ) -> np.ndarray:
-    """Return the triangle that holds the centre of each cell.
-
-    Parameters
-    ----------
-    tin : Tin
-        The triangles.
-    corner : tuple of float
-        x and y of the southwestern corner of the cells in metres.
-    cell : float
-        Side of a cell in metres.
-    shape : tuple of int
-        Rows, from south to north, and columns.
-
-    Returns
-    -------
-    numpy.ndarray of int32, shape (rows, columns)
-        Rows of `tin.triangles`; -1 for none. On an edge, one of the two.
+    """Return the triangle that holds the centre of each cell, int32 (rows, columns) from south,
+    rows of `tin.triangles`; -1 for none, on an edge one of the two.
     """
+    # The southwestern corner and the side of the cells are in metres.
     found = np.full(shape, -1, dtype=np.int32)
     # In cells, from the centre of the first cell.
     x, y = ((each - at) / cell - 0.5 for each, at in zip((tin.x, tin.y), corner))

@@ -18,42 +18,24 @@ _SAMPLES = 7
 
 
 class Rises(NamedTuple):
-    """The rise of the terrain over one cell in metres, at some cells.
+    """The rise of the terrain over one cell in metres, float32 at some cells."""
 
-    Attributes
-    ----------
-    north, east : numpy.ndarray of float32
-        Towards north and east.
-    steepest : numpy.ndarray of float32
-        In the steepest direction.
-    roughness : numpy.ndarray of float32
-        Usual difference between single rises and these.
-    """
-
-    north: np.ndarray
-    east: np.ndarray
-    steepest: np.ndarray
-    roughness: np.ndarray
+    north: np.ndarray  # towards north
+    east: np.ndarray  # towards east
+    steepest: np.ndarray  # in the steepest direction
+    roughness: np.ndarray  # usual difference between single rises and these
 
 
 class Trend:
-    """The slope of the terrain and its unevenness.
-
-    The slope of a block of 15 m is the median slope between neighbouring cells, on which walls and
-    trees have no effect. Its unevenness is the median difference from this slope. Both are
-    interpolated between the middles of the blocks, for some cells at a time, because whole grids
-    would cost more than everything else.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray of float32, shape (rows, columns)
-        Heights in metres without NaN.
-    size : float
-        Side of a cell in metres.
-    first : tuple of int
-        Row and column of the first cell in the grid of the CRS: blocks begin at multiples of their
-        side there.
+    """The slope of the terrain and its unevenness, from float32 heights (rows, columns) in metres
+    without NaN.
     """
+
+    # The slope of a block of 15 m is the median slope between neighbouring cells, on which walls
+    # and trees have no effect. Its unevenness is the median difference from this slope. Both are
+    # interpolated between the middles of the blocks, for some cells at a time, because whole grids
+    # would cost more than everything else. Blocks begin at multiples of their side in the grid of
+    # the CRS, in which `first` is row and column of the first cell.
 
     def __init__(self, heights: np.ndarray, size: float, first: First = (0, 0)) -> None:
         self._size = size
@@ -115,20 +97,8 @@ def _median(values: np.ndarray) -> np.ndarray:
 def between_blocks(
     values: np.ndarray, block: int, rows: np.ndarray, columns: np.ndarray
 ) -> np.ndarray:
-    """Interpolate values at the middles of blocks bilinearly to cells.
-
-    Parameters
-    ----------
-    values : numpy.ndarray of float, shape (..., block rows, block columns)
-        A value of each block.
-    block : int
-        Cells along the side of a block.
-    rows, columns : numpy.ndarray of int
-        Cells, counted from the first cell of the first block.
-
-    Returns
-    -------
-    numpy.ndarray of float, shape (..., rows, columns)
+    """Interpolate values (..., block rows, block columns) at the middles of blocks bilinearly to
+    cells, counted from the first cell of the first block.
     """
     return _interpolated(_interpolated(values, columns, block, -1), rows, block, -2)
 
