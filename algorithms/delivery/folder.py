@@ -69,7 +69,7 @@ class DeliveryFolder:
         return found if isinstance(found, dict) and isinstance(found.get("files"), list) else None
 
     def check(self, sources: Sequence[Path]) -> None:
-        """Refuse, before any work, a folder that cannot be made or holds files of the user."""
+        """Refuse, before any work, a folder with files of the user, or that cannot be made."""
         check_lengths(self.path, [f"{MARKS}/{QUALITY}/strip_differences.tif"])
         if not self.path.exists():
             check_output(self.path)

@@ -168,7 +168,7 @@ class Cluster(Workers):
         return Running(future, JobProgress(threading.Event()))
 
     def check(self) -> None:
-        """Now and then, see whether the scheduler is gone or had no workers for too long."""
+        """Now and then, raise an error if the scheduler is gone or had no workers for too long."""
         now = time.monotonic()
         if now - self._looked < _LOOKING:
             return

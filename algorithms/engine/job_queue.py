@@ -28,7 +28,7 @@ _DIED = (
 
 
 class JobQueue:
-    """The jobs of a survey and their results; those not in `kept` go after their last use."""
+    """The jobs of a survey and their results; files not in `kept` are removed when last used."""
 
     def __init__(
         self,

@@ -45,7 +45,7 @@ class _Wanted(NamedTuple):
 
 
 class Plan:
-    """What a run of steps on many files, each after what those before it found, has to do."""
+    """What a run of steps, which see what those before them found, has to do on many files."""
 
     def __init__(
         self,

@@ -188,7 +188,7 @@ def _plain(value: Any) -> Any:
 
 
 def with_classes(part: PointCloud, classes: np.ndarray, begins: bool = False) -> PointCloud:
-    """Return points with other classes, which a file remembers if it does or `begins` to."""
+    """Return points with other classes, remembered if the file remembers classes or `begins` to."""
     remembered = None
     if begins or part.remembered is not None:
         remembered = to_remember(part, classes)

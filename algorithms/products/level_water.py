@@ -91,7 +91,7 @@ class _CellsOfWater(NamedTuple):
 
 
 class WaterCells:
-    """Cells of rasters whose centres lie in water with a level; sides in metres, in one frame."""
+    """The cells of rasters, `cell` metres wide, whose centres lie in water with a level."""
 
     def __init__(self, waters: Sequence[LevelWater], window: CellWindow, cell: float) -> None:
         self._cell = cell

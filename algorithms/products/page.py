@@ -31,7 +31,7 @@ img { width: 100%; image-rendering: pixelated; border: 1px solid #bbb; box-sizin
 
 
 class Units(NamedTuple):
-    """The units of a survey, for pages, in metres, as lengths and heights are computed."""
+    """Metres in the units of a survey, for pages; lengths and heights are computed in metres."""
 
     horizontal: float = 1.0
     vertical: float = 1.0

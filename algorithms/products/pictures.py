@@ -45,7 +45,7 @@ class Relief:
 
     @classmethod
     def of(cls, points: Points, longest_side: int = LONGEST_SIDE) -> Relief:
-        """Return the relief of points, at least one, with most pixels along the longer side."""
+        """Return the relief of points, at least one, at most `longest_side` pixels long."""
         width, height = points.sides
         spacing = _SPACINGS * np.sqrt(width * height / points.count)
         cell = max(spacing, max(width, height) / longest_side) or 1.0

@@ -47,7 +47,8 @@ class Request:
     # of many files: their format, and whether finished ones are kept
     tiles: TileOutput = field(default_factory=TileOutput)
     resources: Resources = field(default_factory=Resources)
-    # as for `stated_wkt`, in place of that of files, whose records stay in outputs
+    # The CRS of the points in place of that of files: an EPSG code such as "EPSG:2230", or WKT.
+    # Written point clouds keep their records.
     crs: str | None = None
 
     @property
@@ -57,8 +58,8 @@ class Request:
 
     @classmethod
     def of(cls: type[_Request], sets: Iterable[ParameterSet], **others: Any) -> _Request:
-        """Return a request with parameter sets in any order, as the type of each decides, where one
-        of an unknown type is the method, and with other attributes.
+        """Return a request with parameter sets in any order: the type of each decides its
+        attribute, that of others is the method.
         """
         fields = {type(value): name for name, value in vars(cls()).items()}
         for each in sets:

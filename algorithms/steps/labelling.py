@@ -263,7 +263,7 @@ class ClassifiedPoints(PointResult):
             progress.info(f"{counted(self.area_deck_count, *words)} not ground.")
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return which points are written; refuse none, and heights without ground."""
+        """Return which points are written; refuse none, and heights not to be measured."""
         output, count, ground = self._step.output, self._count, self._ground_count
         if output.area_only:
             count, ground = self.area_count, self.area_ground_count
