@@ -20,18 +20,23 @@ from ..grids.cells import Cells
 from .method import Method, Toolbox
 from .pipeline import Pipeline
 from .stages.accept import NearSurface
-from .stages.below_water import BelowWater
 from .stages.breaks import LevelSeeds, Plants
 from .stages.landforms import BetweenDitches
-from .stages.low_groups import LowGroups, WideLowGroups
-from .stages.objects import RaisedObjects, TallObjects
+from .stages.low_noise import BelowWater, LowGroups, WideLowGroups
+from .stages.objects import (
+    BlockPits,
+    FineSeeds,
+    PaperSurface,
+    RaisedObjects,
+    Rims,
+    TallObjects,
+    density,
+)
 from .stages.opening import CutPlateaus, ProgressiveOpening
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
-from .stages.rims import BlockPits, FineSeeds, PaperSurface, Rims, density
-from .stages.seeds import LowestPoints, Seeds
+from .stages.seeds import LowestPoints, Seeds, Woods
 from .stages.terrain import SITE, GentleRegions
 from .stages.tolerance import ToleranceSurface
-from .stages.woods import Woods
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0

@@ -1,4 +1,7 @@
-"""The description of a ground filter, for the command line, the dialogs and the runs."""
+"""The description of a ground filter, for the command line, the dialogs and the runs.
+
+Warnings have no figures that differ from block to block, so that equal texts are shown once.
+"""
 
 from __future__ import annotations
 
@@ -9,12 +12,18 @@ import numpy as np
 from ..core.parameters import ParameterSet
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
+from ..grids.cells import Cells
 from .pipeline import Pipeline
 
 # Added to the number of the rule in a cell that is not ground.
 NOT_GROUND = 100
 # Usual width in metres of the largest building; few are wider.
 _USUAL_OBJECT = 50.0
+# Side in metres of the cells in which ground is counted, and the least usual share of the cells
+# with points that have ground.
+_CELL, _LEAST_GROUND = 1.0, 0.02
+# If more than this share of the points is ground, cells need not be counted: enough have ground.
+_SURELY_ENOUGH = 0.1
 
 
 class Found(NamedTuple):
@@ -115,3 +124,30 @@ class Method(NamedTuple):
         ):
             size = min(size, _USUAL_OBJECT)
         return size, labels[self.size_parameter]
+
+
+def warn_of_extent(points: Points, largest: float, name: str, progress: Progress) -> None:
+    """Warn if the survey is no wider than the largest expected object, in metres: it has no ground
+    on two sides of that; `name` is that of its parameter.
+    """
+    if min(points.sides) < largest:
+        progress.warning(
+            f"In one direction the points reach less than {largest:g} m, the expected width of the"
+            " largest object. An object at their border, or one that covers all of them, may be"
+            " taken for ground. Add the points around them, or give the width of the largest"
+            f" object ({name})."
+        )
+
+
+def warn_of_little_ground(points: Points, ground: np.ndarray, progress: Progress) -> None:
+    """Warn if hardly any of the cells with points have ground."""
+    if np.count_nonzero(ground) >= _SURELY_ENOUGH * points.count:
+        return
+    cells = Cells.over(points, _CELL)
+    if np.count_nonzero(cells.holding(ground)) < _LEAST_GROUND * np.count_nonzero(cells.occupied):
+        progress.warning(
+            f"Hardly any ground was found: fewer than {100 * _LEAST_GROUND:g} % of the square"
+            " metres with points have ground points. The terrain between them is a guess. Check"
+            " the selection of points (returns, classes) and the result. In steep land, try the"
+            " preset for it."
+        )

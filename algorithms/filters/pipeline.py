@@ -20,7 +20,10 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from .state import GridState, RuleTime, State
-from .warnings import warn_of_outliers
+
+# Largest usual share of low outliers among the lowest points, and the least number of cells for
+# which a share means something.
+_MOST_OUTLIERS, _LEAST_CELLS = 0.02, 500
 
 
 class Stage(Enum):
@@ -147,7 +150,7 @@ class Pipeline:
             part(1.0)
             if outliers and number == outliers[-1]:
                 grid = state.grids[0]
-                warn_of_outliers(len(grid.lowest), grid.heights.values, progress)
+                _warn_of_outliers(len(grid.lowest), grid.heights.values, progress)
         return state
 
 
@@ -161,3 +164,16 @@ def _apply_to_grids(rule: GridRule, state: State, progress: Progress) -> None:
         rule.apply(state.grids[number], part)
 
     in_threads(apply, range(count))
+
+
+def _warn_of_outliers(count: int, left: np.ndarray, progress: Progress) -> None:
+    """Warn if many of the lowest points, so many in all, are taken for low outliers, which are NaN
+    in `left`.
+    """
+    taken = count - np.count_nonzero(np.isfinite(left))
+    if count >= _LEAST_CELLS and taken > _MOST_OUTLIERS * count:
+        progress.warning(
+            f"More than {100 * _MOST_OUTLIERS:g} % of the lowest points are taken for low outliers."
+            " If they are noise, put them into class 7 to be sure that they take no part. If they"
+            " are the ground below trees or in pits, compare the result with the points there."
+        )

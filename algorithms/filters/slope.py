@@ -21,17 +21,15 @@ from ..grids.cells import spacing
 from .method import Method, Toolbox
 from .pipeline import Pipeline
 from .stages.accept import NearSurface
-from .stages.below_water import BelowWater
 from .stages.breaks import LevelSeeds, Plants
 from .stages.landforms import BetweenDitches
-from .stages.low_groups import LowGroups, WideLowGroups
+from .stages.low_noise import BelowWater, LowGroups, WideLowGroups
 from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening, SteepRises
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
-from .stages.seeds import LowestPoints, Seeds
+from .stages.seeds import LowestPoints, Seeds, Woods
 from .stages.terrain import SITE, GentleRegions
 from .stages.tolerance import ToleranceSurface
-from .stages.woods import Woods
 from .whitebox import StandsAbove
 
 # Points affect each other within so many search radii. On one scale, this is just what erosion,

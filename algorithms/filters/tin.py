@@ -21,18 +21,16 @@ from ..grids.model_key_points import ModelKeyPoints
 from .method import Method, Toolbox
 from .pipeline import Pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
-from .stages.below_water import BelowWater
 from .stages.breaks import LevelSeeds, Plants
 from .stages.densify import Densification
 from .stages.landforms import BetweenDitches, LowBanks
-from .stages.low_groups import LowGroups, WideLowGroups
+from .stages.low_noise import BelowWater, LowGroups, WideLowGroups
 from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
 from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
-from .stages.seeds import KnownGround, LowestPoints, Seeds
+from .stages.seeds import KnownGround, LowestPoints, Seeds, Woods
 from .stages.terrain import SITE, GentleBorder, GentleRegions
 from .stages.tolerance import NOISE_SPACING, PlainSurface, ToleranceSurface
-from .stages.woods import Woods
 
 # Least spacing of points in metres; a smaller one counts as this.
 _LEAST_SPACING = 0.01

@@ -7,7 +7,7 @@ from realdata import real
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.filters.bridges.decks import bridge_decks
+from bare_earth.algorithms.filters.bridge_decks import bridge_decks
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification

@@ -12,10 +12,10 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import file_points, memory_store
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.below_ground import below_ground
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.pipeline import Pipeline, PointRule, Stage
 from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.filters.stages.outliers import below_ground
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import cloud as cloud_module
 from bare_earth.algorithms.las.cloud import PointCloud

@@ -8,8 +8,7 @@ from realdata import real
 from bare_earth.algorithms import ClassifyRequest, TerrainRequest, classify, terrain
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.stages.below_water import BelowWater
-from bare_earth.algorithms.filters.stages.low_groups import LowGroups, WideLowGroups
+from bare_earth.algorithms.filters.stages.low_noise import BelowWater, LowGroups, WideLowGroups
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.high_groups import HighGroups

@@ -10,7 +10,7 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.breaks import LevelSeeds, Plants
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
 from bare_earth.algorithms.filters.stages.outliers import NarrowPits, UnderCanopy
-from bare_earth.algorithms.filters.stages.woods import Woods, openness
+from bare_earth.algorithms.filters.stages.seeds import Woods, openness
 from bare_earth.algorithms.filters.state import GridState, State
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.height_grid import HeightGrid

@@ -23,8 +23,7 @@ from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
 from ..pipeline import PointRule, Rule, Stage
 from ..state import State
-from .seeds import DENSE_SPACING
-from .woods import openness
+from .seeds import DENSE_SPACING, openness
 
 # Nearest neighbours that are used, and how many of them a side needs for a plane.
 _NEIGHBOURS, _LEAST = 16, 4

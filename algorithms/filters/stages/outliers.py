@@ -16,8 +16,11 @@ import numpy as np
 
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
+from ...core.threads import over_parts
 from ...grids.cells import Cells, spacing
+from ...grids.gradient import steepness
 from ...grids.height_grid import HeightGrid
+from ...grids.inpaint import inpaint
 from ...grids.morphology import median_of_nine, within_square
 from ..pipeline import GridRule, PointRule, Rule, Stage
 from ..state import GridState, State
@@ -26,6 +29,9 @@ from .surroundings import LowestOfCells
 
 # A cell of an even surface is at most so many metres off the median of the 3 x 3 cells round it.
 _EVEN = 0.3
+
+# Side in metres of the cells of the ground below which points are searched, and how many at a time.
+_CELL, _CHUNK = 1.0, 1 << 20
 
 
 @dataclass(frozen=True)
@@ -275,3 +281,31 @@ def even_cells(grid: HeightGrid) -> np.ndarray:
     """Return which cells lie on an even surface; boolean, shape (rows, columns)."""
     middle = median_of_nine(grid.filled(2).astype(np.float32))
     return np.abs(grid.values - middle) <= _EVEN
+
+
+def below_ground(
+    points: Points, ground: np.ndarray, depth: float, progress: Progress = SILENT
+) -> np.ndarray:
+    """Return which points (n,), never ground, lie so many metres, and the rise over a cell, below
+    the lowest ground points of cells of 1 m; none where there is no ground.
+    """
+    below = np.zeros(points.count, dtype=bool)
+    if not ground.any():
+        return below
+    cells = Cells.over(points, _CELL)
+    surface = inpaint(cells.minimum(np.where(ground, points.z, np.inf)), first=cells.first)
+    limit = surface - depth - _rise_round(surface)
+    progress(0.5)
+
+    def fill(part: slice) -> None:
+        below[part] = points.z[part] < cells.at(limit, points.x[part], points.y[part])
+
+    over_parts(fill, points.count, _CHUNK, progress.part(0.5, 1.0))
+    return below & ~ground
+
+
+def _rise_round(surface: np.ndarray) -> np.ndarray:
+    """Return the largest rise of a surface over a cell, at each cell and those round it."""
+    from scipy import ndimage
+
+    return ndimage.maximum_filter(steepness(surface, 1.0), 3, mode="nearest")

@@ -1,1 +1,0 @@
-"""Bridge decks, told from the ground by their cross-sections."""
