@@ -12,7 +12,7 @@ from ..core.files import temporary_folder
 from ..core.progress import SILENT, Progress
 from ..core.version import __version__
 from ..engine.workers import Workers
-from ..products.page import Units
+from ..report.units import Units
 from ..survey.files import Survey, is_one_file, open_survey
 from ..survey.shapes import Place
 from .folder import CHANGES, PAGE, DeliveryFolder

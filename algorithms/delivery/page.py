@@ -4,17 +4,29 @@ from __future__ import annotations
 
 from datetime import date
 from pathlib import Path
-from typing import Iterable
+from typing import Iterator
 from urllib.parse import quote
 
 from ..core.parameters import ParameterSet, shown_value
 from ..filters import method_of
 from ..las.class_names import named_class
 from ..products.accuracy import Figures
-from ..products.page import Units, map_figure, page_html, text
 from ..products.quality_figures import FAIL
 from ..products.quality_rasters import QUALITY_RASTERS
 from ..products.raster_files import RASTERS
+from ..report.page import (
+    Html,
+    element,
+    link,
+    listed,
+    map_of,
+    maps,
+    page,
+    paragraph,
+    section,
+    table,
+)
+from ..report.units import Units
 from ..survey.files import Survey
 from .deliveries import WITH_BUILDINGS
 from .pictures import picture_of
@@ -24,7 +36,7 @@ from .steps import Made
 _MOST_ROWS = 200
 _NOT_MEASURED = "Not measured: no checkpoints are given."
 _STYLE = """
-.maps { display: grid; grid-template-columns: repeat(auto-fill, minmax(380px, 1fr)); gap: 1.2em; }
+.maps { grid-template-columns: repeat(auto-fill, minmax(380px, 1fr)); }
 .maps figure:first-child { grid-column: 1 / -1; }
 """
 _ABOUT = {
@@ -44,33 +56,28 @@ _ABOUT = {
 
 
 def delivery_html(request: DeliveryRequest, made: Made, survey: Survey, root: Path) -> str:
-    """Return the page of a delivery of raw files, made in `root`, but for points of many files."""
+    """Return the page of a delivery; `root` has its files, all but the points of many files."""
     units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
     content = request.content
     parts = [
-        f"<p>{text(content.about)}</p>",
-        _figures(request, made, survey, units),
-        _warnings(made),
-        _pictures(request, made, units),
+        paragraph(content.about),
+        section("In figures", table(_figures(request, made, survey, units), is_named=True)),
+        *_comparison(made),
+        section("Look at this", listed(_warnings(made))),
+        section("Maps", maps(_pictures(request, made, units))),
         _files(made, root),
         _settings(request, made, survey),
     ]
     name = survey.tiles[0].path.name
     others = len(survey.tiles) - 1
     more = f" and {others:,} more {'file' if others == 1 else 'files'}" if others else ""
-    return page_html(f"{content.label}: {name}{more}", "\n".join(parts), _STYLE)
+    return page(f"{content.label}: {name}{more}", parts, _STYLE)
 
 
-def _table(rows: Iterable[tuple[str, str]]) -> str:
-    cells = "".join(
-        f'<tr><th class="text">{text(name)}</th><td class="text">{value}</td></tr>'
-        for name, value in rows
-    )
-    return f"<table>{cells}</table>"
-
-
-def _figures(request: DeliveryRequest, made: Made, survey: Survey, units: Units) -> str:
-    found, rows = made.quality, [("CRS", text(survey.crs.name or "not stated"))]
+def _figures(
+    request: DeliveryRequest, made: Made, survey: Survey, units: Units
+) -> list[tuple[str, str]]:
+    found, rows = made.quality, [("CRS", survey.crs.name or "not stated")]
     rows.append(("Points", f"{made.point_count:,}"))
     share = 100.0 * made.ground_count / max(made.point_count, 1)
     rows.append(("Ground points", f"{made.ground_count:,} ({share:.1f} %)"))
@@ -82,13 +89,12 @@ def _figures(request: DeliveryRequest, made: Made, survey: Survey, units: Units)
         for name, density in zip(("First returns", "Ground points"), densities):
             shown = "none" if density is None else f"{density:.2f}"
             rows.append((f"{name} in a square metre", shown))
-    rows.append(("Cell size of the terrain model", text(cell_text(request, made, units))))
+    rows.append(("Cell size of the terrain model", cell_text(request, made, units)))
     if made.interval is not None:
-        rows.append(("Contour interval", text(made.interval.text())))
+        rows.append(("Contour interval", made.interval.text()))
     if made.water is not None:
-        rows.append(("Water", text(made.water.text)))
-    rows += _accuracy(request, made)
-    return f"<h2>In figures</h2>\n{_table(rows)}\n{_comparison(made)}"
+        rows.append(("Water", made.water.text))
+    return rows + _accuracy(request, made)
 
 
 def cell_text(request: DeliveryRequest, made: Made, units: Units) -> str:
@@ -110,7 +116,7 @@ def _accuracy(request: DeliveryRequest, made: Made) -> list[tuple[str, str]]:
     if not told:
         told.append(("Accuracy of the terrain", _NOT_MEASURED))
     stated = {"Verdict": check.verdict, "Statement": "" if check.doubt else check.statement}
-    told += [(name, text(words)) for name, words in stated.items() if words]
+    told += [(name, words) for name, words in stated.items() if words]
     left = check.hold_out
     if left is None:
         return told
@@ -121,54 +127,38 @@ def _accuracy(request: DeliveryRequest, made: Made) -> list[tuple[str, str]]:
     told += [(name, each.text) for name, each in rows.items() if each is not None]
     share = None if made.quality is None else made.quality.ground_void_share
     limits = left.limits(share, request.quality.void_distance)
-    return [*told, ("What held-out points tell", text(limits))]
+    return [*told, ("What held-out points tell", limits)]
 
 
-def _comparison(made: Made) -> str:
+def _comparison(made: Made) -> list[Html]:
     if made.quality is None or not made.quality.lines:
-        return ""
-    lines = made.quality.lines
-    failed = made.quality.left
+        return []
+    lines, failed = made.quality.lines, made.quality.left
     words = {
         True: "No comparison fails.",
         None: "No comparison fails, but not all could be decided.",
         False: "The survey does not meet it.",
-    }[made.quality.passes]  # fmt: skip
-    rows = "".join(
-        f'<tr><th class="text">{text(each.name)}</th><td class="text">{text(each.found)}</td>'
-        f'<td class="text">{text(each.asked)}</td>'
-        f'<td class="text">{"fail" if each.state == FAIL else "look at it"}</td></tr>'
-        for each in failed
-    )
-    table = (
-        '<table><tr><th class="text">What</th><th class="text">Found</th>'
-        f'<th class="text">Asked for</th><th class="text">Result</th></tr>{rows}</table>'
-        if failed
-        else ""
-    )
-    passed = len(lines) - len(failed)
-    return f"""<h2>Specification</h2>
-<p>{words} {passed} of {len(lines)} comparisons pass; <a href="quality.html">all of them</a>.</p>
-{table}"""
+    }[made.quality.passes]
+    count = f"{words} {len(lines) - len(failed)} of {len(lines)} comparisons pass; "
+    rows = [
+        (line.name, line.found, line.asked, "fail" if line.state == FAIL else "look at it")
+        for line in failed
+    ]
+    said = element("p", Html(count + link("quality.html", "all of them") + "."))
+    head = ("What", "Found", "Asked for", "Result")
+    return [section("Specification", said, table(rows, head, is_named=True))]
 
 
-def _warnings(made: Made) -> str:
+def _warnings(made: Made) -> list[str]:
     said = [f"{Path(path).name} is left out. {why}" for path, why in made.failures.items()]
-    said += [each for each in made.warnings if each not in said]
-    if not said:
-        return ""
-    rows = "".join(f"<li>{text(each)}</li>" for each in said[:_MOST_ROWS])
-    return f"<h2>Look at this</h2>\n<ul>{rows}</ul>"
+    said += [warning for warning in made.warnings if warning not in said]
+    return said[:_MOST_ROWS]
 
 
-def _pictures(request: DeliveryRequest, made: Made, units: Units) -> str:
-    figures = []
+def _pictures(request: DeliveryRequest, made: Made, units: Units) -> Iterator[Html]:
     for name in request.content.pictures:
         picture, legend = picture_of(made.layers[name], name, units)
-        label = label_of(name)
-        below = f"<br>{legend}" if legend else ""
-        figures.append(f"<figure>{map_figure(picture, label, label, units)}{below}</figure>")
-    return f'<h2>Maps</h2>\n<div class="maps">{"".join(figures)}</div>'
+        yield map_of(picture, label_of(name), legend, units)
 
 
 def label_of(name: str) -> str:
@@ -187,39 +177,40 @@ def _about(path: Path) -> str:
     return _ABOUT.get(path.name, _ABOUT.get(path.stem, ""))
 
 
-def _files(made: Made, root: Path) -> str:
-    names = sorted(each.relative_to(root).as_posix() for each in root.rglob("*") if each.is_file())
+def _files(made: Made, root: Path) -> Html:
+    names = sorted(file.relative_to(root).as_posix() for file in root.rglob("*") if file.is_file())
     rows = [
         (name, _about(root / name))
         for name in names
         if not name.startswith("points/") and name != "index.html"
     ]
-    points = sorted(each.name for each in made.files if each.suffix.lower() in (".las", ".laz"))
+    points = sorted(file.name for file in made.files if file.suffix.lower() in (".las", ".laz"))
     rows[:0] = [(f"points/{name}", "Classified points.") for name in points[:_MOST_ROWS]]
-    cells = "".join(
-        f'<tr><td class="text files"><a href="{quote(name)}">{text(name)}</a></td>'
-        f'<td class="text">{text(what)}</td></tr>'
-        for name, what in rows
-    )
     left = len(points) - _MOST_ROWS
-    more = f"<p>{left:,} more files of points are not listed.</p>" if left > 0 else ""
-    return f"<h2>Files</h2>\n<table>{cells}</table>\n{more}"
+    return section(
+        "Files",
+        table([(_broken(link(quote(name), name)), what) for name, what in rows]),
+        paragraph(f"{left:,} more files of points are not listed." if left > 0 else ""),
+    )
 
 
-def _settings(request: DeliveryRequest, made: Made, survey: Survey) -> str:
-    sets = settings_of(request, made.cell_size)
+def _broken(name: str) -> Html:
+    """Return the name of a file, which may break anywhere."""
+    return element("span", name, "files")
+
+
+def _settings(request: DeliveryRequest, made: Made, survey: Survey) -> Html:
     rows = [
-        (title, text(", ".join(f"{name} {value}" for name, value in values.items()) or "defaults"))
-        for title, values in sets.items()
+        (title, ", ".join(f"{name} {value}" for name, value in values.items()) or "defaults")
+        for title, values in settings_of(request, made.cell_size).items()
     ]
     rows.append(("Made on", date.today().isoformat()))
-    files = "".join(
-        f'<tr><td class="text files">{text(each.path.name)}</td><td>{each.count:,}</td></tr>'
-        for each in survey.tiles[:_MOST_ROWS]
+    files = [(_broken(tile.path.name), f"{tile.count:,}") for tile in survey.tiles[:_MOST_ROWS]]
+    return section(
+        "How it was made",
+        table(rows, is_named=True),
+        table(files, ("Input", "Points"), "lr"),
     )
-    return f"""<h2>How it was made</h2>
-{_table(rows)}
-<table><tr><th class="text">Input</th><th>Points</th></tr>{files}</table>"""
 
 
 def settings_of(request: DeliveryRequest, cell_size: float) -> dict[str, dict[str, str]]:

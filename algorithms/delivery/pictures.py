@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from ..grids.hillshade import hillshade
-from ..products.page import Units, key
-from ..products.pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
 from ..rasters.geotiff import NO_CELLS, read_raster
+from ..report.page import keys
+from ..report.pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
+from ..report.units import Units
 from .deliveries import WITH_BUILDINGS
 
 LONGEST_SIDE = 900
@@ -32,9 +33,8 @@ def picture_of(raster: Path, name: str, units: Units = Units()) -> tuple[Picture
         return _heights(values, known, cell, units)
     if name == "chm":
         high = max(float(np.percentile(known, 99.5)), 1e-6)
-        legend = key(_CANOPY[0], units.height(0.0)) + key(
-            _CANOPY[-1], units.height(high * units.vertical)
-        )
+        ends = (units.height(0.0), units.height(high * units.vertical))
+        legend = keys((_CANOPY[0], _CANOPY[-1]), ends)
         return Picture(ramped(values, _CANOPY, 0.0, high), cell), legend
     grey = np.where(np.isnan(values), 255.0, values)
     return Picture(np.repeat(np.rint(grey).astype(np.uint8)[..., None], 3, axis=2), cell), ""
@@ -63,12 +63,11 @@ def _heights(
     values: np.ndarray, known: np.ndarray, cell: float, units: Units
 ) -> tuple[Picture, str]:
     """Return heights in colours with shades, and the legend."""
-    low, high = (float(np.percentile(known, each)) for each in (1.0, 99.0))
+    low, high = (float(np.percentile(known, share)) for share in (1.0, 99.0))
     high = max(high, low + 1e-6)
     shade = hillshade(values * units.vertical, cell)[..., None] / 255.0
     light = _DARKEST + (1.0 - _DARKEST) * shade
     pixels = ramped(values, HEIGHTS, low, high) * light
     pixels[np.isnan(values)] = rgb(NOWHERE)
-    ends = (units.height(each * units.vertical) for each in (low, high))
-    legend = "".join(key(colour, end) for colour, end in zip((HEIGHTS[0], HEIGHTS[-1]), ends))
-    return Picture(np.rint(pixels).astype(np.uint8), cell), legend
+    ends = (units.height(end * units.vertical) for end in (low, high))
+    return Picture(np.rint(pixels).astype(np.uint8), cell), keys((HEIGHTS[0], HEIGHTS[-1]), ends)

@@ -13,9 +13,10 @@ from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import check_raster_output, write_geotiff
+from ..report.page import check_page
+from ..report.units import Units
 from .comparison import GROUND, Assessment, AssessmentOptions, Comparison, compare
 from .matching import match_files
-from .page import Units, check_page
 from .report import write_report
 
 

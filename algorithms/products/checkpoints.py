@@ -16,6 +16,7 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..rasters.sampling import FAR_BELOW, HeightRaster, HeightSampler
+from ..report.units import round_length
 from ..survey.checkpoint_files import Checkpoints
 from ..survey.files import Survey
 from ..survey.ground_classes import GroundClasses
@@ -25,7 +26,6 @@ from .checkpoint_results import COUNTED, NOT_STATED, REASONS, Check, Residuals, 
 from .height_offsets import offset_in_words
 from .hold_out import HoldOut, hold_out
 from .land_covers import CONTROL, VVA, LandCovers, kinds_of
-from .page import round_length
 from .survey_ground import SurveyGround
 
 # How many of the largest errors are named.

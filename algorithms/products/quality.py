@@ -15,10 +15,10 @@ from ..core.progress import SILENT, Progress
 from ..las.cloud import survey_frame
 from ..las.crs_records import WKT_RECORD
 from ..las.reading import read_parts
+from ..report.page import check_page
 from ..survey.files import Survey, open_survey
 from ..survey.ground_classes import GroundClasses
 from ..survey.repeated_points import RepeatedPoints
-from .page import check_page
 from .quality_cells import QualityCells, Sizes, Store
 from .quality_figures import Extent, Quality, figures_of, lines_of, totals_of
 from .quality_page import quality_html

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from typing import Iterator
 
 import numpy as np
 
+from ..report.page import Html, element, keys, map_of, maps, page, paragraph, section, table
+from ..report.pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
+from ..report.units import Units
 from ..survey.files import Survey
-from .page import Units, key, map_figure, page_html, text
-from .pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
 from .quality_cells import QualityCells
 from .quality_figures import FAIL, LIMITS, LOOK, PASS, Extent, Quality
 from .quality_rasters import QUALITY_RASTERS, rows_of
@@ -19,7 +21,6 @@ _LONGEST, _MOST_ROWS = 600, 1000
 _COLOURS = {PASS: "#1a7f37", FAIL: "#c0262d", LOOK: "#9a6700"}
 _WORDS = {PASS: "pass", FAIL: "fail", LOOK: "look at it"}
 _STYLE = """
-.maps { display: grid; grid-template-columns: repeat(auto-fill, minmax(260px, 1fr)); gap: 1.2em; }
 .state { color: #fff; padding: 0 .5em; border-radius: 3px; font-weight: 600; white-space: nowrap; }
 """
 # From the least to the greatest value.
@@ -54,55 +55,56 @@ def quality_html(
     void: float,
     survey: Survey,
 ) -> str:
-    """Return the page about the quality of a survey; ground is missing from `void` metres on."""
-    parts = [_comparison(found, asked), _figures(found), _maps(cells, extent, void, survey)]
-    return page_html("Quality of the survey", "\n".join([*parts, _files(found, survey)]), _STYLE)
+    """Return the page about a survey; from `void` metres on ground is missing."""
+    parts = [
+        *_comparison(found, asked),
+        _figures(found),
+        section("Maps", maps(_maps(cells, extent, void, survey))),
+        _files(found, survey),
+    ]
+    return page("Quality of the survey", parts, _STYLE)
 
 
-def _comparison(found: Quality, asked: Specification) -> str:
+def _comparison(found: Quality, asked: Specification) -> list[Html]:
     if not found.lines:
-        return "<p>The survey is not compared with a specification.</p>"
-    rows = "".join(
-        f'<tr><th class="text">{text(each.name)}</th><td class="text">{text(each.found)}</td>'
-        f'<td class="text">{text(each.asked)}</td><td class="text"><span class="state"'
-        f' style="background: {_COLOURS[each.state]}">{_WORDS[each.state]}</span></td>'
-        f'<td class="text">{text(each.source)}</td></tr>'
-        for each in found.lines
+        return [paragraph("The survey is not compared with a specification.")]
+    rows = [
+        (line.name, line.found, line.asked, _state(line.state), line.source) for line in found.lines
+    ]
+    said = paragraph(
+        "This compares what can be counted. It does not replace the reading of the specification,"
+        " which asks for more."
     )
-    return f"""<h2>{text(asked.label)}</h2>
-<table><tr><th class="text">What</th><th class="text">Found</th><th class="text">Asked for</th>
-<th class="text">Result</th><th class="text">Source</th></tr>
-{rows}</table>
-<p>This compares what can be counted. It does not replace the reading of the specification, which
-asks for more.</p>"""
+    head = ("What", "Found", "Asked for", "Result", "Source")
+    return [section(asked.label, table(rows, head, is_named=True), said)]
 
 
-def _figures(found: Quality) -> str:
-    rows = "".join(
-        f'<tr><th class="text">{text(_TITLES[title])}</th><td class="text">{text(value)}</td></tr>'
-        for title, value in found.rows()
+def _state(state: str) -> Html:
+    style = f'class="state" style="background: {_COLOURS[state]}"'
+    return Html(f"<span {style}>{_WORDS[state]}</span>")
+
+
+def _figures(found: Quality) -> Html:
+    return section(
+        "Figures",
+        table([(_TITLES[title], value) for title, value in found.rows()], is_named=True),
+        paragraph(
+            "Withheld points are left out. Densities leave out noise (classes 7 and 18), points"
+            " that were not measured (synthetic), points with the flag of overlap, and points that"
+            " repeat others of their file or of another one. Densities and shares are those of the"
+            " area of the survey without a border of 10 to 20 m, which points fill in part only,"
+            " and without squares of 10 m in which all first returns have the flag of overlap."
+        ),
     )
-    return f"""<h2>Figures</h2>
-<table>{rows}</table>
-<p>Withheld points are left out. Densities leave out noise (classes 7 and 18), points that were not
-measured (synthetic), points with the flag of overlap, and points that repeat others of their file
-or of another one. Densities and shares are those of the area of the survey without a border of 10
-to 20 m, which points fill in part only, and without squares of 10 m in which all first returns have
-the flag of overlap.</p>"""
 
 
-def _maps(cells: QualityCells, extent: Extent, void: float, survey: Survey) -> str:
-    units, figures = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit), []
+def _maps(cells: QualityCells, extent: Extent, void: float, survey: Survey) -> Iterator[Html]:
+    units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
     for name, raster in QUALITY_RASTERS.items():
         values, size = _small(name, cells, extent, void)
-        known = values[~np.isnan(values)]
-        if not len(known):
-            continue
-        pixels, legend = _coloured(name, values, units)
-        figure = map_figure(Picture(pixels, size), raster.label, raster.label, units)
-        figures.append(f"<figure>{figure}<br>{legend}</figure>")
-    return f"""<h2>Maps</h2>
-<div class="maps">{"".join(figures)}</div>"""
+        if not np.isnan(values).all():
+            pixels, legend = _coloured(name, values, units)
+            yield map_of(Picture(pixels, size), raster.label, legend, units)
 
 
 def _small(name: str, cells: QualityCells, extent: Extent, void: float) -> tuple[np.ndarray, float]:
@@ -122,7 +124,7 @@ def _small(name: str, cells: QualityCells, extent: Extent, void: float) -> tuple
     return small[::-1], size * step
 
 
-def _coloured(name: str, values: np.ndarray, units: Units) -> tuple[np.ndarray, str]:
+def _coloured(name: str, values: np.ndarray, units: Units) -> tuple[np.ndarray, Html]:
     """Return the pixels of a map, and its legend."""
     known = values[~np.isnan(values)]
     if name == "strip_differences":
@@ -136,39 +138,42 @@ def _coloured(name: str, values: np.ndarray, units: Units) -> tuple[np.ndarray, 
         return _by_kind(values, number, _OVERLAP, words)
     is_height = name == "surface_height"
     colours = HEIGHTS if is_height else _RAMP
-    low, high = (float(np.percentile(known, each)) for each in (2.0, 98.0))
+    low, high = (float(np.percentile(known, share)) for share in (2.0, 98.0))
     low = low if is_height else 0.0
     high = max(high, low + 1e-6)
     pixels = ramped(values, colours, low, high)
-    per_area = [f"{each:.3g} per m²" for each in (low, high)]
+    per_area = [f"{value:.3g} per m²" for value in (low, high)]
     ends = [units.height(low), units.height(high)] if is_height else per_area
-    return pixels, key(colours[0], ends[0]) + key(colours[-1], ends[1])
+    return pixels, keys((colours[0], colours[-1]), ends)
 
 
 def _by_kind(
     values: np.ndarray, kinds: np.ndarray, colours: tuple[str, ...], words: list[str]
-) -> tuple[np.ndarray, str]:
+) -> tuple[np.ndarray, Html]:
     """Return pixels with a colour for each kind, and the legend."""
-    table = np.array([rgb(each) for each in colours], dtype=np.uint8)
+    table = np.array([rgb(colour) for colour in colours], dtype=np.uint8)
     pixels = table[np.clip(kinds.astype(np.int64), 0, len(colours) - 1)]
     pixels[np.isnan(values)] = rgb(NOWHERE)
-    return pixels, "".join(key(colour, word) for colour, word in zip(colours, words))
+    return pixels, keys(colours, words)
 
 
-def _files(found: Quality, survey: Survey) -> str:
-    rows = "".join(
-        f'<tr><td class="text files">{text(each["name"])}</td><td>{each["points"]:,}</td>'
-        f"<td>{each['version']}</td><td>{each['format']}</td>"
-        f'<td class="text">{"WKT" if each["wkt"] else "no WKT"}</td>'
-        + "".join(f"<td>{value:.2f}</td>" for value in each["extent"])
-        + "</tr>"
-        for each in found.files[:_MOST_ROWS]
-    )
+def _files(found: Quality, survey: Survey) -> Html:
+    rows = [
+        (
+            element("span", file["name"], "files"), f"{file['points']:,}", file["version"],
+            file["format"], "WKT" if file["wkt"] else "no WKT",
+            *(f"{value:.2f}" for value in file["extent"]),
+        )
+        for file in found.files[:_MOST_ROWS]
+    ]  # fmt: skip
+    head = (
+        "File", "Points", "LAS", "Point format", "CRS", "Least x", "Least y", "Greatest x",
+        "Greatest y",
+    )  # fmt: skip
     more = len(found.files) - _MOST_ROWS
-    left = f"<p>{more:,} more files are not listed.</p>" if more > 0 else ""
-    return f"""<h2>Files</h2>
-<p>CRS: {text(survey.crs.name or "not stated")}.</p>
-<table><tr><th class="text">File</th><th>Points</th><th>LAS</th><th>Point format</th>
-<th class="text">CRS</th><th>Least x</th><th>Least y</th><th>Greatest x</th><th>Greatest y</th></tr>
-{rows}</table>
-{left}"""
+    return section(
+        "Files",
+        paragraph(f"CRS: {survey.crs.name or 'not stated'}."),
+        table(rows, head, "lrrrlrrrr"),
+        paragraph(f"{more:,} more files are not listed." if more > 0 else ""),
+    )

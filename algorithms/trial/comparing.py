@@ -13,7 +13,8 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import may_use
 from ..engine.file_points import fits_in_memory
 from ..engine.memory import Resources
-from ..products.page import Units, check_page
+from ..report.page import check_page
+from ..report.units import Units
 from .commands import commands_for
 from .options import USUAL_CONTEXT, TrialOptions
 from .page import TrialPage

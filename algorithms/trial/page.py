@@ -7,8 +7,10 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ..grids.hillshade import hillshade
-from ..products.page import key, map_figure, page_html, percent, text
-from ..products.pictures import Picture, Relief, rgb
+from ..report.page import Html, element, key, lines, listed, map_of, maps, page, paragraph, section
+from ..report.page import table as table_of
+from ..report.pictures import Picture, Relief, rgb
+from ..report.units import percent
 from .profile import Profile
 from .window import Figures, Outcome, Window
 
@@ -53,79 +55,94 @@ class TrialPage(NamedTuple):
 
     def html(self) -> str:
         """Return the page."""
-        first = self.outcomes[0]
-        notes = "".join(f"<li>{text(note)}</li>" for note in self.notes)
-        profiles = "".join(map(self._profile, self.outcomes, self.commands))
-        cell = self.window.units.length(self.window.cell_size)
-        body = f"""<p class="files">{"<br>".join(map(text, self.sources))}<br>{text(self.where)}</p>
-<ul>{notes}</ul>
-{self._table()}
-<h2>Terrain</h2>
-<div class="maps">{"".join(map(self._terrain, self.outcomes))}</div>
-<p>Hillshade of the terrain, lit from north-west; north is up, a pixel is {cell} wide. Light
-grey: no terrain. {key(_PROFILE, "where the profile lies")}</p>
-<h2>Differences from {text(first.label)}</h2>
-<div class="maps">{self._differences()}</div>
-<p>{key(_GAINED, "ground here, but not with the first setting")}
-{key(_LOST, "ground with the first setting, but not here")}</p>
-<p>Grey is the relief of the highest points, all that stands on the ground included. A pixel takes
-the colour of its more frequent difference, the stronger the more of its points differ.</p>
-<h2>Profiles, and how to run each setting on all points</h2>
-<p>{text(self._about_profile())}</p>
-{profiles}"""
-        return page_html("Settings compared on a window", body, _STYLE)
+        first, cell = self.outcomes[0], self.window.units.length(self.window.cell_size)
+        parts = [
+            lines(*self.sources, self.where, kind="files"),
+            listed(self.notes),
+            *self._table(),
+            section(
+                "Terrain",
+                maps(map(self._terrain, self.outcomes)),
+                paragraph(
+                    "Hillshade of the terrain, lit from north-west; north is up, a pixel is"
+                    f" {cell} wide. Light grey: no terrain.",
+                    key(_PROFILE, "where the profile lies"),
+                ),
+            ),
+            section(
+                f"Differences from {first.label}",
+                maps(self._differences()),
+                paragraph(
+                    key(_GAINED, "ground here, but not with the first setting"),
+                    key(_LOST, "ground with the first setting, but not here"),
+                ),
+                paragraph(
+                    "Grey is the relief of the highest points, all that stands on the ground"
+                    " included. A pixel takes the colour of its more frequent difference, the"
+                    " stronger the more of its points differ."
+                ),
+            ),
+            section(
+                "Profiles, and how to run each setting on all points",
+                paragraph(self._about_profile()),
+                *map(self._profile, self.outcomes, self.commands),
+            ),
+        ]
+        return page("Settings compared on a window", parts, _STYLE)
 
-    def _table(self) -> str:
+    def _table(self) -> tuple[Html, Html]:
         rows = []
-        for number, each in enumerate(self.figures):
-            apart = each.terrain_difference
+        for number, one in enumerate(self.figures):
+            apart = one.terrain_difference
             others = ["first"] * 3
             if number:
                 others = [
-                    f"{count:,} ({percent(100.0 * count / each.point_count)})"
-                    for count in (each.gained, each.lost)
+                    f"{count:,} ({percent(100.0 * count / one.point_count)})"
+                    for count in (one.gained, one.lost)
                 ]
                 others.append("none" if apart is None else self.window.units.height(apart))
-            cells = [percent(each.ground_share), f"{each.confidence:.0f} %", *others]
-            row = "".join(f"<td>{cell}</td>" for cell in cells)
-            rows.append(f'<tr><th class="text">{text(each.label)}</th>{row}</tr>')
-        return f"""<table>
-<tr><th class="text">Setting</th><th>Ground</th><th>Confidence</th><th>More ground</th>
-<th>Less ground</th><th>Terrain differs by</th></tr>
-{chr(10).join(rows)}
-</table>
-<p>Of the {self.figures[0].point_count:,} points in the window. Ground: their share that is ground.
-Confidence: the mean probability that the terrain is right, as each setting's own points tell it.
-More, less ground: points that are ground here but not with the first setting, and the reverse.
-Terrain differs by: the mean of the absolute differences in height.</p>"""
+            rows.append((one.label, percent(one.ground_share), f"{one.confidence:.0f} %", *others))
+        head = (
+            "Setting", "Ground", "Confidence", "More ground", "Less ground", "Terrain differs by",
+        )  # fmt: skip
+        return table_of(rows, head, "lrrrrr", is_named=True), paragraph(
+            f"Of the {self.figures[0].point_count:,} points in the window. Ground: their share that"
+            " is ground. Confidence: the mean probability that the terrain is right, as each"
+            " setting's own points tell it. More, less ground: points that are ground here but not"
+            " with the first setting, and the reverse. Terrain differs by: the mean of the absolute"
+            " differences in height."
+        )
 
-    def _terrain(self, outcome: Outcome) -> str:
+    def _terrain(self, outcome: Outcome) -> Html:
         lit = np.maximum(hillshade(outcome.terrain, self.window.cell_size), 1)
         pixels = np.repeat(lit[..., None], 3, axis=2)
         pixels[np.isnan(outcome.terrain)] = _NO_TERRAIN
         _, row, column = self.profile.line.cells(self.window)
         pixels[row, column] = rgb(_PROFILE)
-        return self._figure(Picture(pixels, self.window.cell_size), outcome.label)
+        picture = Picture(pixels, self.window.cell_size)
+        return map_of(picture, outcome.label, units=self.window.units)
 
-    def _differences(self) -> str:
+    def _differences(self) -> list[Html]:
         inside, first = self.window.inside, self.outcomes[0]
         relief = Relief.of(self.window.points.take(inside), _LONGEST_SIDE)
-        maps, before = [], first.ground[inside]
+        pictures, before = [], first.ground[inside]
         for outcome in self.outcomes:
             ground = outcome.ground[inside]
             picture = relief.marked(ground & ~before, before & ~ground, (_GAINED, _LOST))
             label = "The highest points" if outcome is first else outcome.label
-            maps.append(self._figure(picture, label))
-        return "".join(maps)
+            pictures.append(map_of(picture, label, units=self.window.units))
+        return pictures
 
-    def _profile(self, outcome: Outcome, commands: Commands) -> str:
+    def _profile(self, outcome: Outcome, commands: Commands) -> Html:
         first = self.outcomes[0]
-        qgis = f"<pre>{text(commands.qgis)}</pre>" if commands.qgis else ""
-        return f"""<h3>{text(outcome.label)}</h3>
-{self.profile.svg(self.window, outcome, first)}
-<p>{self.profile.key(outcome, outcome is first)}</p>
-<pre>{text(commands.shell)}</pre>{qgis}
-"""
+        parts = [
+            element("h3", outcome.label),
+            self.profile.svg(self.window, outcome, first),
+            paragraph(self.profile.key(outcome, outcome is first)),
+            element("pre", commands.shell),
+            element("pre", commands.qgis) if commands.qgis else "",
+        ]
+        return Html("\n".join(parts))
 
     def _about_profile(self) -> str:
         units, more = self.window.units, self.profile.exaggeration
@@ -139,6 +156,3 @@ Terrain differs by: the mean of the absolute differences in height.</p>"""
             f" and shows the points of a strip {strip} wide by class, but for noise. Heights are"
             f" drawn {more:.2g} times as large as lengths."
         )
-
-    def _figure(self, picture: Picture, label: str) -> str:
-        return f"<figure>{map_figure(picture, label, label, self.window.units)}</figure>"

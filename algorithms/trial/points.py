@@ -21,7 +21,7 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
-from ..products.page import Units
+from ..report.units import Units
 from ..steps.labelling import LabelGround
 from ..survey.area import Area
 from ..survey.files import is_one_file, open_survey

@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..las.class_names import CLASSES
-from ..products.page import data_uri, key, round_length
-from ..products.pictures import rgb
+from ..report.page import Html, data_uri, key
+from ..report.pictures import rgb
+from ..report.units import round_length
 from ..survey.kept_classes import NOISE
 from .window import Line, Outcome, Window
 
@@ -52,7 +53,7 @@ class Profile(NamedTuple):
         """Vertical exaggeration: the scale of heights divided by the scale of lengths."""
         return (_HEIGHT / (self.highest - self.lowest)) / (_WIDTH / self.line.length)
 
-    def svg(self, window: Window, outcome: Outcome, first: Outcome) -> str:
+    def svg(self, window: Window, outcome: Outcome, first: Outcome) -> Html:
         """Return the drawing of a setting, together with the terrain of the first setting."""
         points = data_uri(self._points(window, outcome))
         lines = []
@@ -60,14 +61,14 @@ class Profile(NamedTuple):
             lines.append(self._terrain(window, first, f'stroke="{_FIRST}" stroke-dasharray="5 4"'))
         lines.append(self._terrain(window, outcome, f'stroke="{_TERRAIN}"'))
         grid, labels = self._axes(window)
-        return f"""<svg viewBox="{-_LEFT} -8 {_WIDTH + _LEFT + 20} {_HEIGHT + _BELOW + 8}"
+        return Html(f"""<svg viewBox="{-_LEFT} -8 {_WIDTH + _LEFT + 20} {_HEIGHT + _BELOW + 8}"
  role="img" aria-label="Profile"><image width="{_WIDTH}" height="{_HEIGHT}" href="{points}"/>
 <g stroke="#000" stroke-opacity=".13">{grid}</g>
 <g fill="none" stroke-width="1.1">{"".join(lines)}</g>
 <rect width="{_WIDTH}" height="{_HEIGHT}" fill="none" stroke="#888"/>
-<g font-size="12" fill="#333">{labels}</g></svg>"""
+<g font-size="12" fill="#333">{labels}</g></svg>""")
 
-    def key(self, outcome: Outcome, is_first: bool) -> str:
+    def key(self, outcome: Outcome, is_first: bool) -> Html:
         """Return the legend of a drawing."""
         shown = np.unique(outcome.classes[self.near]).tolist()
         entries = [key(_COLOURS[each], CLASSES[each]) for each in shown if each in _COLOURS]
@@ -76,7 +77,7 @@ class Profile(NamedTuple):
         entries.append(key(_TERRAIN, "terrain"))
         if not is_first:
             entries.append(key(_FIRST, "terrain of the first setting (dashed)"))
-        return "".join(entries)
+        return Html("".join(entries))
 
     def _points(self, window: Window, outcome: Outcome) -> np.ndarray:
         """Return the picture of the points, with ground points on top."""

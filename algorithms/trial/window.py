@@ -11,7 +11,7 @@ from ..core.points import Points
 from ..grids.cells import are_inside
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ..products.confidence import confidence
-from ..products.page import Units
+from ..report.units import Units
 
 # Greatest number of cells along the longer side of the terrain, and the sides in metres that cells
 # can have below one metre. Larger cells have whole metres.

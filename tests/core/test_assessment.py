@@ -17,7 +17,7 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.products import report
 from bare_earth.algorithms.products.assessment import assess_files
 from bare_earth.algorithms.products.comparison import AssessmentOptions, Comparison, compare
-from bare_earth.algorithms.products.pictures import png, rgb
+from bare_earth.algorithms.report.pictures import png, rgb
 
 
 def test_the_four_figures_of_a_known_confusion():

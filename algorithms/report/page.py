@@ -1,0 +1,162 @@
+"""The parts of a page: headings, paragraphs, tables and maps; each part escapes plain text."""
+
+from __future__ import annotations
+
+import base64
+from html import escape
+from pathlib import Path
+from typing import Iterable, Sequence
+
+import numpy as np
+
+from ..core.errors import BareEarthError, printable
+from ..core.files import check_output
+from .pictures import Picture, png
+from .units import Units, round_length
+
+_STYLE = """
+body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 920px;
+       margin: 2em auto; padding: 0 1em; }
+h1 { font-size: 1.6em; } h2 { font-size: 1.2em; margin-top: 2em; }
+table { border-collapse: collapse; } caption { text-align: left; color: #555; }
+th, td { border: 1px solid #bbb; padding: .25em .7em; text-align: right; }
+th { background: #f2f2f2; font-weight: 600; } td.text, th.text { text-align: left; }
+figure { margin: 0; }
+img { width: 100%; image-rendering: pixelated; border: 1px solid #bbb; box-sizing: border-box; }
+.maps { display: grid; grid-template-columns: repeat(auto-fill, minmax(260px, 1fr)); gap: 1.2em; }
+.bar { border: 2px solid #222; border-top: 0; height: 6px; }
+.key { display: inline-block; width: 1em; height: 1em; vertical-align: -.15em; margin: 0 .3em 0 1em;
+       border: 1px solid #555; }
+.files { word-break: break-all; }
+"""
+
+
+class Html(str):
+    """Markup, which no part escapes again."""
+
+
+def check_page(target: Path, sources: tuple[Path, ...] = ()) -> None:
+    """Refuse a page that could not be written at the end, or that is not named .html."""
+    check_output(target, sources)
+    if target.suffix.lower() not in (".html", ".htm"):
+        raise BareEarthError(f"Cannot write {target}: the page is HTML, name it .html.")
+
+
+def page(title: str, parts: Iterable[str], style: str = "") -> str:
+    """Return a page of parts below a headline, with further CSS."""
+    from ..core.version import __version__
+
+    title, body = text(title), "\n".join(part for part in parts if part)
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>{title}</title>
+<style>{_STYLE}{style}</style>
+</head>
+<body>
+<h1>{title}</h1>
+{body}
+<p>Made by Bare Earth {escape(__version__)}.</p>
+</body>
+</html>
+"""
+
+
+def text(value: object) -> Html:
+    """Return a value as escaped text; markup stays as it is."""
+    return value if isinstance(value, Html) else Html(escape(printable(str(value))))
+
+
+def element(name: str, content: object, kind: str = "") -> Html:
+    """Return an HTML element of a CSS class."""
+    start = f'{name} class="{kind}"' if kind else name
+    return Html(f"<{start}>{text(content)}</{name}>")
+
+
+def section(title: str, *parts: str) -> Html:
+    """Return parts below a heading; nothing if all of them are empty."""
+    found = [part for part in parts if part]
+    return Html("\n".join([element("h2", title), *found]) if found else "")
+
+
+def paragraph(*sentences: object, kind: str = "") -> Html:
+    """Return a paragraph, or nothing where nothing is said."""
+    said = [text(sentence) for sentence in sentences if sentence]
+    return element("p", Html(" ".join(said)), kind) if said else Html("")
+
+
+def lines(*said: object, kind: str = "") -> Html:
+    """Return a paragraph of several lines."""
+    return element("p", Html("<br>".join(map(text, said))), kind)
+
+
+def listed(items: Sequence[object]) -> Html:
+    """Return a list with a bullet for each item, or nothing for none."""
+    bullets = "".join(element("li", item) for item in items)
+    return element("ul", Html(bullets)) if items else Html("")
+
+
+def link(target: str, words: object) -> Html:
+    """Return a link."""
+    return Html(f'<a href="{text(target)}">{text(words)}</a>')
+
+
+def table(
+    rows: Iterable[Sequence[object]],
+    head: Sequence[object] = (),
+    align: str = "",
+    is_named: bool = False,
+    kind: str = "",
+) -> Html:
+    """Return a table, or nothing without rows; where they are named, first cells are headings.
+
+    `align` has an l or an r for each column, for text and numbers; without it all are text.
+    """
+    rows = list(rows)
+    if not rows:
+        return Html("")
+    kinds = ["text" if side == "l" else "" for side in align or "l" * len(rows[0])]
+    names = ["th" if is_named else "td", *["td"] * (len(kinds) - 1)]
+    made = [map(element, names, row, kinds) for row in rows]
+    if head:
+        made.insert(0, map(element, ["th"] * len(kinds), head, kinds))
+    lines = [element("tr", Html("".join(row))) for row in made]
+    return element("table", Html("\n".join(lines)), kind)
+
+
+def data_uri(pixels: np.ndarray) -> str:
+    """Return a data URI of a picture of uint8, shape (rows, columns, 3)."""
+    return "data:image/png;base64," + base64.b64encode(png(pixels)).decode("ascii")
+
+
+def map_of(
+    picture: Picture, name: str, legend: str = "", units: Units = Units(), is_captioned: bool = True
+) -> Html:
+    """Return a map with its name above, and a scale bar and a legend below."""
+    width = picture.pixels.shape[1] * picture.cell_size / units.horizontal
+    length = round_length(width / 4)
+    above = element("figcaption", name) if is_captioned else ""
+    below = f"<br>{legend}" if legend else ""
+    share = 100 * length / width
+    return Html(
+        f'<figure>{above}<img src="{data_uri(picture.pixels)}" alt="{text(name)}">\n'
+        f'<div class="bar" style="width: {share:.2f}%"></div>{length:g} {units.across}{below}'
+        "</figure>"
+    )
+
+
+def maps(figures: Iterable[str]) -> Html:
+    """Return maps side by side."""
+    return Html(f'<div class="maps">{"".join(figures)}</div>')
+
+
+def key(colour: str, meaning: str) -> Html:
+    """Return the entry of a legend for a colour."""
+    return Html(f'<span class="key" style="background: {colour}"></span>{text(meaning)}')
+
+
+def keys(colours: Iterable[str], meanings: Iterable[str]) -> Html:
+    """Return a legend."""
+    return Html("".join(map(key, colours, meanings)))

@@ -1,0 +1,61 @@
+"""The units of a survey in words: what is reported is computed in metres."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Units(NamedTuple):
+    """The units of a survey: metres in one of them."""
+
+    horizontal: float = 1.0
+    vertical: float = 1.0
+
+    @property
+    def across(self) -> str:
+        """Symbol of the horizontal unit."""
+        return _symbol(self.horizontal)
+
+    @property
+    def up(self) -> str:
+        """Symbol of the vertical unit."""
+        return _symbol(self.vertical)
+
+    def length(self, metres: float, digits: int = 3) -> str:
+        """Return a length in the unit of the survey, with metres if these are another unit.
+
+        >>> Units().length(50.0), Units(0.3048).length(50.0)
+        ('50 m', '164 ft (50 m)')
+        """
+        if self.horizontal == 1.0:
+            return f"{metres:g} m"
+        return f"{metres / self.horizontal:.{digits}g} {self.across} ({metres:g} m)"
+
+    def height(self, metres: float) -> str:
+        """Return a height difference in the unit of the survey.
+
+        >>> Units(vertical=0.3048).height(0.5)
+        '1.64 ft'
+        """
+        return f"{metres / self.vertical:.2f} {self.up}"
+
+
+def _symbol(metres: float) -> str:
+    """Return the symbol of a unit; on a page, both kinds of feet are the same."""
+    if metres == 1.0:
+        return "m"
+    return "ft" if math.isclose(metres, 0.3048, rel_tol=1e-5) else f"units of {metres:g} m"
+
+
+def round_length(most: float) -> float:
+    """Return the largest number of the form 1, 2, 5, 10, 20 ... up to `most`."""
+    power = 10.0 ** np.floor(np.log10(most))
+    return float(next(step * power for step in (5, 2, 1) if step * power <= most * (1 + 1e-9)))
+
+
+def percent(value: float) -> str:
+    """Return a percentage as text; "none" for NaN."""
+    return "none" if np.isnan(value) else f"{value:.2f} %"
