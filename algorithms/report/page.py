@@ -110,10 +110,8 @@ def table(
     is_named: bool = False,
     kind: str = "",
 ) -> Html:
-    """Return a table, or nothing without rows; where they are named, first cells are headings.
-
-    `align` has an l or an r for each column, for text and numbers; without it all are text.
-    """
+    """Return a table, or nothing without rows; where they are named, first cells are headings."""
+    # `align` has an l or an r for each column, for text and numbers; without it all are text.
     rows = list(rows)
     if not rows:
         return Html("")

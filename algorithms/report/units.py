@@ -25,21 +25,13 @@ class Units(NamedTuple):
         return _symbol(self.vertical)
 
     def length(self, metres: float, digits: int = 3) -> str:
-        """Return a length in the unit of the survey, with metres if these are another unit.
-
-        >>> Units().length(50.0), Units(0.3048).length(50.0)
-        ('50 m', '164 ft (50 m)')
-        """
+        """Return a length in the unit of the survey, with metres if these are another unit."""
         if self.horizontal == 1.0:
             return f"{metres:g} m"
         return f"{metres / self.horizontal:.{digits}g} {self.across} ({metres:g} m)"
 
     def height(self, metres: float) -> str:
-        """Return a height difference in the unit of the survey.
-
-        >>> Units(vertical=0.3048).height(0.5)
-        '1.64 ft'
-        """
+        """Return a height difference in the unit of the survey."""
         return f"{metres / self.vertical:.2f} {self.up}"
 
 
