@@ -24,6 +24,8 @@ def stated_wkt(text: str | None) -> str | None:
     """Return the well-known text of a CRS that a user states, such as "EPSG:2230+6360", or None;
     refuse what is no CRS of places, or that no library here knows.
     """
+    # An EPSG code, with or without a vertical one, well-known text, or another text that pyproj or
+    # GDAL understand, such as PROJ strings.
     text = (text or "").strip()
     return _wkt_of(text, library()) if text else None
 

@@ -114,8 +114,8 @@ class NearestHeights:
         return heights
 
     def beside(self, line: np.ndarray) -> np.ndarray:
-        """Return the places on the left of a line (n, 3), then those on the right, float64 (2 n,
-        3), with the height of the nearest point on that side, or else on the other; z may be NaN.
+        """Return the places on the left of a line (n, 3), then those on the right, (2 n, 3),
+        with the height of the nearest point on that side, or else on the other; z may be NaN.
         """
         across = np.zeros((len(line), 2))
         if len(line) > 1:

@@ -73,8 +73,8 @@ def closing(cells: np.ndarray, radius: float, shrink: float | None = None) -> np
 
 
 def within_square(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
-    """Return the extreme (`numpy.minimum` or `numpy.maximum`) of a grid within a square of `2 *
-    reach + 1` cells round each cell; cells beyond the grid are ignored.
+    """Return the extreme (`numpy.minimum` or `numpy.maximum`) of a grid within `reach` rows
+    and columns of each cell; cells beyond the grid are ignored.
     """
     rows = len(grid)
     result = np.empty_like(grid)

@@ -46,7 +46,8 @@ def assess_files(
     progress : Progress
         Receives progress and messages.
     crs : str, optional
-        The CRS of the points in place of the one that the files state, as for `open_las`.
+        The CRS of the points in place of the one that files state: an EPSG code, such as
+        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
 
     Raises
     ------

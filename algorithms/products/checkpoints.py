@@ -91,7 +91,8 @@ class CheckRequest:
     outputs : CheckOutputs
         The files to write.
     crs : str or None
-        The CRS of the points in place of the one that files state, as for `stated_wkt`.
+        The CRS of the points in place of the one that files state: an EPSG code, such as
+        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
     """
 
     checkpoints: Checkpoints | None = None

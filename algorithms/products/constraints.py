@@ -51,9 +51,15 @@ class Constraints(Geometry):
     no_ground: tuple[Polygon, ...] = ()
 
     def located(self, place: Place, progress: Progress = SILENT) -> Constraints:
-        """Return the constraints in the CRS of the points; see `Geometry.located`.
+        """Return the constraints in the CRS of the points.
 
-        Progress also receives a warning on rivers that meet no water.
+        Lines and polygons of a file are transformed from the CRS that it states. Messages tell so, and
+        of rivers that meet no water.
+
+        Raises
+        ------
+        BareEarthError
+            If that is not possible, or all of a kind lie outside of the points.
         """
         found = Constraints(
             **{

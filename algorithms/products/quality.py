@@ -74,7 +74,8 @@ class QualityRequest:
     folder : Path or None
         A folder for the rasters; it is made if its parent exists.
     crs : str or None
-        The CRS of the points in place of the one that files state.
+        The CRS of the points in place of the one that files state: an EPSG code, such as
+        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
     """
 
     options: QualityOptions = field(default_factory=QualityOptions)

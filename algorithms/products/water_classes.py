@@ -72,9 +72,15 @@ class WaterPolygons(Geometry):
             Area(None, self.polygons)
 
     def located(self, place: Place, progress: Progress = SILENT) -> WaterPolygons:
-        """Return the polygons in the CRS of the points; see `Geometry.located`.
+        """Return the polygons in the CRS of the points.
 
-        Progress also receives a warning if there is no polygon.
+        Polygons of a file are transformed from the CRS that it states. Messages tell so, and if there
+        is no polygon.
+
+        Raises
+        ------
+        BareEarthError
+            If that is not possible, or all of them lie outside of the points.
         """
         if not self.polygons:
             progress.warning("There is no polygon of water, so that no class changes.")

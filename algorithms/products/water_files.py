@@ -47,7 +47,8 @@ class WaterRequest:
     ground : GroundClasses
         Which points are ground.
     crs : str or None
-        The CRS of the points in place of the one that files state, as for `stated_wkt`.
+        The CRS of the points in place of the one that files state: an EPSG code, such as
+        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
     breaklines : Path or None
         A file for the shores, islands and middles of rivers as lines with heights.
     """

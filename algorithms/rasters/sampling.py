@@ -65,7 +65,8 @@ class HeightRaster:
         Raises
         ------
         BareEarthError
-            As `read_raster`.
+            If there is no library to read rasters with, the raster is not on this computer or
+            cannot be read, or its CRS is geographic.
         """
         first = read_raster(source, progress=progress, window=(0, 0, 1, 1))
         path, wkt = Path(source), first.frame.wkt

@@ -54,7 +54,15 @@ class Area(Geometry):
             )
 
     def located(self, place: Place, progress: Progress = SILENT) -> Area:
-        """Return the area in the CRS of the points; see `Geometry.located`."""
+        """Return the area in the CRS of the points.
+
+        Polygons of a file are transformed from the CRS that it states, and a message tells so.
+
+        Raises
+        ------
+        BareEarthError
+            If that is not possible, or all of them lie outside of the points.
+        """
         return Area(self.box, located(self.polygons, "the area", place, progress))
 
     @property

@@ -49,8 +49,8 @@ class Checkpoints(Geometry):
     is_ordered : bool
         Whether it is known which column is x.
     others : tuple of tuple
-        All heights that the points may have, as in `SurveyedPoints`, in the unit of the points
-        after `located`.
+        All heights that the points may have: where they stand, numpy.ndarray of float64, shape
+        (n,), and their unit; in the unit of the points after `located`.
 
     Raises
     ------
@@ -133,19 +133,22 @@ class Checkpoints(Geometry):
         return np.concatenate(self.places)
 
     def located(self, place: Place, progress: Progress = SILENT, near: float = 0.0) -> Checkpoints:
-        """Return them in the CRS and units of the points; see `Geometry.located`.
+        """Return them in the CRS and units of the points.
 
         Parameters
         ----------
-        place, progress
-            As for `Geometry.located`.
+        place : Place
+            Where the points lie.
+        progress : Progress
+            Receives messages on what was transformed.
         near : float
             It is an error if all lie farther from the points than this, in metres.
 
         Raises
         ------
         BareEarthError
-            As for `Geometry.located`, and if x and y seem to be exchanged.
+            If the CRS cannot be transformed, all lie outside of the points, or x and y seem to be
+            exchanged.
         """
         for note in self.notes:
             progress.warning(note)
@@ -228,14 +231,16 @@ def read_checkpoints(
     Parameters
     ----------
     path : Path or str
-        A text file with one point in each row, as for `read_table`, or a vector file as for
-        `read_points`.
+        A text file with one point in each row, in UTF-8, UTF-16 or the code page 1252, cells
+        separated by semicolons, tabs, bars, commas or spaces; or a vector file of points as for
+        `read_boundary`, but no .wkt.
     columns : str, optional
         Columns or attributes in place of those that are recognised by their names, such as
         ``x=E,y=N,z=H,cover=Class,type=Use,name=ID``. Those of tables can also be numbers from 1 on.
         A column for z counts before the z of a geometry.
     crs : str, optional
-        The CRS of x and y, as for `stated_wkt`; it replaces what the file states. If none is
+        The CRS of x and y in place of the one that the file states: an EPSG code, such as
+        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text. If none is
         stated, a table is in the CRS of the points.
 
     Raises

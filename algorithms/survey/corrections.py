@@ -49,7 +49,15 @@ class Corrections(Geometry):
             Area(None, self.polygons)
 
     def located(self, place: Place, progress: Progress = SILENT) -> Corrections:
-        """Return the corrections in the CRS of the points; see `Geometry.located`."""
+        """Return the corrections in the CRS of the points.
+
+        Polygons of a file are transformed from the CRS that it states, and a message tells so.
+
+        Raises
+        ------
+        BareEarthError
+            If that is not possible, or all of them lie outside of the points.
+        """
         polygons = located(self.polygons, "the polygons of the corrections", place, progress)
         return Corrections(polygons, self.classes)
 

@@ -75,7 +75,8 @@ def compare_settings(
     progress : Progress
         Receives progress and messages.
     crs : str, optional
-        The CRS of the points in place of the one that files state, as for `stated_wkt`.
+        The CRS of the points in place of the one that files state: an EPSG code, such as
+        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
 
     Raises
     ------
