@@ -53,8 +53,8 @@ class Constraints(Geometry):
     def located(self, place: Place, progress: Progress = SILENT) -> Constraints:
         """Return the constraints in the CRS of the points.
 
-        Lines and polygons of a file are transformed from the CRS that it states. Messages tell so, and
-        of rivers that meet no water.
+        Lines and polygons of a file are transformed from the CRS that it states. Messages tell
+        so, and of rivers that meet no water.
 
         Raises
         ------

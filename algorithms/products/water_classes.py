@@ -74,8 +74,8 @@ class WaterPolygons(Geometry):
     def located(self, place: Place, progress: Progress = SILENT) -> WaterPolygons:
         """Return the polygons in the CRS of the points.
 
-        Polygons of a file are transformed from the CRS that it states. Messages tell so, and if there
-        is no polygon.
+        Polygons of a file are transformed from the CRS that it states. Messages tell so, and
+        if there is no polygon.
 
         Raises
         ------
