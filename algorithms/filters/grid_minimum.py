@@ -19,10 +19,9 @@ from ..core.progress import Progress
 from ..grids.cells import Cells
 from .method import Method, Toolbox
 from .pipeline import Pipeline
+from .stages import shared_pipeline
 from .stages.accept import NearSurface
-from .stages.breaks import LevelSeeds, Plants
-from .stages.landforms import BetweenDitches
-from .stages.low_noise import BelowWater, LowGroups, WideLowGroups
+from .stages.breaks import Plants
 from .stages.objects import (
     BlockPits,
     FineSeeds,
@@ -32,10 +31,7 @@ from .stages.objects import (
     TallObjects,
     density,
 )
-from .stages.opening import CutPlateaus, ProgressiveOpening
-from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
-from .stages.seeds import LowestPoints, Seeds, Woods
-from .stages.terrain import SITE, GentleRegions
+from .stages.seeds import LowestPoints, Seeds
 from .stages.tolerance import ToleranceSurface
 
 # Points that a cell should hold on average: with fewer, gaps break the rims.
@@ -224,29 +220,15 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
     if resolved.preset == CLASSIC:
         return _classic(resolved)
     objects = RaisedObjects(size, heights)
-    return Pipeline(
-        (
-            LowestPoints(size=resolved.cell_size),
-            Woods(),
-            DenseOutliers(),
-            BelowWater(),
-            LowGroups(),
-            WideLowGroups(),
-            NarrowPits(),
-            IsolatedLowPoints(),
-            TallObjects(objects, min(heights)),
-            ProgressiveOpening(size / 2.0),
-            Rims(objects, resolved.final_height),
-            CutPlateaus(),
-            SITE if parameters.preset == "site" else GentleRegions(),
-            BetweenDitches(),
-            Seeds(objects_wait=True),
-            FineSeeds(resolved.final_height),
-            Plants(where_dense=False),
-            LevelSeeds(),
-            ToleranceSurface(resolved.ground_tolerance, resolved.slope_tolerance),
-            NearSurface(),
-        )
+    return shared_pipeline(
+        LowestPoints(size=resolved.cell_size),
+        size,
+        ToleranceSurface(resolved.ground_tolerance, resolved.slope_tolerance),
+        (Seeds(objects_wait=True), FineSeeds(resolved.final_height)),
+        Plants(where_dense=False),
+        is_site=parameters.preset == "site",
+        objects=TallObjects(objects, min(heights)),
+        opening=(Rims(objects, resolved.final_height),),
     )
 
 

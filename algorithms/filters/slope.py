@@ -20,15 +20,10 @@ from ..core.progress import Progress
 from ..grids.cells import spacing
 from .method import Method, Toolbox
 from .pipeline import Pipeline
-from .stages.accept import NearSurface
-from .stages.breaks import LevelSeeds, Plants
-from .stages.landforms import BetweenDitches
-from .stages.low_noise import BelowWater, LowGroups, WideLowGroups
-from .stages.objects import RaisedObjects
-from .stages.opening import CutPlateaus, ProgressiveOpening, SteepRises
-from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
-from .stages.seeds import LowestPoints, Seeds, Woods
-from .stages.terrain import SITE, GentleRegions
+from .stages import shared_pipeline
+from .stages.breaks import Plants
+from .stages.opening import SteepRises
+from .stages.seeds import LowestPoints, Seeds
 from .stages.tolerance import ToleranceSurface
 from .whitebox import StandsAbove
 
@@ -256,34 +251,20 @@ def pipeline(points: Points, parameters: SlopeFilter, progress: Progress) -> Pip
             resolved.min_neighbours,
         )
         return Pipeline((rule,))
-    size = resolved.max_building_size
-    return Pipeline(
-        (
-            LowestPoints(size=resolved.cell_size),
-            Woods(),
-            DenseOutliers(),
-            BelowWater(),
-            LowGroups(),
-            WideLowGroups(),
-            NarrowPits(),
-            IsolatedLowPoints(),
-            RaisedObjects(size),
-            ProgressiveOpening(size / 2.0),
-            SteepRises(
-                resolved.search_radius,
-                resolved.slope_threshold,
-                resolved.height_threshold,
-                resolved.slope_norm,
-            ),
-            CutPlateaus(),
-            SITE if parameters.preset == "site" else GentleRegions(),
-            BetweenDitches(),
-            Seeds(hint="Check the thresholds and the selection of points."),
-            Plants(where_dense=False),
-            LevelSeeds(),
-            ToleranceSurface(resolved.ground_tolerance, resolved.slope_tolerance),
-            NearSurface(),
-        )
+    rises = SteepRises(
+        resolved.search_radius,
+        resolved.slope_threshold,
+        resolved.height_threshold,
+        resolved.slope_norm,
+    )
+    return shared_pipeline(
+        LowestPoints(size=resolved.cell_size),
+        resolved.max_building_size,
+        ToleranceSurface(resolved.ground_tolerance, resolved.slope_tolerance),
+        (Seeds(hint="Check the thresholds and the selection of points."),),
+        Plants(where_dense=False),
+        is_site=parameters.preset == "site",
+        opening=(rises,),
     )
 
 

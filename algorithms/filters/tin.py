@@ -20,16 +20,16 @@ from ..grids.cells import spacing
 from ..grids.model_key_points import ModelKeyPoints
 from .method import Method, Toolbox
 from .pipeline import Pipeline
+from .stages import shared_pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
-from .stages.breaks import LevelSeeds, Plants
+from .stages.breaks import Plants
 from .stages.densify import Densification
-from .stages.landforms import BetweenDitches, LowBanks
-from .stages.low_noise import BelowWater, LowGroups, WideLowGroups
+from .stages.landforms import LowBanks
 from .stages.objects import RaisedObjects
 from .stages.opening import CutPlateaus, ProgressiveOpening
-from .stages.outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
-from .stages.seeds import KnownGround, LowestPoints, Seeds, Woods
-from .stages.terrain import SITE, GentleBorder, GentleRegions
+from .stages.outliers import NarrowPits
+from .stages.seeds import KnownGround, LowestPoints, Seeds
+from .stages.terrain import GentleBorder, GentleRegions
 from .stages.tolerance import NOISE_SPACING, PlainSurface, ToleranceSurface
 
 # Least spacing of points in metres; a smaller one counts as this.
@@ -255,34 +255,17 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
     if resolved != parameters or apart <= NOISE_SPACING:
         progress.choice(_in_words(resolved, _of_spacing(apart)))
     size, cell = resolved.max_building_size, max(resolved.cell_size, apart)
-    return Pipeline(
-        (
-            LowestPoints(cell, grids=2),
-            Woods(),
-            DenseOutliers(),
-            BelowWater(),
-            LowGroups(),
-            WideLowGroups(),
-            NarrowPits(),
-            IsolatedLowPoints(),
-            RaisedObjects(size),
-            ProgressiveOpening(size / 2.0),
-            CutPlateaus(),
-            SITE if parameters.preset == "site" else GentleRegions(),
-            BetweenDitches(),
-            Seeds(),
-            Plants(),
-            LevelSeeds(),
-            KnownGround(),
-            _densification(resolved),
-            ToleranceSurface(
-                resolved.ground_tolerance,
-                resolved.slope_tolerance,
-                resolved.ground_tolerance_below,
-            ),
-            NearSurface(),
-            *_key_points(resolved),
-        )
+    return shared_pipeline(
+        LowestPoints(cell, grids=2),
+        size,
+        ToleranceSurface(
+            resolved.ground_tolerance, resolved.slope_tolerance, resolved.ground_tolerance_below
+        ),
+        (Seeds(),),
+        Plants(),
+        is_site=parameters.preset == "site",
+        surface=(KnownGround(), _densification(resolved)),
+        accepted=_key_points(resolved),
     )
 
 

@@ -1,1 +1,58 @@
-"""The rules of the filters, one file for each stage."""
+"""The rules of the ground filters by stages, and the pipeline that all methods share."""
+
+from __future__ import annotations
+
+from ..pipeline import Pipeline, Rule
+from .accept import NearSurface
+from .breaks import LevelSeeds, Plants
+from .landforms import BetweenDitches
+from .low_noise import BelowWater, LowGroups, WideLowGroups
+from .objects import RaisedObjects
+from .opening import CutPlateaus, ProgressiveOpening
+from .outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
+from .seeds import LowestPoints, Woods
+from .terrain import SITE, GentleRegions
+from .tolerance import ToleranceSurface
+
+
+def shared_pipeline(
+    lowest: LowestPoints,
+    size: float,
+    tolerance: ToleranceSurface,
+    seeds: tuple[Rule, ...],
+    plants: Plants,
+    is_site: bool,
+    objects: Rule | None = None,
+    opening: tuple[Rule, ...] = (),
+    surface: tuple[Rule, ...] = (),
+    accepted: tuple[Rule, ...] = (),
+) -> Pipeline:
+    """Return the rules of all methods, with those of one method at the end of some stages.
+
+    The largest object is `size` metres wide.
+    """
+    return Pipeline(
+        (
+            lowest,
+            Woods(),
+            DenseOutliers(),
+            BelowWater(),
+            LowGroups(),
+            WideLowGroups(),
+            NarrowPits(),
+            IsolatedLowPoints(),
+            objects or RaisedObjects(size),
+            ProgressiveOpening(size / 2.0),
+            *opening,
+            CutPlateaus(),
+            SITE if is_site else GentleRegions(),
+            BetweenDitches(),
+            *seeds,
+            plants,
+            LevelSeeds(),
+            *surface,
+            tolerance,
+            NearSurface(),
+            *accepted,
+        )
+    )
