@@ -31,10 +31,8 @@ GROUPS = {
 
     ),
     "all plateaus": ("plateaus", "cut-plateaus"),
-    "landforms": ("rocks", "low-banks", "between-ditches"),
     "checks of seeds": ("plants", "level-seeds"),
     "kinds of tolerance": ("measured-noise", "breaks"),
-    "nothing alone on real land": ("low-banks", "between-ditches"),
 }  # fmt: skip
 # Other values of a rule: its class, and the values.
 VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {

@@ -2526,10 +2526,6 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>unter Wasser</translation>
     </message>
     <message>
-        <source>between ditches</source>
-        <translation>zwischen Gräben</translation>
-    </message>
-    <message>
         <source>buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign</source>
         <translation>Gebäude,Dächer,Bäume,Klassen,Klassifikation,Brücken,Rauschen,lasclassify,asprs,ign</translation>
     </message>

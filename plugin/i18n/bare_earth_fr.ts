@@ -2526,10 +2526,6 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>sous l'eau</translation>
     </message>
     <message>
-        <source>between ditches</source>
-        <translation>entre des fossés</translation>
-    </message>
-    <message>
         <source>buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign</source>
         <translation>bâtiments,toits,arbres,classes,classification,ponts,bruit,lasclassify,asprs,ign</translation>
     </message>

@@ -20,7 +20,6 @@ class Verdict(NamedTuple):
 GROUND = {
     "lowest-points": Verdict(mark("lowest points, undisputed"), "#e6d6b0"),
     "gentle-regions": Verdict(mark("gentle regions"), "#8a9a2f"),
-    "between-ditches": Verdict(mark("between ditches"), "#2f6b4f"),
     "seeds": Verdict(mark("seeds"), "#c08a45"),
     "fine-seeds": Verdict(mark("seeds of finer cells"), "#a3672f"),
     "level-seeds": Verdict(mark("level with seeds beside"), "#6fae5f"),

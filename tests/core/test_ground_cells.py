@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.filters.stages.landforms import BetweenDitches
 from bare_earth.algorithms.filters.stages.opening import (
     CutPlateaus,
     ProgressiveOpening,
@@ -36,7 +35,6 @@ def ground_of(grid, window=20.0, opening=None, regions=None):
         opening or ProgressiveOpening(window),
         CutPlateaus(),
         regions or GentleRegions(),
-        BetweenDitches(),
     )
     for rule in rules:
         rule.apply(grid, SILENT)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from ..pipeline import Pipeline, Rule
 from .accept import NearSurface
 from .breaks import LevelSeeds, Plants
-from .landforms import BetweenDitches
 from .low_noise import BelowWater, LowGroups, WideLowGroups
 from .objects import RaisedObjects
 from .opening import CutPlateaus, ProgressiveOpening
@@ -46,7 +45,6 @@ def shared_pipeline(
             *opening,
             CutPlateaus(),
             SITE if is_site else GentleRegions(),
-            BetweenDitches(),
             *seeds,
             plants,
             LevelSeeds(),

@@ -1,4 +1,4 @@
-"""Land that looks like objects: steps on slopes, rocks, ramps, banks, and land between ditches."""
+"""Land that looks like objects: steps on slopes, rocks and low banks."""
 
 from __future__ import annotations
 
@@ -7,36 +7,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...core.progress import SILENT, Progress
 from ...grids.cell_blocks import CellBlocks
 from ...grids.height_grid import HeightGrid
 from ...grids.morphology import within_square
-from ..pipeline import GridRule, Rule, Stage
-from ..state import GridState
-from .regions import RaisedRegions, even_cells
-
-
-def into_ditches(
-    number: np.ndarray,
-    count: int,
-    closed: np.ndarray,
-    filled: np.ndarray,
-    raised: np.ndarray,
-    beyond: float,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return how many sides of each region's border drop into a ditch, of which the closing fills
-    all but a share `beyond`, and how many it has; `number` is 0 for no region.
-    """
-    into, border = np.zeros((2, count))
-    for ahead, behind in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
-        for here, there in ((ahead, behind), (behind, ahead)):
-            beside = (number[here] > 0) & (number[here] != number[there])
-            of, drop = number[here][beside], (filled[here] - filled[there])[beside]
-            is_ditch = ~raised[there][beside] & (drop > 0.0)
-            is_ditch &= closed[there][beside] >= filled[here][beside] - beyond * drop
-            border += np.bincount(of, minlength=count)
-            into += np.bincount(of, is_ditch, count)
-    return into, border
+from ..pipeline import Rule, Stage
+from .regions import RaisedRegions
 
 
 @dataclass(frozen=True)
@@ -156,7 +131,7 @@ class LowBanks(Rule):
     """A low, narrow and even strip is a bank of a field, a dyke or the rim of a ditch."""
 
     # Of a hedge or a wall, cells have points on the ground beside it; of a row of cars, they are
-    # not even. No real tile needs it so far; without it generated banks of 1.2 x 5 m are lost.
+    # not even. Platforms of ISPRS sample 42 need it.
 
     stage: ClassVar = Stage.TERRAIN
 
@@ -165,7 +140,7 @@ class LowBanks(Rule):
     width: float = 6.0  # largest mean width in metres
     even_share: float = 0.7  # least share of the cells that are even
     # On a larger share of its border than this, another strip as high is beside it: it is one of a
-    # row, as of panels or planters, or land between ditches. 1 if that does not matter.
+    # row, as of panels or planters. 1 if that does not matter.
     most_in_row: float = 0.8
     beyond: float = 0.35  # the strip beside it may be lower by this share of the drop between them
 
@@ -190,78 +165,14 @@ class LowBanks(Rule):
         number.ravel()[regions.cells] = regions.number + 1
         filled, reach = regions.filled, max(round(self.width / regions.size / 2.0), 1)
         closed = within_square(np.minimum, within_square(np.maximum, filled, reach), reach)
-        into, border = into_ditches(
-            number, len(regions.area) + 1, closed, filled, number > 0, self.beyond
-        )
-        return (into > self.most_in_row * border)[1:]
-
-
-@dataclass(frozen=True)
-class BetweenDitches(GridRule):
-    """Even land with ditches beside it, and land as high beyond them, is ground."""
-
-    # No real tile needs it so far. Without it the slope filter and grid minimum lose a fifth to
-    # three quarters of generated land with a ditch each 10 or 15 m.
-
-    stage: ClassVar = Stage.TERRAIN
-    reads: ClassVar = ("filled", "surface", "surveyed", "raised")
-    writes: ClassVar = ("raised",)
-
-    # The largest width and depth of a ditch in metres.
-    width: float = 6.0
-    depth: float = 2.2
-    # The least area (m2) and width (m) of the land between ditches.
-    least_area: float = 100.0
-    least_width: float = 2.5
-    share: float = 0.5  # least share of the land's border that drops into a ditch
-    beyond: float = 0.35  # the land beyond the ditch may be lower by this share of the drop
-    even_share: float = 0.6  # least share of its cells that are even; plants are not even
-    # At the border of the land and its ditches, ground that is lower than land by more than so many
-    # metres, or that is not higher than a ditch, is open.
-    level: float = 0.3
-    most_open: float = 0.3  # most of this border that is open, as a share
-
-    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
-        """Let even land between ditches be ground."""
-        from scipy import ndimage
-
-        filled, raised, size = grid.filled, grid.raised, grid.cells.size
-        number, count = ndimage.label(raised & (filled <= grid.surface + self.depth))
-        cells_of = np.bincount(number.ravel(), minlength=count + 1)
-        fits = cells_of * size**2 >= self.least_area
-        fits[0] = False
-        if not fits.any():
-            return
-        reach = max(round(self.width / size / 2.0), 1)
-        closed = within_square(np.minimum, within_square(np.maximum, filled, reach), reach)
-        into_ditch, border = into_ditches(
-            np.where(fits[number], number, 0), count + 1, closed, filled, raised, self.beyond
-        )
-        fits &= (into_ditch >= self.share * border) & (
-            2.0 * cells_of * size >= self.least_width * border
-        )
-        even = np.bincount(number[even_cells(filled)], minlength=count + 1)
-        fits &= even >= self.even_share * cells_of
-        land = fits[number]
-        grid.raised &= ~(land & self._ends_level(grid, land, closed))
-
-    def _ends_level(self, grid: GridState, land: np.ndarray, closed: np.ndarray) -> np.ndarray:
-        """Return which land, with the ditches in it, hardly ends at lower ground, as rows of
-        panels, planters or barges do.
-        """
-        from scipy import ndimage
-
-        filled, raised = grid.filled, grid.raised
-        ditch = ~raised & (closed > filled + self.level)
-        block, count = ndimage.label(land | ditch)
-        open_, shut = np.zeros((2, count + 1))
+        into, border = np.zeros((2, len(regions.area) + 1))
         for ahead, behind in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
             for here, there in ((ahead, behind), (behind, ahead)):
-                beside = (block[here] > 0) & (block[there] == 0) & ~raised[there]
-                beside &= grid.surveyed[there] & grid.surveyed[here]
-                of, drop = block[here][beside], (filled[here] - filled[there])[beside]
-                of_land = land[here][beside]
-                is_open = np.where(of_land, drop > self.level, drop > -self.level)
-                open_ += np.bincount(of, is_open, count + 1)
-                shut += np.bincount(of, ~is_open, count + 1)
-        return (open_ <= self.most_open * (open_ + shut))[block]
+                beside = (number[here] > 0) & (number[here] != number[there])
+                of, drop = number[here][beside], (filled[here] - filled[there])[beside]
+                # Of the gap to the other, the closing fills all but a share of the drop.
+                is_gap = (number[there][beside] == 0) & (drop > 0.0)
+                is_gap &= closed[there][beside] >= filled[here][beside] - self.beyond * drop
+                border += np.bincount(of, minlength=len(border))
+                into += np.bincount(of, is_gap, len(border))
+        return (into > self.most_in_row * border)[1:]

@@ -139,9 +139,6 @@ class RaisedRegions(NamedTuple):
     # float64 (regions,): Square metres; mean height above the ground in metres.
     area: np.ndarray
     above: np.ndarray
-    # int64 (k,): Region of each raised cell that is level with the ground beside it, once for each
-    # such side.
-    feet: np.ndarray
     filled: np.ndarray  # float32 (rows, columns): Heights of all cells in metres, without NaN
     # Pairs of regions between which there are level steps, drops and rises, for two directions.
     borders: list[list[_Pairs]]
@@ -176,7 +173,6 @@ def raised_regions(
     area = np.bincount(number, minlength=count) * size**2
     heights = grid.filled.ravel()[cells]
     above = heights - grid.surface.ravel()[cells]
-    feet = np.where(up[one], one, other)[(sign == 0) & (up[one] != up[other])]
     return RaisedRegions(
         size,
         raised.shape,
@@ -186,7 +182,6 @@ def raised_regions(
         above,
         area,
         np.bincount(number, above, count) * size**2 / area,
-        region[feet[seen[feet]]],
         grid.filled,
         _borders(region, up, steps, seen),
         np.bincount(number, _sides_outside(grid.surveyed).ravel()[cells], count),
