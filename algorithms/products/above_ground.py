@@ -10,7 +10,7 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..filters.bridge_decks import bridge_decks
+from .bridge_decks import bridge_decks
 from .buildings import Buildings
 from .height_above_ground import height_above_ground
 from .high_groups import HighGroups

@@ -18,10 +18,10 @@ from ..engine.blockwise import over_blocks
 from ..engine.memory import Resources
 from ..engine.store import BlockPoints, Store
 from ..filters import method_of
-from ..filters.bridge_decks import bridge_decks
 from ..filters.method import Decisions, warn_of_extent, warn_of_little_ground
 from ..filters.stages.outliers import below_ground
 from ..grids.cells import apart
+from ..products.bridge_decks import bridge_decks
 from ..products.high_groups import HighGroups
 from ..survey.selection import Selection
 from .explanation import ExplainedCells, Explanation

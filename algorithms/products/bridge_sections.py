@@ -17,7 +17,7 @@ import numpy as np
 
 from ..grids.cells import are_inside, numbered
 from ..grids.morphology import within_square
-from .ground_relief import BORDER, STEP, STEP_SLOPE, Relief
+from .bridge_relief import BORDER, STEP, STEP_SLOPE, Relief
 
 # Directions of cross-sections over a whole turn, and the longest in metres.
 _DIRECTIONS, _LONGEST = 96, 70.0

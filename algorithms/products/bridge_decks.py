@@ -16,8 +16,8 @@ import numpy as np
 
 from ..core.points import Points
 from ..grids.morphology import within_square
-from .cross_sections import Rule, Sections, raised_sections
-from .ground_relief import Relief
+from .bridge_relief import Relief
+from .bridge_sections import Rule, Sections, raised_sections
 
 # At the sides of a deck the ground is lower by at least so many metres, and so many for each metre
 # of distance. This share of the spacing of the points is added to the distance.
