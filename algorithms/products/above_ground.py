@@ -159,38 +159,13 @@ class ThenAboveGround(AboveGround):
 
 def classes_above_ground(
     points: Points,
-    ground: np.ndarray,
-    several: np.ndarray,
+    ground: np.ndarray,  # bool (n,)
+    several: np.ndarray,  # bool (n,), points of pulses with several returns
     parameters: AboveGround = AboveGround(),
     progress: Progress = SILENT,
 ) -> np.ndarray:
-    """Return the class of each point that is not ground.
-
-    Parameters
-    ----------
-    points : Points
-        All points.
-    ground : numpy.ndarray of bool, shape (n,)
-        Which points are ground; at least one.
-    several : numpy.ndarray of bool, shape (n,)
-        Which points are of pulses with several returns.
-    parameters : AboveGround
-        Which classes are wanted, and their limits.
-    progress : Progress
-        Receives progress.
-
-    Returns
-    -------
-    numpy.ndarray of uint8, shape (n,)
-        1, 3, 4, 5, 6, 17 or 18; 2 for ground.
-
-    Examples
-    --------
-    >>> x, y = np.array([0.0, 4.0, 0.0, 1.0]), np.array([0.0, 0.0, 4.0, 1.0])
-    >>> points = Points(x, y, np.array([10.0, 10.0, 10.0, 11.7]))
-    >>> ground = np.array([True, True, True, False])
-    >>> classes_above_ground(points, ground, ~ground, AboveGround("ign")).tolist()
-    [2, 2, 2, 5]
+    """Return the class of each point, uint8 (n,): 2 for ground, of which there must be a point,
+    else 1, 3, 4, 5, 6, 17 or 18.
     """
     heights = height_above_ground(points, ground, progress.part(0.0, 0.4))
     classes = by_height(heights, parameters)

@@ -20,51 +20,23 @@ _MOST_ROUNDS = 8
 
 @dataclass(frozen=True)
 class HighGroups:
-    """The rule for points that hang in the air.
+    """The rule for points that hang in the air."""
 
-    Trees, masts and towers have points further down. Wires do not, but there are more of them in a
-    row.
+    # Trees, masts and towers have points further down. Wires do not, but there are more of them in
+    # a row.
 
-    Attributes
-    ----------
-    height : float
-        Least height in metres above all other points of the place, and between the groups of a
-        place.
-    points : int
-        Largest number of points of a group.
-    width : float
-        Largest width of a group in metres.
-    reach : float
-        The place reaches at least so many metres from the group.
-    row, row_climb : float
-        Groups may belong to one row, such as a wire, if they are at most so many metres apart, and
-        one is higher by at most 2 m and `row_climb` times their distance.
-    row_share : float
-        Largest width of a row as a share of its length, both as standard deviations.
-    most : int
-        A row of more groups is an object.
-    """
-
-    height: float = 10.0
-    points: int = 20
-    width: float = 5.0
-    reach: float = 10.0
-    row: float = 25.0
-    row_climb: float = 0.2
-    row_share: float = 0.35
-    most: int = 3
+    height: float = 10.0  # metres above all other points of the place, and between its groups
+    points: int = 20  # largest number of points of a group
+    width: float = 5.0  # largest width of a group in metres
+    reach: float = 10.0  # the place reaches at least so many metres from the group
+    row: float = 25.0  # groups of a row, such as a wire, are at most so many metres apart
+    row_climb: float = 0.2  # and one is higher by at most 2 m and so many times their distance
+    row_share: float = 0.35  # largest width of a row by its length, both as standard deviations
+    most: int = 3  # a row of more groups is an object
 
     def find(self, points: Points) -> np.ndarray:
-        """Return which points belong to a group far above all others of their place.
-
-        Parameters
-        ----------
-        points : Points
-            At least one point.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (n,)
+        """Return which points, of at least one, belong to a group far above all others of their
+        place, bool (n,).
         """
         cells = Cells.over(points, max(self.reach, _SPACINGS * spacing(points)))
         found = np.zeros(points.count, dtype=bool)

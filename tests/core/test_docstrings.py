@@ -8,9 +8,7 @@ from shipped import ROOT, SHIPPED, name_of, tree_of
 
 # Files that are not written so yet: take out what is done, and add none.
 LEFT = {
-    "algorithms/products/above_ground.py",
     "algorithms/products/buildings.py",
-    "algorithms/products/high_groups.py",
 }
 _DEFINITIONS = (ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 _SECTION = re.compile(r"^\s*-{3,}\s*$", re.MULTILINE)

@@ -16,7 +16,7 @@ from .tolerance import ToleranceSurface
 
 def shared_pipeline(
     lowest: LowestPoints,
-    size: float,
+    size: float,  # metres, of the largest object
     tolerance: ToleranceSurface,
     seeds: tuple[Rule, ...],
     plants: Plants,
@@ -26,10 +26,7 @@ def shared_pipeline(
     surface: tuple[Rule, ...] = (),
     accepted: tuple[Rule, ...] = (),
 ) -> Pipeline:
-    """Return the rules of all methods, with those of one method at the end of some stages.
-
-    The largest object is `size` metres wide.
-    """
+    """Return the rules of all methods, with those of one method at the end of some stages."""
     return Pipeline(
         (
             lowest,
