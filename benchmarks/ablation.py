@@ -1,9 +1,9 @@
 """Measures what each rule of the filters is worth: `python -m benchmarks.ablation`.
 
 Each rule is left out of its pipeline, alone and in groups (`benchmarks/rules.py`), on the ISPRS
-samples in some phases of the grid, on the real tiles, and on generated scenes of seeds that nobody
-tuned with. On all real tiles the terrain model counts, with its spikes and pits, and on those whose
-labels are trusted the labels as well.
+samples in some phases of the grid and on the real tiles. On all tiles the terrain model counts,
+with its spikes and pits, and on those whose labels are trusted the labels as well. Generated scenes
+do not count: a rule is worth what it does on real land.
 
 What has been measured is kept in ~/.cache/bare-earth/benchmarks (or $BARE_EARTH_CACHE) until a
 filter, a grid or the data change, so that a run that was stopped goes on where it stopped.
@@ -27,38 +27,30 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.products.comparison import AssessmentOptions, compare
 
 from . import ablation_page as page
-from . import cache, data, scenes, work
+from . import cache, data, work
 from .accuracy import method_name, tell
-from .generated import score_scene
 from .measure import Filter, ReferenceModel
 from .phases import PHASES, shifted
 from .rules import BASE, GROUPS, VALUES, switched_off, variants
-from .scenes import KINDS, Scene, make
 
-# Seeds of scenes that nobody tuned with, and shares of the density of a kind.
-SEEDS, DENSITIES = (101, 103), (1.0, 0.25)
 # Tiles that the quick form leaves out, and the tile on which time is measured.
 _LONG, _TIMED = ("hawaii_forest", "nrw_rural", "wires_single_return"), "ahn3_urban"
 # Code that decides what is found.
 _ALGORITHMS = Path(__file__).parents[1] / "algorithms"
 _FILTERS = _ALGORITHMS / "filters", _ALGORITHMS / "grids"
-_SCENES = (Path(scenes.__file__).parent,)
 
 
 class Place(NamedTuple):
-    """A cloud whose ground is known: a sample in a phase, a tile, or a scene.
+    """A cloud whose ground is known: a sample in a phase, or a real tile."""
 
-    `kind` is one of `ablation_page.KINDS`. `which` is the phase, or seed and share of density.
-    """
-
-    kind: str
+    kind: str  # one of `ablation_page.KINDS`
     name: str
-    which: tuple[float, ...] = ()
+    phase: tuple[float, ...] = ()
 
     @property
     def title(self) -> str:
         """Name and numbers as text."""
-        return " ".join([self.name, *(f"{value:g}" for value in self.which)])
+        return " ".join([self.name, *(f"{value:g}" for value in self.phase)])
 
     @property
     def tile(self) -> data.RealTile | None:
@@ -72,23 +64,15 @@ class Place(NamedTuple):
             return data.real(self.tile.name)
         return data.FOLDER / "isprs" / f"{self.name}.laz"
 
-    def scene(self) -> Scene:
-        """Return a generated scene."""
-        seed, share = self.which
-        return make(self.name, int(seed), density=share * KINDS[self.name].defaults.density)
-
 
 def places(is_quick: bool) -> list[Place]:
-    """Return where rules are measured; the quick form has one scene of each kind."""
+    """Return where rules are measured; the quick form has fewer phases and tiles."""
     phases = PHASES[: 2 if is_quick else 6]
     found = [Place("isprs", path.stem, phase) for path in data.isprs() for phase in phases]
     left_out = _LONG if is_quick else ()
     for tile in data.REAL:
         if data.real(tile.name).exists() and tile.title not in left_out:
             found.append(Place("real", tile.title))
-    for number, kind in enumerate(KINDS):
-        both = list(zip(SEEDS, DENSITIES if number % 2 else DENSITIES[::-1]))
-        found += [Place("scene", kind, which) for which in both[: 1 if is_quick else 2]]
     return found
 
 
@@ -120,15 +104,9 @@ class _Scorer:
 
     def __init__(self, job: Job) -> None:
         self._filter, self._place = Filter(job.method), job.place
-        self._scene, self._model = None, None
-        if job.place.kind == "scene":
-            self._scene = job.place.scene()
-            self._cloud = self._scene.cloud()
-        else:
-            cloud, self._reference = data.load(job.place.path())
-            self._cloud = shifted(cloud, *job.place.which) if job.place.which else cloud
-            if job.place.tile:
-                self._model = ReferenceModel(self._cloud, self._reference)
+        cloud, self._reference = data.load(job.place.path())
+        self._cloud = shifted(cloud, *job.place.phase) if job.place.phase else cloud
+        self._model = ReferenceModel(cloud, self._reference) if job.place.tile else None
         self._ground, _ = self._found(BASE)
         self._base = self._measured(self._ground)
 
@@ -155,9 +133,6 @@ class _Scorer:
         return ground, time.process_time() - begun
 
     def _measured(self, ground: np.ndarray) -> page.Figures:
-        if self._scene is not None:
-            score = score_scene(self._scene, ground, with_dtm=False)
-            return {"type_1": score.type_1, "type_2": score.type_2}
         tile, found = self._place.tile, {}
         if tile is None or tile.is_trusted:
             options = AssessmentOptions(ignored_classes=tile.left_out if tile else ())
@@ -173,7 +148,7 @@ def _digest(job: Job) -> str:
     """Return what tells apart what is kept: the code, the method, the data and the measuring."""
     place, own = job.place, hashlib.sha256(_code(_FILTERS))
     own.update(repr((job.method, place)).encode())
-    own.update(_code(_SCENES) if place.kind == "scene" else place.path().read_bytes())
+    own.update(place.path().read_bytes())
     return f"{place.kind}-{place.name}-{own.hexdigest()[:24]}"
 
 
@@ -194,7 +169,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--method", nargs="+", type=method_name, default=list(METHODS))
-    parser.add_argument("--quick", action="store_true", help="fewer phases, tiles and scenes")
+    parser.add_argument("--quick", action="store_true", help="fewer phases and tiles")
     parser.add_argument("--rules", nargs="+", default=[], metavar="NAME", help="only these")
     parser.add_argument(
         "--on", nargs="+", choices=page.KINDS, default=page.KINDS, help="some kinds of places"

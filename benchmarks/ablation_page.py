@@ -11,21 +11,18 @@ from bare_earth.algorithms.filters import METHODS
 from . import tables
 from .phases import Range
 from .rules import BASE, GROUPS, VALUES, lines, variants
-from .scenes import KINDS as KINDS_OF_SCENES
 
 # Kinds of places where rules are measured.
-KINDS = "isprs", "real", "scene"
+KINDS = "isprs", "real"
 PAGE = Path(__file__).parents[1] / "docs" / "rules.md"
 COMMENTS = Path(__file__).parent / "rules_comments.md"
-# A scene is worse if its type I or type II error is larger by more than so many points.
-_WORSE = 1.0
 _HEAD = (
-    "Left out", "lines", "CPU, %", "ISPRS", "labels: worst", "best", "DTM: worst", "best",
-    "spikes", "pits", "scenes worse", "better", "the worst",
+    "Left out", "lines", "CPU, %", "ISPRS", "labels: worst", "best", "RMSE, %", "DTM: worst",
+    "best", "spikes", "pits",
 )  # fmt: skip
 _BASE_HEAD = (
     "All rules", "ISPRS total error, %", "tiles with labels, %", "DTM: RMSE, m", "spikes", "pits",
-    "samples and phases", "tiles", "scenes",
+    "samples and phases", "tiles",
 )  # fmt: skip
 _ABOUT = """# What each rule is worth
 
@@ -38,11 +35,10 @@ is measured again. A rule is worth its code if errors get worse without it, abov
 - *ISPRS*: change of the mean total error of {samples} samples, in percentage points, over {phases}
   positions of the grid. Bold if it is larger than the range of the base over these positions.
 - *labels*: the real tiles on which the total error changes most, in percentage points, of {labels}.
+- *RMSE*: change of the RMSE of the terrain models in percent, the geometric mean over all tiles.
 - *DTM*: the real tiles on which the RMSE of the terrain model changes most, in metres, of {models}.
 - *spikes*, *pits*: change of their number on all tiles: connected places of 3 m² and more where the
   terrain model is over 1 m above, or below, that of the reference.
-- *scenes*: generated scenes ({scenes}) whose type I or type II error gets worse, or better, by more
-  than one point without the rule, and the worst of them. Nobody tuned with their seeds.
 
 A positive change is a loss without the rule. 0 is less than can be printed. A rule may be worth
 nothing alone and something in a group, where no other stands in for it. The command
@@ -105,26 +101,19 @@ def _ends(changes: dict[str, float], digits: int) -> list[str]:
     ]
 
 
+def _of_models(places: Places, name: str) -> str:
+    """Return the change of the geometric mean of the RMSE of all terrain models, in percent."""
+    base, found = (_of(places, variant, "real", "rmse") for variant in (BASE, name))
+    if not found:
+        return tables.NONE
+    ratios = [np.log(max(value, 1e-6) / max(base[place], 1e-6)) for place, value in found.items()]
+    return _signed(100.0 * (np.exp(np.mean(ratios)) - 1.0), 1)
+
+
 def _summed(places: Places, name: str, figure: str) -> str:
     """Return by how many the spikes or pits of all tiles change."""
     changes = _changes(places, name, "real", figure)
     return _signed(sum(changes.values()), 0) if changes else tables.NONE
-
-
-def _of_scenes(places: Places, name: str) -> list[str]:
-    """Return how many scenes get worse and better, and the worst as text."""
-    changes = {
-        f"{place.split()[0]} {short}": value
-        for figure, short in (("type_1", "I"), ("type_2", "II"))
-        for place, value in _changes(places, name, "scene", figure).items()
-    }
-    if not changes:
-        return [tables.NONE] * 3
-    worse = {place.split()[0] for place, value in changes.items() if value > _WORSE}
-    better = {place.split()[0] for place, value in changes.items() if value < -_WORSE}
-    worst = max(changes, key=changes.__getitem__)
-    text = f"{worst} {changes[worst]:+.1f}" if worse else tables.NONE
-    return [str(len(worse)), str(len(better)), text]
 
 
 def _saved(places: Places, name: str) -> str:
@@ -143,9 +132,9 @@ def table(places: Places, method: str) -> list[str]:
             _saved(places, name),
             _of_samples(places, name),
             *_ends(_changes(places, name, "real", "total"), 2),
+            _of_models(places, name),
             *_ends(_changes(places, name, "real", "rmse"), 3),
             *(_summed(places, name, figure) for figure in ("spikes", "pits")),
-            *_of_scenes(places, name),
         ]
         for name in variants(method)
         if name in known and name != BASE
@@ -172,7 +161,6 @@ def write(results: Results, is_quick: bool) -> None:
     """Write the page, with the comments as they stand in their file."""
     everywhere = {place: found for places in results.values() for place, found in places.items()}
     samples = [place.split(" ", 1) for kind, place in everywhere if kind == "isprs"]
-    scenes = sum(kind == "scene" for kind, _ in everywhere)
     text = [
         _ABOUT.format(
             timed=", ".join(_of(everywhere, BASE, "real", "cpu")) or tables.NONE,
@@ -180,7 +168,6 @@ def write(results: Results, is_quick: bool) -> None:
             phases=len({phase for _, phase in samples}),
             labels=", ".join(_of(everywhere, BASE, "real", "total")),
             models=", ".join(_of(everywhere, BASE, "real", "rmse")),
-            scenes=f"{scenes} of {len(KINDS_OF_SCENES)} kinds",
             form="its quick form, `--quick`" if is_quick else "its full form",
         ),
         *tables.table(_BASE_HEAD, [_base(method, places) for method, places in results.items()]),

@@ -8,9 +8,10 @@ Figures of ours on the samples are means over the phases of the grid (`benchmark
 their range. Generated scenes (`benchmarks/scenes`) are made from seeds of which one half is for
 tuning: `--scenes --method tin --seeds tuning --no-dtm`.
 
-Without options everything is measured, for our filters and the peers that are installed, printed,
-and written to docs/accuracy.md. Answers of peers are remembered in ~/.cache/bare-earth/benchmarks
-(or $BARE_EARTH_CACHE); the data are sought in $BARE_EARTH_DATA.
+Without the name of a part everything is measured and printed. With `--write`, samples and tiles are
+written to docs/accuracy.md, scenes and sensitivity to docs/scenes.md. Answers of peers are
+remembered in ~/.cache/bare-earth/benchmarks (or $BARE_EARTH_CACHE); the data are sought in
+$BARE_EARTH_DATA.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from bare_earth.algorithms.filters import METHODS
 
 from . import data, peers, report, tables
 from .generated import score_scenes
-from .measure import Filter, GroundFilter, Scores, best, score, score_tile
+from .measure import Filter, GroundFilter, Scores, score, score_tile
 from .phases import PHASES
 from .scenes import KINDS, REPORTING_SEEDS, TUNING_SEEDS
 from .sensitivity import SOME, Moved, Place, sensitivity
@@ -32,6 +33,9 @@ from .sensitivity import SOME, Moved, Place, sensitivity
 # The dense tile that sensitivity is measured on besides the samples.
 DENSE_TILE = "ahn3_urban"
 SEEDS = {"tuning": TUNING_SEEDS, "reporting": REPORTING_SEEDS}
+# What is measured, and what each page needs.
+PARTS = "isprs", "real", "scenes", "sensitivity"
+PAGES = PARTS[:2], PARTS[2:]
 
 
 def tell(text: str) -> None:
@@ -53,8 +57,6 @@ def measure_isprs(
     """Measure the filters on the samples in some phases and print the figures."""
     results = score(filters, samples, phases)
     show(*(tables.isprs(results, title) for title in tables.FIGURES), tables.quoted())
-    if any(name in METHODS for name in results):
-        show(tables.goals(results))
     return results
 
 
@@ -147,41 +149,38 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--sensitivity", action="store_true", help="halve and double each default")
     parser.add_argument("--peers", action="store_true", help="the peers as well")
     parser.add_argument(
-        "--write", action="store_true", help="measure everything and write docs/accuracy.md"
+        "--write",
+        action="store_true",
+        help="write docs/accuracy.md (--isprs --real), docs/scenes.md (--scenes --sensitivity)",
     )
     options = parser.parse_args(arguments)
+    parts = {name for name in PARTS if getattr(options, name)} or set(PARTS)
     samples = data.isprs()
-    parts = options.isprs, options.real, options.sensitivity, options.scenes
-    if options.scenes and not any((*parts[:3], options.write)):
-        measure_scenes(options.method, options.seeds, options.kinds, not options.no_dtm)
-        return
-    if not samples:
+    if not samples and parts != {"scenes"}:
         parser.exit(1, f"There is no labelled data in {data.FOLDER.resolve()}.\n")
-    everything = options.write or not (any(parts) or options.peers)
-    if everything and options.method != list(METHODS):
-        parser.error("docs/accuracy.md is about all methods: leave --method out, or choose a part.")
+    if options.write and (options.method != list(METHODS) or not any(map(parts.issuperset, PAGES))):
+        parser.error(f"A page is about all methods and needs {' or '.join(map(_named, PAGES))}.")
     filters: list[GroundFilter] = [Filter(name) for name in options.method]
-    if options.peers or everything:
+    if options.peers:
         filters += peers.installed()
         for package in peers.missing():
             print(f"Not installed: pip install {package}")
-    isprs = real = moved = {}
-    if options.isprs or everything or not any(parts):
-        isprs = measure_isprs(filters, samples, PHASES[: max(options.phases, 1)])
-    if options.real or everything or not any(parts):
-        real = measure_real(filters)
+    phases = PHASES[: max(options.phases, 1)]
+    isprs = measure_isprs(filters, samples, phases) if "isprs" in parts else {}
+    real = measure_real(filters) if "real" in parts else {}
     scenes = {}
-    if options.scenes or everything:
-        for seeds in SEEDS if everything else (options.seeds,):
+    if "scenes" in parts:
+        for seeds in SEEDS if options.write else (options.seeds,):
             scenes[seeds] = measure_scenes(options.method, seeds, options.kinds, not options.no_dtm)
-    if options.sensitivity or everything:
-        moved = measure_sensitivity(options.method, samples)
-    if everything:
-        chosen = Filter(best({name: isprs[name] for name in METHODS}))
-        pictures = report.draw(chosen, isprs[chosen.name])
-        pictures += report.draw_scenes(chosen, scenes["reporting"], SEEDS["reporting"])
-        report.write(isprs, real, scenes, moved, pictures, report.PAGE)
-        print(f"\nWritten: {report.PAGE}")
+    moved = measure_sensitivity(options.method, samples) if "sensitivity" in parts else {}
+    if options.write and isprs and real:
+        report.write(isprs, real)
+    if options.write and scenes and moved:
+        report.write_scenes(scenes, SEEDS["reporting"], moved)
+
+
+def _named(parts: Sequence[str]) -> str:
+    return " ".join(f"--{part}" for part in parts)
 
 
 if __name__ == "__main__":

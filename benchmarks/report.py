@@ -1,4 +1,4 @@
-"""Writes docs/accuracy.md: the figures, with pictures and what they leave out."""
+"""Writes docs/accuracy.md and docs/scenes.md: the figures, with pictures."""
 
 from __future__ import annotations
 
@@ -6,18 +6,17 @@ from pathlib import Path
 from string import Template
 from typing import Iterable, NamedTuple, Sequence
 
-from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters import DEFAULT_METHOD, METHODS
 
 from . import data, maps, peers, tables
 from .generated import remembered_scene, worst_kinds
-from .measure import GroundFilter, ReferenceModel, Scores, mean
+from .measure import Filter, GroundFilter, ReferenceModel, Scores, best
 from .phases import Phased
 from .scenes import KINDS
-from .sensitivity import SOME, Moved, Sensitivity
+from .sensitivity import Moved, Sensitivity
 
 PAGE = Path(__file__).parents[1] / "docs" / "accuracy.md"
 IMAGES = PAGE.parent / "images"
-TEMPLATE = Path(__file__).parent / "accuracy.md"
 WORST_NAME, RELIEF_NAME = "accuracy-worst-", "accuracy-relief-"
 SCENE_NAME = "accuracy-scene-"
 WORST, WORST_SCENES = 3, 5
@@ -110,35 +109,47 @@ def draw_scenes(chosen: GroundFilter, scores: tables.SceneScores, seeds: Sequenc
     return pictures
 
 
-def write(
-    isprs: Scores,
-    real: tables.TileScores,
-    scenes: dict[str, tables.SceneScores],
-    moved: Moved,
-    pictures: Sequence[Picture],
-    target: Path,
-) -> None:
-    """Fill the template and write the page."""
-    parts = {
-        "peers": _peers(),
-        "goals": tables.goals(isprs),
-        "isprs": _blocks(
-            [*(tables.isprs(isprs, title) for title in tables.FIGURES), tables.quoted()]
-        ),
-        "worst": _pictures(pictures, WORST_NAME),
-        "tiles": [f"- **{tile}**: {_TILES.get(tile, '')}." for tile in real],
-        "labels": tables.labels(real),
-        "doubtful": tables.doubtful(real),
-        "dtm": _blocks(
-            [*(tables.dtm(real, *each) for each in tables.DTM_FIGURES), tables.spikes(real)]
-        ),
-        "relief": _pictures(pictures, RELIEF_NAME),
-        "scenes": _scenes(scenes),
-        "scenes_worst": _pictures(pictures, SCENE_NAME),
-        "sensitivity": _moved(moved, isprs, real),
-        "problems": [f"- **What failed**: {each}." for each in tables.problems(real)],
-    }
-    template = Template(TEMPLATE.read_text(encoding="utf-8"))
+def write(isprs: Scores, real: tables.TileScores) -> None:
+    """Write the page about samples and tiles."""
+    chosen = Filter(best({name: isprs[name] for name in METHODS}))
+    pictures = draw(chosen, isprs[chosen.name])
+    _fill(
+        PAGE,
+        {
+            "peers": _peers(),
+            "isprs": _blocks(
+                [*(tables.isprs(isprs, title) for title in tables.FIGURES), tables.quoted()]
+            ),
+            "worst": _pictures(pictures, WORST_NAME),
+            "tiles": [f"- **{tile}**: {_TILES.get(tile, '')}." for tile in real],
+            "labels": tables.labels(real),
+            "doubtful": tables.doubtful(real),
+            "dtm": _blocks(
+                [*(tables.dtm(real, *each) for each in tables.DTM_FIGURES), tables.spikes(real)]
+            ),
+            "relief": _pictures(pictures, RELIEF_NAME),
+            "problems": [f"- **What failed**: {each}." for each in tables.problems(real)],
+        },
+    )
+
+
+def write_scenes(scenes: dict[str, tables.SceneScores], seeds: Sequence[int], moved: Moved) -> None:
+    """Write the page about generated scenes and changed defaults; `seeds` are those reported."""
+    chosen = Filter(DEFAULT_METHOD)
+    pictures = draw_scenes(chosen, scenes["reporting"], seeds)
+    _fill(
+        PAGE.with_name("scenes.md"),
+        {
+            "scenes": _scenes(scenes),
+            "scenes_worst": _pictures(pictures, SCENE_NAME),
+            "sensitivity": _moved(moved),
+        },
+    )
+
+
+def _fill(target: Path, parts: dict[str, list[str]]) -> None:
+    """Fill the template that is called as the page, and write the page."""
+    template = Template((Path(__file__).parent / target.name).read_text(encoding="utf-8"))
     text = template.substitute({name: "\n".join(lines) for name, lines in parts.items()})
     target.write_text(text.rstrip() + "\n", encoding="utf-8")
 
@@ -164,19 +175,16 @@ def _scenes(scenes: dict[str, tables.SceneScores]) -> list[str]:
     return _blocks([described, tables.scene_totals(reporting), *blocks])
 
 
-def _moved(moved: Moved, isprs: Scores, real: tables.TileScores) -> list[str]:
+def _moved(moved: Moved) -> list[str]:
     lines: list[str] = []
     for method, places in moved.items():
         lines += [f"### {METHODS[method].label}", ""]
-        measured = {at: Phased(each.assessments[SOME]) for at, each in isprs[method].items()}
         for where, rows in places.items():
-            one = real[where][method].assessment if where in real else None
-            base = one.total_error if one else mean(measured, "total_error")
-            lines += [f"On {where}. {_spread(rows, base)}", "", *tables.sensitivity(rows), ""]
+            lines += [f"On {where}. {_spread(rows)}", "", *tables.sensitivity(rows), ""]
     return lines[:-1]
 
 
-def _spread(rows: Sequence[Sensitivity], base: float) -> str:
+def _spread(rows: Sequence[Sensitivity]) -> str:
     """Return the sentence on the smallest and the largest move."""
     moves = [
         (change.total_error, row.declaration.label, way)
@@ -185,11 +193,11 @@ def _spread(rows: Sequence[Sensitivity], base: float) -> str:
         if not change.problem
     ]
     if not moves:
-        return f"Total error {base:.2f} %; every change is refused."
+        return "Every change is refused."
     most, label, way = max(moves)
     return (
-        f"Total error {base:.2f} % with the defaults, {min(moves)[0]:.2f} to {most:.2f} % with one"
-        f" changed; the worst is *{label}* {way}:"
+        f"Total error {min(moves)[0]:.2f} to {most:.2f} % with one default changed; the worst is"
+        f" *{label}* {way}:"
     )
 
 

@@ -1,39 +1,33 @@
-"""The figures as Markdown tables, for the terminal and for docs/accuracy.md alike."""
+"""The figures as Markdown tables, for the terminal and for the pages alike."""
 
 from __future__ import annotations
 
 import math
-from typing import Sequence
+from typing import Any, Sequence
 
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.products.comparison import Assessment
 
 from . import data
 from .generated import SceneScores, worst_kinds
 from .generated import mean as scene_mean
-from .measure import Scores, TileScore, best, mean
+from .measure import Scores, TileScore
 from .peers import QUOTED, QUOTED_RMSE
 from .phases import Range, over_samples
 from .sensitivity import Change, Sensitivity
 
 # What stands where there is no figure.
-NONE = "-"
+NONE, FAILED = "-", "failed"
 FIGURES = {
     "Total error, %": "total_error",
     "Kappa, %": "kappa",
     "Type I error, %": "type_1_error",
     "Type II error, %": "type_2_error",
 }
-# What is wanted of the mean over the samples: total error at most, kappa at least.
-GOALS = {
-    "": (2.6, 91.0),
-    "slope": (3.4, 88.0),
-    "grid-minimum": (3.3, 88.5),
-}
 # Title of a table on terrain models, its figure and digits.
 DTM_FIGURES = (
     ("RMSE, m", "rmse", 3),
     ("Bias, m", "bias", 3),
-    ("Median, m", "median", 3),
     ("95th percentile, m", "percentile_95", 3),
     ("Cells without height, %", "bare", 2),
 )
@@ -102,91 +96,68 @@ def quoted() -> list[str]:
     return table(["Not measured here", "total error, %", "kappa, %"], rows)
 
 
-def goals(results: Scores) -> list[str]:
-    """Return what is wanted of our filters beside what they reach."""
-    ours = {name: results[name] for name in results if name in METHODS}
-    rows = []
-    for name, (most, least) in GOALS.items():
-        if name and name not in ours:
-            continue
-        measured = name or best(ours)
-        total, kappa = (mean(ours[measured], figure) for figure in ("total_error", "kappa"))
-        rows.append(
-            [
-                METHODS[name].label if name else f"Best of ours ({METHODS[measured].label})",
-                f"≤ {most:g}",
-                number(total, 2),
-                f"≥ {least:g}",
-                number(kappa, 2),
-                "yes" if total <= most and kappa >= least else "no",
-            ]
-        )
-    head = ["", "total error wanted", "reached", "kappa wanted", "reached", "goal met"]
-    return table(head, rows)
-
-
 def labels(results: TileScores) -> list[str]:
-    """Return the errors on the tiles whose labels are trusted."""
-    tiles = [tile for tile in data.REAL if tile.is_trusted and tile.title in results]
+    """Return the total error on the tiles whose labels are trusted, with type I and II errors."""
     rows = []
-    for name in _filters(results):
-        row = [label(name)]
-        for tile in tiles:
-            one = results[tile.title][name].assessment
-            figures = (one.total_error, one.type_1_error, one.type_2_error) if one else ()
-            row += [number(each, 2) for each in figures] or ["failed", NONE, NONE]
-        rows.append(row)
-    for name, (_, _, totals) in QUOTED.items():
-        cells = ([totals.get(tile.title, NONE), NONE, NONE] for tile in tiles)
-        rows.append([f"{name} (quoted)", *(cell for part in cells for cell in part)])
-    head = [each for tile in tiles for each in (f"{tile.title}: total", "I", "II")]
-    return table(["Errors, %", *head], rows)
+    for title in (tile.title for tile in data.REAL if tile.is_trusted and tile.title in results):
+        found = (results[title][name].assessment for name in _filters(results))
+        quoted = (totals.get(title, NONE) for _, _, totals in QUOTED.values())
+        rows.append([title, *map(_errors, found), *quoted])
+    return table(["Total (I / II), %", *_heads(results), *_quoted(QUOTED)], rows)
 
 
 def doubtful(results: TileScores) -> list[str]:
     """Return which share of classes that are left out or watched is taken for ground."""
-    head, columns = ["Taken for ground, %"], []
+    rows = []
     for tile in data.REAL:
         for value in tile.told if tile.title in results else ():
-            head.append(f"{tile.title}, class {value}")
-            columns.append((tile.title, value))
-    rows = []
-    for name in _filters(results):
-        cells = []
-        for title, value in columns:
-            shares = results[title][name].shares
-            cells.append(number(shares.get(value, math.nan), 1))
-        rows.append([label(name), *cells])
-    return table(head, rows)
+            shares = (results[tile.title][name].shares for name in _filters(results))
+            cells = (number(found.get(value, math.nan), 1) for found in shares)
+            rows.append([f"{tile.title}, class {value}", *cells])
+    return table(["Taken for ground, %", *_heads(results)], rows)
 
 
 def dtm(results: TileScores, title: str, figure: str, digits: int) -> list[str]:
     """Return one figure of the terrain models of every filter on every tile."""
+    quoted = QUOTED_RMSE if figure == "rmse" else {}
     rows = []
-    for name in _filters(results):
-        scores = (results[tile][name].dtm for tile in results)
-        cells = (number(getattr(each, figure), digits) if each else "failed" for each in scores)
-        rows.append([label(name), *cells])
-    if figure == "rmse":
-        for name, values in QUOTED_RMSE.items():
-            rows.append([f"{name} (quoted)", *(values.get(tile, NONE) for tile in results)])
-    return table([title, *results], rows)
+    for tile, scores in results.items():
+        models = (scores[name].dtm for name in _filters(results))
+        cells = (number(getattr(model, figure), digits) if model else FAILED for model in models)
+        rows.append([tile, *cells, *(values.get(tile, NONE) for values in quoted.values())])
+    return table([title, *_heads(results), *_quoted(quoted)], rows)
 
 
 def spikes(results: TileScores) -> list[str]:
     """Return how many spikes and pits the terrain models have, and the sums over all tiles."""
     rows = []
+    for tile, scores in results.items():
+        models = (scores[name].dtm for name in _filters(results))
+        rows.append([tile, *(model.seen if model else FAILED for model in models)])
+    sums, per_area = ["all tiles"], ["in 1 km²"]
     for name in _filters(results):
-        models = {tile: scores[name].dtm for tile, scores in results.items()}
-        known = [model for model in models.values() if model]
+        known = [model for scores in results.values() if (model := scores[name].dtm)]
         area = sum(model.area for model in known) or math.nan
-        sums = (sum(getattr(model, kind).count for model in known) for kind in ("spikes", "pits"))
-        counts = tuple(sums)
-        per_area = (number(count / area, 0) for count in counts)
-        cells = [" / ".join(map(str, counts)), " / ".join(per_area)]
-        cells += [model.seen if model else "failed" for model in models.values()]
-        rows.append([label(name), *cells])
-    return table(["Spikes / pits (largest)", "sum", "per km2", *results], rows)
+        counts = [sum(getattr(model, kind).count for model in known) for kind in ("spikes", "pits")]
+        sums.append(" / ".join(map(str, counts)))
+        per_area.append(" / ".join(number(count / area, 0) for count in counts))
+    return table(["Spikes / pits (largest)", *_heads(results)], [*rows, sums, per_area])
+
+
+def _errors(found: Assessment | None) -> str:
+    """Return total, type I and type II error as text."""
+    if found is None:
+        return FAILED
+    figures = found.total_error, found.type_1_error, found.type_2_error
+    return "{} ({} / {})".format(*(number(figure, 2) for figure in figures))
+
+
+def _heads(results: TileScores) -> list[str]:
+    return list(map(label, _filters(results)))
+
+
+def _quoted(figures: dict[str, Any]) -> list[str]:
+    return [f"{name} (quoted)" for name in figures]
 
 
 def seconds(results: TileScores) -> list[str]:

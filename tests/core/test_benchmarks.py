@@ -87,8 +87,9 @@ def test_the_whole_benchmark_writes_the_page(folder, capsys, monkeypatch):
     monkeypatch.setattr(accuracy, "KINDS", kinds)
     hard = make("hillside_village", 1, size=70.0, density=1.0)
     write_labelled(folder / "data" / "isprs" / "samp52.laz", hard.points, hard.ground)
-    accuracy.main([])
-    printed, page = capsys.readouterr().out, (folder / "accuracy.md").read_text(encoding="utf-8")
+    accuracy.main(["--write", "--isprs", "--real", "--peers", "--scenes", "--sensitivity"])
+    printed = capsys.readouterr().out
+    page = "".join((folder / f"{name}.md").read_text("utf-8") for name in ("accuracy", "scenes"))
     assert "pip install no-such-package==1" in printed
     assert "pip install no-such-package==1" in page
     for method in METHODS.values():
@@ -127,7 +128,10 @@ def test_parts_print_what_was_asked_for(folder, capsys):
 def test_page_is_of_all_methods(folder, capsys):
     with pytest.raises(SystemExit):
         accuracy.main(["--write", "--method", "slope"])
-    assert "leave --method out" in capsys.readouterr().err
+    assert "is about all methods" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        accuracy.main(["--write", "--real"])
+    assert "needs --isprs --real or --scenes --sensitivity" in capsys.readouterr().err
 
 
 def test_no_data_is_said(tmp_path, monkeypatch, capsys):
