@@ -17,7 +17,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import Cells
-from .method import Method, Toolbox
+from .method import Method, Toolbox, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.accept import NearSurface
@@ -91,15 +91,10 @@ class GridMinimum(ParameterSet):
         help="Sets the fields that are left empty, to values that suit most land (automatic) or a"
         " kind of terrain. The log says which values were used.",
     )
-    cell_size: float | None = parameter(
-        None,
-        label="Cell size",
-        unit="m",
-        minimum=0.01,
-        maximum=100.0,
-        kind="number",
-        empty="automatic",
-        help="Side of the square cells whose lowest points are compared. Smaller cells follow"
+    cell_size: float | None = of_preset(
+        "Cell size",
+        (0.01, 100.0),
+        "Side of the square cells whose lowest points are compared. Smaller cells follow"
         " finer terrain if they hold at least one point, but have more rims at low plants. Empty:"
         " from the preset, or larger if points are too sparse for it.",
     )
@@ -114,51 +109,32 @@ class GridMinimum(ParameterSet):
         help="One pass for each threshold, the largest first. If two neighbouring cells differ by"
         " more than the threshold, the higher one is the rim of an object. Empty: from the preset.",
     )
-    final_height: float | None = parameter(
-        None,
-        label="Final height",
-        unit="m",
-        minimum=0.01,
-        maximum=100.0,
-        kind="number",
-        empty="automatic",
-        help="The last pass removes whatever stands this far above the ground beside it: bushes,"
+    final_height: float | None = of_preset(
+        "Final height",
+        (0.01, 100.0),
+        "The last pass removes whatever stands this far above the ground beside it: bushes,"
         " cars, walls. A larger value keeps more of rough ground. Empty: from the preset.",
     )
-    max_object_size: float | None = parameter(
-        None,
-        label="Maximum object size",
-        unit="m",
-        minimum=0.1,
-        maximum=1000.0,
-        kind="number",
-        empty="automatic",
-        help="Shorter side of the largest building. Anything wider is terrain. Empty: from the"
-        " preset.",
+    max_object_size: float | None = of_preset(
+        "Maximum object size",
+        (0.1, 1000.0),
+        "Shorter side of the largest building. Anything wider is terrain. Empty: from the preset.",
     )
-    ground_tolerance: float | None = parameter(
-        None,
-        label="Ground tolerance",
-        unit="m",
-        minimum=0.0,
-        maximum=10.0,
-        kind="number",
-        empty="automatic",
-        advanced=True,
-        help="In level terrain, points up to this height above the surface of the ground are"
+    ground_tolerance: float | None = of_preset(
+        "Ground tolerance",
+        (0.0, 10.0),
+        "In level terrain, points up to this height above the surface of the ground are"
         " ground. Empty: from the preset.",
-    )
-    slope_tolerance: float | None = parameter(
-        None,
-        label="Ground tolerance on slopes",
-        minimum=0.0,
-        maximum=10.0,
-        kind="number",
-        empty="automatic",
         advanced=True,
-        help="This share of the rise of the ground from point to point, over at most a metre, is"
+    )
+    slope_tolerance: float | None = of_preset(
+        "Ground tolerance on slopes",
+        (0.0, 10.0),
+        "This share of the rise of the ground from point to point, over at most a metre, is"
         " added to the ground tolerance. In the paper's preset it is a share of the rise over one"
         " cell. Empty: from the preset.",
+        unit="",
+        advanced=True,
     )
 
     def __post_init__(self) -> None:

@@ -9,7 +9,7 @@ from typing import Any, Callable, Mapping, NamedTuple
 
 import numpy as np
 
-from ..core.parameters import ParameterSet
+from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..grids.cells import Cells
@@ -124,6 +124,13 @@ class Method(NamedTuple):
         ):
             size = min(size, _USUAL_OBJECT)
         return size, labels[self.size_parameter]
+
+
+def of_preset(label: str, limits: tuple[float, float], help: str, **more: Any) -> Any:
+    """Declare a number that follows from the preset where it is empty, by default in metres."""
+    least, most = limits
+    values = {"unit": "m", "kind": "number", "empty": "automatic", **more}
+    return parameter(None, label=label, minimum=least, maximum=most, help=help, **values)
 
 
 def warn_of_extent(points: Points, largest: float, name: str, progress: Progress) -> None:

@@ -18,7 +18,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
-from .method import Method, Toolbox
+from .method import Method, Toolbox, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.breaks import Plants
@@ -86,15 +86,10 @@ class SlopeFilter(ParameterSet):
         " buildings as well as shrubs. Whitebox is the classic filter with the values of"
         " WhiteboxTools: within its radius of 2 m it cannot find a building.",
     )
-    search_radius: float | None = parameter(
-        None,
-        label="Search radius",
-        unit="m",
-        minimum=0.1,
-        maximum=500.0,
-        kind="number",
-        empty="automatic",
-        help="Points are compared with their neighbours up to this distance. Choose at least half"
+    search_radius: float | None = of_preset(
+        "Search radius",
+        (0.1, 500.0),
+        "Points are compared with their neighbours up to this distance. Choose at least half"
         " the shorter side of the largest building. Empty: from the preset, 18 m in the automatic"
         " one (more if points are sparse), 2 m in Whitebox.",
     )
@@ -107,27 +102,18 @@ class SlopeFilter(ParameterSet):
         help="A point with fewer neighbours within the search radius is compared with this many"
         " nearest points. Only for the preset Whitebox.",
     )
-    slope_threshold: float | None = parameter(
-        None,
-        label="Slope threshold",
-        unit="deg",
-        minimum=0.0,
-        maximum=88.0,
-        kind="number",
-        empty="automatic",
-        help="A point is not ground if it stands above a neighbour at a steeper slope than this."
+    slope_threshold: float | None = of_preset(
+        "Slope threshold",
+        (0.0, 88.0),
+        "A point is not ground if it stands above a neighbour at a steeper slope than this."
         " In all presets but Whitebox, the slope of the terrain around the point is added to it."
         " Empty: from the preset, 15 deg in most, 45 deg in Whitebox.",
+        unit="deg",
     )
-    height_threshold: float | None = parameter(
-        None,
-        label="Height threshold",
-        unit="m",
-        minimum=0.0,
-        maximum=100.0,
-        kind="number",
-        empty="automatic",
-        help="A point is not ground only if it stands at least this high above a neighbour. Empty:"
+    height_threshold: float | None = of_preset(
+        "Height threshold",
+        (0.0, 100.0),
+        "A point is not ground only if it stands at least this high above a neighbour. Empty:"
         " from the preset, 0.5 m in most, 1 m in Whitebox.",
     )
     slope_norm: bool = parameter(
@@ -136,28 +122,18 @@ class SlopeFilter(ParameterSet):
         help="Compares heights above a surface that follows the terrain (white top-hat), not"
         " elevations, so that ground on slopes is not lost.",
     )
-    cell_size: float | None = parameter(
-        None,
-        label="Cell size",
-        unit="m",
-        minimum=0.05,
-        maximum=50.0,
-        kind="number",
-        empty="automatic",
-        advanced=True,
-        help="Side of the cells whose lowest points are compared. Not used with the preset"
+    cell_size: float | None = of_preset(
+        "Cell size",
+        (0.05, 50.0),
+        "Side of the cells whose lowest points are compared. Not used with the preset"
         " Whitebox. Empty: the usual distance between points, at least 1 m (0.5 m in the preset for"
         " sites).",
+        advanced=True,
     )
-    max_building_size: float | None = parameter(
-        None,
-        label="Maximum building size",
-        unit="m",
-        minimum=0.1,
-        maximum=500.0,
-        kind="number",
-        empty="automatic",
-        help="Shorter side of the largest building. Buildings wider than two search radii are"
+    max_building_size: float | None = of_preset(
+        "Maximum building size",
+        (0.1, 500.0),
+        "Shorter side of the largest building. Buildings wider than two search radii are"
         " found by the drop on all their sides. Empty: from the preset, or two search radii if the"
         " search radius is given. Not used with the preset Whitebox.",
     )

@@ -18,7 +18,7 @@ from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
 from ..grids.model_key_points import ModelKeyPoints
-from .method import Method, Toolbox
+from .method import Method, Toolbox, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
@@ -80,15 +80,10 @@ class TinDensification(ParameterSet):
         help="Sets the fields that are left empty: from the points (automatic), or to values that"
         " suit a kind of terrain. The log says which values were used.",
     )
-    max_building_size: float | None = parameter(
-        None,
-        label="Maximum building size",
-        unit="m",
-        minimum=1.0,
-        maximum=500.0,
-        kind="number",
-        empty="automatic",
-        help="Shorter side of the largest building or other object. Nothing that is narrower and"
+    max_building_size: float | None = of_preset(
+        "Maximum building size",
+        (1.0, 500.0),
+        "Shorter side of the largest building or other object. Nothing that is narrower and"
         " stands out from its surroundings can be a seed of the ground. A value that is too large"
         " takes longer and loses sharp hilltops. Empty: from the preset.",
     )
@@ -101,40 +96,26 @@ class TinDensification(ParameterSet):
         help="Steepest slope of the ground. In steeper triangles, the mirror image of a point"
         " beyond the nearest vertex is judged in its place.",
     )
-    iteration_angle: float | None = parameter(
-        None,
-        label="Iteration angle",
-        unit="deg",
-        minimum=0.1,
-        maximum=90.0,
-        kind="number",
-        empty="automatic",
-        help="Largest angle between a triangle and the line from one of its corners to a new"
+    iteration_angle: float | None = of_preset(
+        "Iteration angle",
+        (0.1, 90.0),
+        "Largest angle between a triangle and the line from one of its corners to a new"
         " point. A larger angle follows rugged ground better, a smaller one keeps low objects out:"
         " 4 deg in flat terrain, 10 deg and more in steep terrain. Empty: from the preset.",
+        unit="deg",
     )
-    iteration_distance: float | None = parameter(
-        None,
-        label="Iteration distance",
-        unit="m",
-        minimum=0.01,
-        maximum=50.0,
-        kind="number",
-        empty="automatic",
-        help="Largest distance of a new point from its triangle. Empty: from the preset.",
+    iteration_distance: float | None = of_preset(
+        "Iteration distance",
+        (0.01, 50.0),
+        "Largest distance of a new point from its triangle. Empty: from the preset.",
     )
-    cell_size: float | None = parameter(
-        None,
-        label="Cell size",
-        unit="m",
-        minimum=0.1,
-        maximum=50.0,
-        kind="number",
-        empty="automatic",
-        advanced=True,
-        help="Side of the cells whose lowest points may become vertices of the TIN; at least the"
+    cell_size: float | None = of_preset(
+        "Cell size",
+        (0.1, 50.0),
+        "Side of the cells whose lowest points may become vertices of the TIN; at least the"
         " usual distance between points. Smaller cells keep narrow banks and sharp edges, but under"
         " trees also more plants. Empty: from the preset.",
+        advanced=True,
     )
     reduce_angle_edge: float | None = parameter(
         5.0,
