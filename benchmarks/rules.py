@@ -14,6 +14,7 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import Method
 from bare_earth.algorithms.filters.pipeline import Pipeline, Rule
+from bare_earth.algorithms.filters.stages.densify import Densification
 from bare_earth.algorithms.filters.stages.objects import RaisedObjects
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
 from bare_earth.algorithms.filters.stages.seeds import LowestPoints
@@ -30,7 +31,6 @@ GROUPS = {
         "isolated-low-points",
 
     ),
-    "all plateaus": ("plateaus", "cut-plateaus"),
     "checks of seeds": ("plants", "level-seeds"),
     "kinds of tolerance": ("measured-noise", "breaks"),
 }  # fmt: skip
@@ -39,6 +39,10 @@ VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
     "one grid": (LowestPoints, {"grids": 1}),
     "objects on the cells of the filter": (RaisedObjects, {"wide": None}),
     "low and wide objects": (RaisedObjects, {"steepness": 0.0}),
+    "windows for halls as for houses": (ProgressiveOpening, {"usual_window": np.inf}),
+    "large windows in woods": (ProgressiveOpening, {"crown": np.inf}),
+    "vertices without a level neighbour": (Densification, {"level": None}),
+    "vertices in woods": (Densification, {"in_woods": True}),
     "nothing beyond the survey": (ProgressiveOpening, {"level_beyond": False}),
     "gaps are not judged": (GentleRegions, {"judges_gaps": False}),
 }

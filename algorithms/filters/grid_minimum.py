@@ -211,7 +211,7 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
 def _classic(resolved: GridMinimum) -> Pipeline:
     """Return the rules of the paper's preset."""
     heights = resolved.height_thresholds
-    objects = RaisedObjects(resolved.max_object_size, heights, whole_share=0.4, plateaus=None)
+    objects = RaisedObjects(resolved.max_object_size, heights, whole_share=0.4, plateau_height=None)
     return Pipeline(
         (
             LowestPoints(size=resolved.cell_size),

@@ -11,6 +11,7 @@ algorithm for airborne LiDAR data in forested areas. ISPRS Journal 117, 79-91.
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 
 from ..core.parameters import ParameterSet, parameter, parameter_of
@@ -26,7 +27,7 @@ from .stages.breaks import Plants
 from .stages.densify import Densification
 from .stages.landforms import LowBanks
 from .stages.objects import RaisedObjects
-from .stages.opening import CutPlateaus, ProgressiveOpening
+from .stages.opening import ProgressiveOpening
 from .stages.outliers import NarrowPits
 from .stages.seeds import KnownGround, LowestPoints, Seeds
 from .stages.terrain import GentleBorder, GentleRegions
@@ -258,7 +259,7 @@ def _classic(resolved: TinDensification) -> Pipeline:
         heights=(5.0, 4.5, 2.0),
         whole_share=0.4,
         wide=None,
-        plateaus=None,
+        plateau_height=None,
         narrow_pits=pits,
     )
     return Pipeline(
@@ -266,8 +267,7 @@ def _classic(resolved: TinDensification) -> Pipeline:
             LowestPoints(size=resolved.cell_size),
             pits,
             objects,
-            ProgressiveOpening(size / 2.0, level_beyond=False, wide_windows=None),
-            CutPlateaus(),
+            ProgressiveOpening(size / 2.0, level_beyond=False, usual_window=math.inf),
             GentleRegions(
                 judges_gaps=False,
                 on_slope=None,
@@ -279,7 +279,7 @@ def _classic(resolved: TinDensification) -> Pipeline:
             ),
             Seeds(objects_wait=True),
             KnownGround(),
-            dataclasses.replace(_densification(resolved), level_neighbour=None),
+            dataclasses.replace(_densification(resolved), level=None),
             PlainSurface(
                 resolved.ground_tolerance,
                 resolved.slope_tolerance,

@@ -8,7 +8,7 @@ import pytest
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.filters.stages.densify import Densification, LevelNeighbour
+from bare_earth.algorithms.filters.stages.densify import Densification
 from bare_earth.algorithms.filters.state import GridState, State
 
 # Every second row is moved by half a spacing: no four vertices lie on one circle.
@@ -18,7 +18,7 @@ INSIDE = np.array([(36.0, 23.5)])
 LONGEST = math.hypot(5.0, 10.0)
 RULES = Densification(
     iteration_angle=90.0, iteration_distance=50.0, max_terrain_angle=89.0,
-    reduce_angle_edge=None, stop_edge=None, noise_distance=0.0, level_neighbour=None,
+    reduce_angle_edge=None, stop_edge=None, noise_distance=0.0, level=None,
 )  # fmt: skip
 
 
@@ -110,7 +110,7 @@ def test_beyond_a_facet_that_is_too_steep_the_mirror_image_is_judged():
 
 def test_far_from_the_surface_a_point_needs_a_neighbour_at_its_level():
     two = np.array([(33.0, 23.0), (35.0, 23.0)])  # in cells side by side
-    rules = {"level_neighbour": LevelNeighbour(0.3), "noise_distance": 0.2}
+    rules = {"level": 0.3, "noise_distance": 0.2}
     alone = plane(two[:1]) + 1.0
     assert joining(two[:1], alone).all()
     assert not joining(two[:1], alone, **rules).any()

@@ -7,7 +7,6 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters.stages.opening import (
     CutPlateaus,
     ProgressiveOpening,
-    WideWindows,
 )
 from bare_earth.algorithms.filters.stages.terrain import GentleBorder, GentleRegions
 from bare_earth.algorithms.filters.state import GridState
@@ -141,7 +140,7 @@ def test_a_spur_is_ground_and_a_hall_on_a_gentle_slope_is_not():
     spur = 0.7 * (columns - 0.5 * np.abs(rows))
     uncut = _ground(spur, window=75.0, area=1e9, rocks=None)
     assert uncut[20:-20, 20:-20].mean() > 0.99
-    opening = ProgressiveOpening(75.0, wide_windows=WideWindows(per_slope=0.0))
+    opening = ProgressiveOpening(75.0, hall_per_slope=0.0)
     regions = GentleRegions(area=1e9, rocks=None)
     cut = ground_of(grid_of(spur), opening=opening, regions=regions)
     assert cut[20:-20, 20:-20].mean() < 0.9

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.filters.stages.height_steps import HeightSteps
-from bare_earth.algorithms.filters.stages.objects import Plateaus, RaisedObjects
+from bare_earth.algorithms.filters.stages.objects import RaisedObjects
 from bare_earth.algorithms.filters.state import covered
 from bare_earth.algorithms.grids.height_grid import HeightGrid
 from bare_earth.algorithms.grids.trend import Trend, between_blocks
 
 # Low drops are not searched, nor what they bound.
-PLATEAUS = Plateaus(height=np.inf)
+PLATEAU_HEIGHT = np.inf
 
 
 def plain(side: int = 60, slope: float = 0.0) -> np.ndarray:
@@ -25,7 +25,7 @@ def steps(heights: np.ndarray) -> HeightSteps:
 
 def raised_objects(heights, size, thresholds, max_size, **values):
     """Return the objects on a grid; plateaus only of the drops given."""
-    rule = RaisedObjects(max_size, thresholds, **{"plateaus": PLATEAUS, **values})
+    rule = RaisedObjects(max_size, thresholds, **{"plateau_height": PLATEAU_HEIGHT, **values})
     return rule.find(HeightGrid(heights, size))
 
 

@@ -21,7 +21,7 @@ from ...grids.cells import Cells, first_of_each
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
 from ...grids.tin import Tin
-from ..pipeline import PointRule, Rule, Stage
+from ..pipeline import PointRule, Stage
 from ..state import State
 
 # Metres between the virtual points round the survey.
@@ -34,26 +34,6 @@ _MOST_VERTICES_ROUND = 4
 
 # Most rounds. In each place they end when no point is added: rounds far away must not matter.
 _MOST_ROUNDS = 8
-
-
-@dataclass(frozen=True)
-class LevelNeighbour(Rule):
-    """A condition: one of the eight cells round a candidate is level with it."""
-
-    # Ground continues, but bushes below trees have points at any height.
-
-    stage: ClassVar = Stage.SURFACE
-
-    level: float = 0.3  # metres, apart from the rise of the seeds' surface
-
-
-@dataclass(frozen=True)
-class OutsideWoods(Rule):
-    """A condition: a candidate does not lie under trees."""
-
-    # Bush by bush, the TIN would climb what grows there.
-
-    stage: ClassVar = Stage.SURFACE
 
 
 @dataclass(frozen=True)
@@ -75,20 +55,22 @@ class Densification(PointRule):
     reduce_angle_edge: float | None = 5.0
     stop_edge: float | None = 2.0  # triangles whose longest edge is shorter take no point
     noise_distance: float = 0.3  # a point so close to the facet is taken at any angle
-    level_neighbour: LevelNeighbour | None = LevelNeighbour()
-    outside_woods: OutsideWoods | None = OutsideWoods()
+    # One of the eight cells round a candidate is level with it, within so many metres beside the
+    # rise of the surface: ground continues, but bushes below trees have points at any height.
+    level: float | None = 0.3
+    in_woods: bool = False  # under trees the TIN would climb what grows there, bush by bush
 
     def apply(self, state: State) -> None:
         """Let waiting points in gaps between vertices join the seeds."""
         points, cells, waiting = state.points, state.grids[0].cells, state.waiting
-        if self.outside_woods:
+        if not self.in_woods:
             waiting = waiting[~state.grids[0].woods.ravel()[cells.index[waiting]]]
         heights = cells.minimum(points.z, state.seeds)
         surface, holding = inpaint(heights, first=cells.first), np.isfinite(heights)
         may_join = _counts_round(holding) <= _MOST_VERTICES_ROUND
-        if self.level_neighbour:
+        if self.level is not None:
             above = with_lower(heights, cells, points, waiting) - surface
-            may_join &= _has_level_neighbour(above, self.level_neighbour.level) | (
+            may_join &= _has_level_neighbour(above, self.level) | (
                 np.abs(above) <= self.noise_distance
             )
         waiting = waiting[may_join.ravel()[cells.index[waiting]]]

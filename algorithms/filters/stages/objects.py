@@ -18,7 +18,7 @@ from ...grids.cells import Cells, usual_count
 from ...grids.gradient import steepness
 from ...grids.height_grid import HeightGrid
 from ...grids.inpaint import inpaint
-from ..pipeline import GridRule, PointRule, Rule, Stage
+from ..pipeline import GridRule, PointRule, Stage
 from ..state import GridState, State, covered
 from .height_steps import HeightSteps
 from .outliers import NarrowPits
@@ -37,17 +37,6 @@ class Objects(NamedTuple):
     # bool: Cells of regions that are too low for their width to be objects for certain: a roof, or
     # a mound.
     plateaus: np.ndarray
-
-
-@dataclass(frozen=True)
-class Plateaus(Rule):
-    """Regions bounded by low drops are plateaus: they are objects if an opening cuts off part."""
-
-    stage: ClassVar = Stage.OBJECTS
-
-    # Least height in metres of the drops round a plateau: a hall may be so low above the ground
-    # uphill. The cells must be so wide that most points on its walls share a cell with the ground.
-    height: float = 1.2
 
 
 @dataclass(frozen=True)
@@ -77,7 +66,10 @@ class RaisedObjects(GridRule):
     # the cells of the grid everywhere.
     wide: float | None = 2.0
     dense: float = 0.8
-    plateaus: Plateaus | None = Plateaus()
+    # Least height in metres of the drops round a plateau: a hall may be so low above the ground
+    # uphill. The cells must be so wide that most points on its walls share a cell with the ground.
+    # None for no plateaus.
+    plateau_height: float | None = 1.2
     narrow_pits: NarrowPits | None = NarrowPits()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
@@ -114,14 +106,14 @@ class RaisedObjects(GridRule):
         for done, height in enumerate(self.heights, start=1):
             regions = HeightSteps(rest, inside).regions(height)
             found = self.bounded(regions)
-            if self.plateaus:
+            if self.plateau_height is not None:
                 plateaus |= self.plateaus_of(regions)
             rest.values[found] = np.nan
             objects |= found
             progress(done / len(self.heights))
-        if self.plateaus:
+        if self.plateau_height is not None:
             steps = HeightSteps(rest, inside)
-            plateaus |= self.plateaus_of(steps.regions(self.plateaus.height))
+            plateaus |= self.plateaus_of(steps.regions(self.plateau_height))
         return Objects(objects, plateaus & ~objects)
 
     def bounded(self, regions: Regions) -> np.ndarray:

@@ -22,7 +22,7 @@ from ...core.progress import SILENT, Progress
 from ...grids.gradient import gradient
 from ...grids.height_grid import HeightGrid
 from ...grids.morphology import erosion, in_steps, opening, within_square
-from ..pipeline import GridRule, Rule, Stage
+from ..pipeline import GridRule, Stage
 from ..state import GridState
 from .terrain import slope_at, smoothed
 
@@ -32,35 +32,6 @@ _TOGETHER = 4
 _RADII = ((1, 1, 24), (2, 26, 48), (4, 52, 10_000))
 # Radii grow by this factor from scale to scale: the area of the disc doubles.
 _SCALE_STEP = math.sqrt(2.0)
-
-
-@dataclass(frozen=True)
-class WideWindows(Rule):
-    """Windows wider than those for houses cut off halls only."""
-
-    stage: ClassVar = Stage.OPENING
-
-    usual_window: float = 24.0  # largest radius in metres of the usual windows
-    height: float = 2.5  # least height in metres that wider windows cut off
-    # Metres that each metre of their radius adds to it on a slope of 45 degrees: a wide window cuts
-    # off a steep slope where its contours bend.
-    per_slope: float = 0.1
-
-
-@dataclass(frozen=True)
-class CrownWindows(Rule):
-    """In woods, windows are no larger than crowns."""
-
-    # Where hardly a pulse reaches the ground, larger windows cut ridges off.
-
-    stage: ClassVar = Stage.OPENING
-
-    radius: float = 11.0  # radius in metres of a large crown
-    edge: float = 5.0  # within so many metres of the edge of a wood, houses may stand
-
-    def where(self, grid: GridState) -> np.ndarray:
-        """Return the cells in which large windows do not count; boolean, shape (rows, columns)."""
-        return within_square(np.minimum, grid.woods, int(np.ceil(self.edge / grid.cells.size)))
 
 
 @dataclass(frozen=True)
@@ -88,8 +59,16 @@ class ProgressiveOpening(GridRule):
     steepest: float = 0.6
     # Whether heights beyond the survey are those of its border, not filled smoothly.
     level_beyond: bool = True
-    wide_windows: WideWindows | None = WideWindows()
-    crown_windows: CrownWindows | None = CrownWindows()
+    # Windows of a larger radius than for houses, in metres, cut off halls only: what is so many
+    # metres high, and so many more for each metre of their radius on a slope of 45 degrees, where a
+    # wide window cuts off land whose contours bend.
+    usual_window: float = 24.0
+    hall: float = 2.5
+    hall_per_slope: float = 0.1
+    # In woods, windows are no larger than crowns of this radius in metres, but so near the edge,
+    # where houses may stand: where hardly a pulse reaches the ground, larger ones cut ridges off.
+    crown: float = 11.0
+    wood_edge: float = 5.0
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Raise the cells that stand out, and the objects."""
@@ -98,7 +77,7 @@ class ProgressiveOpening(GridRule):
         size, filled = grid.cells.size, grid.filled
         # Squares of cells begin at multiples of their side, wherever the grid starts.
         south, west = (start % _TOGETHER for start in grid.heights.origin)
-        within = self.crown_windows.where(grid) if self.crown_windows else grid.woods
+        within = within_square(np.minimum, grid.woods, math.ceil(self.wood_edge / size))
         padded, within = (
             np.pad(cells, ((south, 0), (west, 0)), mode="edge") for cells in (filled, within)
         )
@@ -138,7 +117,7 @@ class ProgressiveOpening(GridRule):
             else:
                 which = np.flatnonzero(cut > least)
                 cut = cut.ravel().take(which)
-            if self.crown_windows and metres > self.crown_windows.radius:
+            if metres > self.crown:
                 outside = ~within.ravel().take(which)
                 which, cut = which[outside], cut[outside]
             lost = cut * np.float32(step)
@@ -150,10 +129,9 @@ class ProgressiveOpening(GridRule):
 
     def _limit(self, lost: np.ndarray, radius: float) -> np.ndarray:
         """Return the terrain's slope below which cells stand out that lose some metres."""
-        wide = self.wide_windows
-        if wide and radius > wide.usual_window:
-            slope = lost - np.float32(wide.height)
-            slope /= np.float32(max(wide.per_slope * radius, 1e-6))
+        if radius > self.usual_window:
+            slope = lost - np.float32(self.hall)
+            slope /= np.float32(max(self.hall_per_slope * radius, 1e-6))
             slope[slope <= 0.0] = -np.inf
             return slope
         level = self.base + self.per_radius * radius
