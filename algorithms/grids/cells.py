@@ -70,6 +70,29 @@ class Cells:
         over_parts(fill, points.count, _POINTS_A_PART, SILENT)
         return cls(size, first_row, first_column, rows, columns, index)
 
+    def wider(self, points: Points, size: float) -> Cells:
+        """Return cells of another size over the same points; from cells without a shift, whose side
+        is a part of that size, it takes a fifth of the time of `over`.
+        """
+        side = round(size / self.size)
+        if side * self.size != size:
+            return Cells.over(points, size)
+        (first_row, last_row), (first_column, last_column) = (
+            (first // side, (first + count - 1) // side)
+            for first, count in zip(self.first, self.shape)
+        )
+        rows, columns = last_row - first_row + 1, last_column - first_column + 1
+        row = (self.first_row + np.arange(self.rows)) // side - first_row
+        column = (self.first_column + np.arange(self.columns)) // side - first_column
+        wide = (row[:, None] * columns + column).astype(np.int32).ravel()
+        index = np.empty_like(self.index)
+
+        def fill(part: slice) -> None:
+            index[part] = wide.take(self.index[part])
+
+        over_parts(fill, points.count, _POINTS_A_PART, SILENT)
+        return Cells(size, first_row, first_column, rows, columns, index)
+
     @property
     def first(self) -> tuple[int, int]:
         """The row and the column at which the grid begins."""
@@ -93,16 +116,20 @@ class Cells:
         """Return the index of the lowest point of each occupied cell, in the order of the cells."""
         # If several points of a cell are equally low, the one with the smallest x, then y, is
         # taken: the choice must not depend on the order of the points.
-        lowest = self.minimum(points.z).ravel()
-        is_lowest = np.empty(points.count, dtype=bool)
-
-        def compare(part: slice) -> None:
-            np.equal(points.z[part], lowest[self.index[part]], out=is_lowest[part])
-
-        over_parts(compare, points.count, _POINTS_A_PART, SILENT)
-        which = np.flatnonzero(is_lowest)
+        lowest = np.full(self.rows * self.columns, np.inf)
+        which = lower_at(lowest, self.index, points.z)
+        z = points.z[which]
+        which = which[(z == lowest.take(self.index[which])) & np.isfinite(z)]
+        index, found = self.index[which], np.full(lowest.size, -1, dtype=np.intp)
+        found[index] = which
+        # Only few cells have several: the keys of others need not be compared.
+        several = np.zeros(lowest.size, dtype=bool)
+        several[index[found.take(index) != which]] = True
+        which = which[several.take(index)]
         keys = points.x[which], points.y[which]
-        return which[first_of_each(self.index[which], lowest.size, *keys)]
+        which = which[first_of_each(self.index[which], lowest.size, *keys)]
+        found[self.index[which]] = which
+        return found[found >= 0]
 
     @cached_property
     def counts(self) -> np.ndarray:
@@ -226,20 +253,24 @@ def numbered(counts: np.ndarray) -> np.ndarray:
     return np.arange(int(counts.sum())) - np.repeat(starts, counts)
 
 
-def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> None:
+def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Lower each element of an array in place to the least of the values (n,) whose index (n,) it
-    is, as `numpy.minimum.at`.
+    is, as `numpy.minimum.at`; return where in `values` the least are, and some others.
     """
+    found = [np.empty(0, dtype=np.intp)]
     for part in parts_of(len(index), _VALUES_A_PART):
         left, some = index[part], values[part]
+        lower = np.flatnonzero(some <= target.take(left))
+        found.append(lower + part.start)
         for _ in range(_ROUNDS):
-            lower = np.flatnonzero(some < target.take(left))
             if not len(lower):
                 break
             left, some = left.take(lower), some.take(lower)
             target[left] = some  # of several values for one element, the last one
+            lower = np.flatnonzero(some < target.take(left))
         else:
             np.minimum.at(target, left, some)
+    return np.concatenate(found)
 
 
 def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> float:

@@ -148,7 +148,7 @@ def test_land_behind_a_dam_is_not_below_water():
     points, _ = lake(0.1, 0.0, behind_dam=True)
     lowest = Cells.over(points, 1.0).lowest_points(points)
     for size in BelowWater().sizes:
-        assert not BelowWater().find(points, lowest, 1.0, size).any()
+        assert not BelowWater().find(points, lowest, 1.0, Cells.over(points, size)).any()
 
 
 @pytest.mark.parametrize("method", METHODS)

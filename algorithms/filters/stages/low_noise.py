@@ -109,6 +109,7 @@ class LowGroups(PointRule):
         near[rows, columns] = True
         near = within_square(np.maximum, near.view(np.uint8), reach).astype(bool)
         which = cells.points_in(near)
+        which = which[np.isfinite(points.z[which])]
         order = np.argsort(cells.index[which], kind="stable")
         which, index = which[order], cells.index[which[order]]
         for group, row, column in zip(groups, rows.tolist(), columns.tolist()):
@@ -147,14 +148,11 @@ class WideLowGroups(LowGroups):
 
     def apply(self, state: State) -> None:
         """Add the groups to the low noise."""
-        known = np.flatnonzero(np.isfinite(state.points.z))
-        if not len(known):
-            return
-        points = state.points.take(known)
-        cells = Cells.over(points, max(self.cell, self.spacings * state.spacing))
-        found = np.zeros(state.points.count, dtype=bool)
-        found[known] = self.find(points, (cells, cells.lowest_points(points)))
-        state.add_low_noise(found)
+        points, grid = state.points, state.grids[0]
+        cells = grid.cells.wider(points, max(self.cell, self.spacings * state.spacing))
+        index, some = cells.index[grid.lowest], points.take(grid.lowest)
+        first = first_of_each(index, cells.rows * cells.columns, some.z, some.x, some.y)
+        state.add_low_noise(self.find(points, (cells, grid.lowest[first])))
 
     def is_group(self, group: Group, points: Points, members: np.ndarray) -> bool:
         """Return whether points beside a group, of which some are its members, confirm it."""
@@ -224,27 +222,27 @@ class BelowWater(PointRule):
     def apply(self, state: State) -> None:
         """Add the points below water to the low noise."""
         for size in self.sizes:
-            lowest, points = state.grids[0].lowest, state.points
-            lowest = lowest[np.isfinite(points.z[lowest])]
-            state.add_low_noise(self.find(points, lowest, state.spacing, size))
+            grid = state.grids[0]
+            width = size * max(_CELL, state.spacing)
+            cells = grid.cells.wider(state.points, width)
+            found = self.find(state.points, grid.lowest, state.spacing, cells)
+            state.add_low_noise(found)
 
-    def find(self, points: Points, lowest: np.ndarray, spacing: float, size: float) -> np.ndarray:
-        """Return which points (n,) lie below water, in wide cells of so many metres, or spacings if
-        that is more; infinitely high points do not count.
+    def find(self, points: Points, lowest: np.ndarray, spacing: float, cells: Cells) -> np.ndarray:
+        """Return which points (n,) lie below water, given the lowest points of narrow cells and the
+        wide cells to look at; infinitely high points do not count.
         """
         # The highest of the lowest points of narrow cells in each wide cell is one of the surface;
         # the level of the water is where most of these are close together.
         from scipy import ndimage
 
-        cells = Cells.over(points, size * max(_CELL, spacing))
-
-        def density(which: np.ndarray) -> np.ndarray:
+        def density(counts: np.ndarray) -> np.ndarray:
             """Return the share of the usual number of points in each cell and those round it."""
-            count = np.bincount(cells.index[which], minlength=cells.rows * cells.columns)
-            share = count.reshape(cells.shape) * (spacing / cells.size) ** 2
+            share = counts * (spacing / cells.size) ** 2
             return ndimage.uniform_filter(share, 3, mode="nearest")
 
-        looked_at = density(np.isfinite(points.z)) < self.sparse
+        is_finite = np.isfinite(points.z)
+        looked_at = density(cells.counts_of(None if is_finite.all() else is_finite)) < self.sparse
         looked_at &= self._deep(points, cells, lowest)
         if not looked_at.any():
             return np.zeros(points.count, dtype=bool)
@@ -260,8 +258,13 @@ class BelowWater(PointRule):
             np.where(np.isfinite(limit), limit, within_square(np.maximum, limit, cells_away))
             for cells_away in (1, 2)
         )
-        below, wider = (points.z < each.ravel().take(cells.index) for each in (near, far))
-        return below & (density(wider) < self.most).ravel().take(cells.index)
+        which = cells.points_in(np.isfinite(far))
+        z, index = points.z[which], cells.index[which]
+        below, wider = (z < each.ravel().take(index) for each in (near, far))
+        counts = np.bincount(index[wider], minlength=far.size).reshape(far.shape)
+        found = np.zeros(points.count, dtype=bool)
+        found[which] = below & (density(counts) < self.most).ravel().take(index)
+        return found
 
     def _deep(self, points: Points, cells: Cells, lowest: np.ndarray) -> np.ndarray:
         """Return the cells with points that lie below the highest beside; shape (rows, columns)."""
