@@ -225,10 +225,13 @@ def add_scheduler(parser: argparse.ArgumentParser) -> None:
 
 def workers_of(options: argparse.Namespace, resources: Resources) -> Workers:
     """Return the workers for many files: a cluster, or this computer."""
-    from ..engine.cluster import Cluster
+    if options.scheduler:
+        from ..engine.cluster import Cluster
+
+        return Cluster(options.scheduler, resources)
     from ..engine.workers import Local
 
-    return Cluster(options.scheduler, resources) if options.scheduler else Local(resources)
+    return Local(resources)
 
 
 def tell_of_survey(options: argparse.Namespace, summary: SurveySummary) -> int:

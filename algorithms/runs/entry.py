@@ -6,14 +6,12 @@ Here it is decided whether a run works on one file, or on many files as one surv
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Iterable, Union
+from typing import TYPE_CHECKING, Any, Iterable, Union
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
-from ..engine.workers import Workers
 from ..steps.raster_output import RasterSize
 from ..survey.files import is_one_file
-from .many_files import classify_files, rasters_of_files, write_files
 from .one_file import classify_file, rasters_of_file, write_points
 from .requests import (
     AboveGroundRequest,
@@ -24,6 +22,9 @@ from .requests import (
     TerrainRequest,
     WaterClassRequest,
 )
+
+if TYPE_CHECKING:
+    from ..engine.workers import Workers
 
 Sources = Union[str, Path, Iterable[Union[str, Path]]]
 
@@ -80,6 +81,8 @@ def classify(
     paths, target = _paths(sources), Path(output)
     if _is_one(paths, as_survey):
         return classify_file(paths[0], target, request, progress)
+    from .many_files import classify_files
+
     return classify_files(paths, target, request, progress, workers, vpc)
 
 
@@ -249,6 +252,8 @@ def terrain(
     request.rasters.check(tuple(paths))
     if _is_one(paths):
         return rasters_of_file(paths[0], request, progress)
+    from .many_files import rasters_of_files
+
     return rasters_of_files(paths, request, progress, workers)
 
 
@@ -265,6 +270,8 @@ def write(
     paths, target = _paths(sources), Path(output)
     if _is_one(paths, as_survey):
         return write_points(paths[0], target, request, progress)
+    from .many_files import write_files
+
     return write_files(paths, target, [request.step], request, progress, workers, vpc)
 
 
