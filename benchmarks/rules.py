@@ -40,6 +40,7 @@ VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
     "objects on the cells of the filter": (RaisedObjects, {"wide": None}),
     "low and wide objects": (RaisedObjects, {"steepness": 0.0}),
     "windows for halls as for houses": (ProgressiveOpening, {"usual_window": np.inf}),
+    "plateaus are not cut off": (ProgressiveOpening, {"plateau_share": 1.1}),
     "large windows in woods": (ProgressiveOpening, {"crown": np.inf}),
     "vertices without a level neighbour": (Densification, {"level": None}),
     "vertices in woods": (Densification, {"in_woods": True}),

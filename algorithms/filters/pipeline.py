@@ -48,9 +48,7 @@ class Rule:
     # the rule works without it.
 
     stage: ClassVar[Stage]  # when the rule is applied
-    # Fields of the state that the rule uses and changes.
-    reads: ClassVar[tuple[str, ...]] = ()
-    writes: ClassVar[tuple[str, ...]] = ()
+    writes: ClassVar[tuple[str, ...]] = ()  # fields of the state that the rule changes
     name: ClassVar[str]
 
     def __init_subclass__(cls, **keywords: Any) -> None:

@@ -39,7 +39,6 @@ class StandsAbove(PointRule):
     """A point is ground unless it stands far above a neighbour, on one scale."""
 
     stage: ClassVar = Stage.ACCEPTED
-    reads: ClassVar = ("points",)
     writes: ClassVar = ("ground",)
 
     radius: float  # search radius in metres

@@ -2682,10 +2682,6 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Pflanzen oder Ausreißer</translation>
     </message>
     <message>
-        <source>plateaus cut off</source>
-        <translation>angeschnittene Plateaus</translation>
-    </message>
-    <message>
         <source>points</source>
         <translation>Punkte</translation>
     </message>

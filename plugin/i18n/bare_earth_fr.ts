@@ -2682,10 +2682,6 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>plantes ou points aberrants</translation>
     </message>
     <message>
-        <source>plateaus cut off</source>
-        <translation>plateaux entamés</translation>
-    </message>
-    <message>
         <source>points</source>
         <translation>points</translation>
     </message>

@@ -32,7 +32,6 @@ OTHER = {
     "raised-objects": Verdict(mark("raised objects"), "#c8322f"),
     "tall-objects": Verdict(mark("tall objects"), "#c8322f"),
     "progressive-opening": Verdict(mark("cut off by openings"), "#f08c3a"),
-    "cut-plateaus": Verdict(mark("plateaus cut off"), "#7d1538"),
     "steep-rises": Verdict(mark("steep rises"), "#f6cf3f"),
     "rims": Verdict(mark("rims of low objects"), "#8a4fb0"),
     "plants": Verdict(mark("plants or outliers"), "#e07ac0"),

@@ -4,10 +4,7 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.filters.stages.opening import (
-    CutPlateaus,
-    ProgressiveOpening,
-)
+from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
 from bare_earth.algorithms.filters.stages.terrain import GentleBorder, GentleRegions
 from bare_earth.algorithms.filters.state import GridState
 from bare_earth.algorithms.grids.cells import Cells
@@ -32,7 +29,6 @@ def ground_of(grid, window=20.0, opening=None, regions=None):
     """Return the cells that openings and the rules of regions take for ground."""
     rules = (
         opening or ProgressiveOpening(window),
-        CutPlateaus(),
         regions or GentleRegions(),
     )
     for rule in rules:
@@ -57,8 +53,8 @@ def test_a_platform_with_walls_on_three_sides_and_a_ramp_on_the_fourth_is_ground
     rows, columns = np.indices((120, 120))
     ramp = 2.4 * np.clip((74 - rows) / 14.0, 0.0, 1.0)
     heights = np.where((rows >= 50) & (np.abs(columns - 60) < 15), ramp, 0.0)
-    assert _ground(heights, gentle_border=GentleBorder(area=0.0)).all()
-    assert not _ground(heights, gentle_border=GentleBorder(1.1), level_border=None).all()
+    assert _ground(heights, gentle_border=GentleBorder(least_area=0.0)).all()
+    assert not _ground(heights, gentle_border=GentleBorder(shares=(1.1, 1.1))).all()
 
 
 @pytest.mark.parametrize("width, is_ground", [(12.0, False), (30.0, True)])

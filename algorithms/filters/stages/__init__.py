@@ -7,7 +7,7 @@ from .accept import NearSurface
 from .breaks import LevelSeeds, Plants
 from .low_noise import BelowWater, LowGroups, WideLowGroups
 from .objects import RaisedObjects
-from .opening import CutPlateaus, ProgressiveOpening
+from .opening import ProgressiveOpening
 from .outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
 from .seeds import LowestPoints, Woods
 from .terrain import SITE, GentleRegions
@@ -40,7 +40,6 @@ def shared_pipeline(
             objects or RaisedObjects(size),
             ProgressiveOpening(size / 2.0),
             *opening,
-            CutPlateaus(),
             SITE if is_site else GentleRegions(),
             *seeds,
             plants,

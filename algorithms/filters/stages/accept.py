@@ -27,7 +27,6 @@ class NearSurface(PointRule):
     """Points between the limits of the heights of ground are ground."""
 
     stage: ClassVar = Stage.ACCEPTED
-    reads: ClassVar = ("points", "grids", "limits")
     writes: ClassVar = ("ground",)
 
     def apply(self, state: State) -> None:
@@ -41,7 +40,6 @@ class OnlyKeyPoints(PointRule):
     """Of the ground, only the points that a terrain model needs are taken."""
 
     stage: ClassVar = Stage.ACCEPTED
-    reads: ClassVar = ("points", "ground")
     writes: ClassVar = ("ground",)
 
     closeness: ModelKeyPoints  # how close to their TIN all other ground points are

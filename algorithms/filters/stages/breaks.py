@@ -124,7 +124,6 @@ class Plants(PointRule):
     """A seed above the planes of all sides is a plant; one far below all of them an outlier."""
 
     stage: ClassVar = Stage.SEEDS
-    reads: ClassVar = ("points", "grids", "seeds")
     writes: ClassVar = ("seeds", "waiting", "rise")
 
     # Metres above and below. For outliers the misfit of the plane is added; among plants it is
@@ -177,8 +176,6 @@ class Openness(Rule):
 
     # Under trees, plants are level with something, too.
 
-    stage: ClassVar = Stage.SEEDS
-
     # Least share of the points round about that lie near the lowest points of their cells.
     share: float = 0.8
 
@@ -190,7 +187,6 @@ class LevelSeeds(PointRule):
     # It is for grids with gaps between the seeds, in which breaks may be lost.
 
     stage: ClassVar = Stage.SEEDS
-    reads: ClassVar = ("points", "grids", "seeds", "waiting", "rise")
     writes: ClassVar = ("seeds", "waiting")
 
     # Metres from the plane within which a point joins, and the largest misfit of that plane.

@@ -43,7 +43,6 @@ class Densification(PointRule):
     # Axelsson (2000), section 3. Distances are metres, angles degrees.
 
     stage: ClassVar = Stage.SURFACE
-    reads: ClassVar = ("points", "grids", "seeds", "waiting")
     writes: ClassVar = ("seeds", "waiting")
 
     # Largest angle between the facet and the line from one of its corners to the point.

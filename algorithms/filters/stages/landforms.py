@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ...grids.cell_blocks import CellBlocks
 from ...grids.height_grid import HeightGrid
 from ...grids.morphology import within_square
-from ..pipeline import Rule, Stage
+from ..pipeline import Rule
 from .regions import RaisedRegions
 
 
@@ -20,8 +19,6 @@ class OnSlope(Rule):
 
     # Cells without a point do not count, except one among wide cells: their filling makes a slope
     # of any wall. Where narrow cells have no point, blocks of them are tested as well.
-
-    stage: ClassVar = Stage.TERRAIN
 
     # Steps are alike if the smallest is at least this share of the largest. The second is for steps
     # that cross a cell without a point, or are between blocks of cells.
@@ -101,8 +98,6 @@ class Rocks(Rule):
 
     # A roof or a bridge is level; a wood on a slope is equally high above the ground everywhere.
 
-    stage: ClassVar = Stage.TERRAIN
-
     area: float = 200.0  # least area in square metres
     # Least standard deviation in metres of its heights, and of its heights above the ground.
     deviation: float = 5.0
@@ -132,8 +127,6 @@ class LowBanks(Rule):
 
     # Of a hedge or a wall, cells have points on the ground beside it; of a row of cars, they are
     # not even. Platforms of ISPRS sample 42 need it.
-
-    stage: ClassVar = Stage.TERRAIN
 
     area: float = 20.0  # least area in square metres
     height: float = 1.2  # largest mean height above the ground in metres

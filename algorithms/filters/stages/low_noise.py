@@ -10,10 +10,10 @@ import numpy as np
 
 from ...core.points import Points
 from ...grids.cells import Cells, first_of_each, spacing
+from ...grids.lowest_planes import LowestOfCells, Surroundings
 from ...grids.morphology import within_square
 from ..pipeline import PointRule, Stage
 from ..state import State
-from .surroundings import LowestOfCells, Surroundings
 
 # Least side of a cell in metres; wider where points are farther apart, so that few cells are empty.
 _CELL = 1.0
@@ -37,7 +37,6 @@ class LowGroups(PointRule):
     # uneven.
 
     stage: ClassVar = Stage.LOW_NOISE
-    reads: ClassVar = ("points", "grids", "known_ground")
     writes: ClassVar = ("points", "grids", "low_noise")
 
     # Largest width of a group in metres. Its corners may be farther from its lowest point.
@@ -202,7 +201,6 @@ class BelowWater(PointRule):
     # dam, has as many points as other land.
 
     stage: ClassVar = Stage.LOW_NOISE
-    reads: ClassVar = ("points", "grids", "known_ground")
     writes: ClassVar = ("points", "grids", "low_noise")
 
     # Sides of the cells that are looked at, one after the other, in metres, or as multiples of the

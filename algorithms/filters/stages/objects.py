@@ -47,7 +47,6 @@ class RaisedObjects(GridRule):
     # the one drop of a topmost terrace tread winds, and the survey ends on its other side.
 
     stage: ClassVar = Stage.OBJECTS
-    reads: ClassVar = ("points", "heights")
     writes: ClassVar = ("objects", "plateaus", "raised")
 
     max_size: float  # largest width (shorter side) of an object in metres
@@ -133,7 +132,6 @@ class TallObjects(GridRule):
     # far above the ground of their block are objects as well.
 
     stage: ClassVar = Stage.OBJECTS
-    reads: ClassVar = ("heights",)
     writes: ClassVar = ("objects", "plateaus", "raised")
 
     objects: RaisedObjects  # the rule for a region
@@ -173,7 +171,6 @@ class BlockPits(GridRule):
     # such a pit, too.
 
     stage: ClassVar = Stage.OUTLIERS
-    reads: ClassVar = ("heights",)
     writes: ClassVar = ("heights",)
 
     # Low noise is so many metres below the usual lowest points round it, and narrower than this.
@@ -206,7 +203,6 @@ class Rims(GridRule):
     # Removed cells grow back if they are level with the ground beside them.
 
     stage: ClassVar = Stage.OPENING
-    reads: ClassVar = ("heights", "objects", "raised")
     writes: ClassVar = ("raised",)
 
     objects: RaisedObjects  # the rule for a region
@@ -239,7 +235,6 @@ class FineSeeds(PointRule):
     # surface of the wide cells.
 
     stage: ClassVar = Stage.SEEDS
-    reads: ClassVar = ("points", "grids", "seeds")
     writes: ClassVar = ("grids", "seeds", "waiting")
 
     height: float  # the point is at most so many metres from the surface
@@ -272,7 +267,6 @@ class PaperSurface(PointRule):
     """Points close to the surface through the lowest points of ground cells are ground."""
 
     stage: ClassVar = Stage.ACCEPTED
-    reads: ClassVar = ("grids",)
     writes: ClassVar = ("limits",)
 
     tolerance: float  # metres in level terrain

@@ -41,7 +41,6 @@ class ProgressiveOpening(GridRule):
     # What is too high grows with the window and with the slope of the terrain.
 
     stage: ClassVar = Stage.OPENING
-    reads: ClassVar = ("heights", "objects", "woods")
     writes: ClassVar = ("filled", "raised")
 
     largest_window: float  # radius in metres of the largest window
@@ -69,6 +68,8 @@ class ProgressiveOpening(GridRule):
     # where houses may stand: where hardly a pulse reaches the ground, larger ones cut ridges off.
     crown: float = 11.0
     wood_edge: float = 5.0
+    # All of a plateau is an object if windows cut off so large a share: its uphill side is low.
+    plateau_share: float = 0.3
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Raise the cells that stand out, and the objects."""
@@ -89,6 +90,16 @@ class ProgressiveOpening(GridRule):
         slope = np.hypot(*(slope_at(smooth, axis, which, size) for axis in (0, 1)))
         grid.raised = grid.objects.copy()
         grid.raised.ravel()[which] |= np.minimum(slope, self.steepest) < limit.ravel()[which]
+        self._raise_plateaus(grid)
+
+    def _raise_plateaus(self, grid: GridState) -> None:
+        from scipy import ndimage
+
+        number, _ = ndimage.label(grid.plateaus)
+        total = np.bincount(number.ravel())
+        cut = np.bincount(number[grid.raised], minlength=len(total)) >= self.plateau_share * total
+        cut[0] = False
+        grid.raised |= cut[number]
 
     def _standing_out(
         self, filled: np.ndarray, within: np.ndarray, size: float, progress: Progress
@@ -140,27 +151,6 @@ class ProgressiveOpening(GridRule):
         return slope
 
 
-@dataclass(frozen=True)
-class CutPlateaus(GridRule):
-    """All of a plateau is an object if openings cut off a large part: its uphill side is low."""
-
-    stage: ClassVar = Stage.OPENING
-    reads: ClassVar = ("plateaus", "raised")
-    writes: ClassVar = ("raised",)
-
-    share: float = 0.3  # least share of its cells that is cut off
-
-    def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
-        """Raise the plateaus of which a large part is raised."""
-        from scipy import ndimage
-
-        number, _ = ndimage.label(grid.plateaus)
-        total = np.bincount(number.ravel())
-        cut = np.bincount(number[grid.raised], minlength=len(total)) >= self.share * total
-        cut[0] = False
-        grid.raised |= cut[number]
-
-
 def _radii(largest: float) -> list[tuple[int, int]]:
     """Return the radii of windows in cells, and how many cells are taken together for each."""
     largest = max(round(largest), 1)
@@ -205,7 +195,6 @@ class SteepRises(GridRule):
     # of the terrain, averaged over about the radius, is added to the threshold.
 
     stage: ClassVar = Stage.OPENING
-    reads: ClassVar = ("heights",)
     writes: ClassVar = ("raised",)
 
     radius: float  # largest distance in metres over which cells are compared

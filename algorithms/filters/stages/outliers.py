@@ -21,11 +21,11 @@ from ...grids.cells import Cells, spacing
 from ...grids.gradient import steepness
 from ...grids.height_grid import HeightGrid
 from ...grids.inpaint import inpaint
+from ...grids.lowest_planes import LowestOfCells
 from ...grids.morphology import median_of_nine, within_square
 from ..pipeline import GridRule, PointRule, Rule, Stage
 from ..state import GridState, State
 from .seeds import DENSE_SPACING
-from .surroundings import LowestOfCells
 
 # A cell of an even surface is at most so many metres off the median of the 3 x 3 cells round it.
 _EVEN = 0.3
@@ -41,8 +41,6 @@ class Corroborated(Rule):
     # Under dense canopy the few cells with ground points are pits, but they lie on one surface.
     # Faults are scattered: hardly any other cell lies at their level, or far fewer than on the even
     # surface above them.
-
-    stage: ClassVar = Stage.OUTLIERS
 
     # Cells between so many metres from a pit are its witnesses; nearer ones may belong to the same
     # fault.
@@ -113,8 +111,6 @@ class UnderCanopy(Rule):
     # that the pits are not `Corroborated`. But an outlier lies below a surface, and the lower side
     # of crowns is none.
 
-    stage: ClassVar = Stage.OUTLIERS
-
     # The lowest points are those of a canopy if their median distance from a plane is more than so
     # many metres.
     roughness: float = 2.5
@@ -152,7 +148,6 @@ class NarrowPits(GridRule):
     # than `slope` times their size are outliers (Pingel et al. 2013).
 
     stage: ClassVar = Stage.OUTLIERS
-    reads: ClassVar = ("points", "heights")
     writes: ClassVar = ("heights",)
 
     slope: float = 5.0  # rise over run, far above that of any terrain
@@ -184,7 +179,6 @@ class IsolatedLowPoints(GridRule):
     # cell some metres away is as low.
 
     stage: ClassVar = Stage.OUTLIERS
-    reads: ClassVar = ("points", "heights")
     writes: ClassVar = ("heights",)
 
     depth: float = 0.6  # least depth in metres below the cells round it
@@ -224,7 +218,6 @@ class DenseOutliers(PointRule):
     # where the surface sags.
 
     stage: ClassVar = Stage.LOW_NOISE
-    reads: ClassVar = ("points", "grids", "known_ground", "multi_return")
     writes: ClassVar = ("points", "grids", "low_noise")
 
     # Side of the cells as a multiple of the usual distance between points. With so few points

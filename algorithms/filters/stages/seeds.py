@@ -36,7 +36,6 @@ class LowestPoints(PointRule):
     # It is chance where cells begin, so there can be a second grid, half a cell apart.
 
     stage: ClassVar = Stage.LOWEST
-    reads: ClassVar = ("points", "spacing", "multi_return")
     writes: ClassVar = ("grids",)
 
     size: float  # side of the cells in metres
@@ -60,7 +59,6 @@ class Seeds(PointRule):
     # is the lowest on only one grid must be ground on that one.
 
     stage: ClassVar = Stage.SEEDS
-    reads: ClassVar = ("grids",)
     writes: ClassVar = ("grids", "seeds", "waiting")
 
     objects_wait: bool = False  # whether lowest points on objects may become ground later
@@ -102,7 +100,6 @@ class KnownGround(PointRule):
     """The lowest points of known ground are seeds."""
 
     stage: ClassVar = Stage.SEEDS
-    reads: ClassVar = ("points", "known_ground")
     writes: ClassVar = ("seeds",)
 
     cell: float = 1.0  # side in metres of the cells whose lowest known points are taken
@@ -129,7 +126,6 @@ class Woods(PointRule):
     # file has no returns, no cell is known to be under trees.
 
     stage: ClassVar = Stage.LOWEST
-    reads: ClassVar = ("multi_return", "grids")
     writes: ClassVar = ("grids",)
 
     share: float = 0.2  # least share of such points in the surroundings

@@ -7,7 +7,7 @@ dike, a terrace, a plateau with a ramp), or if it has the shape of a landform.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
@@ -18,55 +18,27 @@ from .landforms import LowBanks, OnSlope, Rocks
 from .regions import RaisedRegions, raised_regions
 
 
-class Borders(NamedTuple):
-    """How the borders of regions are to the ground, in sides of cells, (regions,)."""
-
-    # float64: Sides that are level with the ground, and that rise to it.
-    level: np.ndarray
-    rising: np.ndarray
-    sharp: np.ndarray  # float64: Sides that drop
-
-
 @dataclass(frozen=True)
 class GentleBorder(Rule):
-    """A region is terrain if a large share of its border is gentle."""
+    """A region is terrain if a large share of its border is level with the ground, or some of it if
+    the region is wide: a plateau with a ramp.
+    """
 
-    stage: ClassVar = Stage.TERRAIN
-
-    # Least share of the border, without what rises to the ground, that is level with it.
-    share: float = 0.3
-    area: float = 100.0  # least area of the region in square metres: crowns and sheds are smaller
-
-    def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
-        """Return which regions are terrain by this rule; boolean, shape (regions,)."""
-        level = borders.level
-        is_level = (level > 0) & (level >= self.share * (level + borders.sharp))
-        return is_level & (regions.area >= self.area)
-
-
-@dataclass(frozen=True)
-class LevelBorder(Rule):
-    """A wide region is terrain if some of its border is level: a plateau with a ramp."""
-
-    # Rises do not count: a roof rises to the next roof.
-
-    stage: ClassVar = Stage.TERRAIN
-
-    # A region of the first area (m2) needs the first share of its border; one of the second area
-    # the second share. In between the share falls with the logarithm of the area.
+    # A region of the first area (m2) needs the first share of the border that is level or drops,
+    # one of the second area the second; between them it falls with the logarithm of the area.
     areas: tuple[float, float] = (400.0, 3000.0)
     shares: tuple[float, float] = (0.3, 0.05)
-    # Largest share of the border along which the survey ends: the rest of a roof or of a closed
-    # canopy may lie beyond it.
+    least_area: float = 100.0  # square metres: crowns and sheds are smaller
+    # If the survey ends along a larger share of the border, the first share is needed: the rest of
+    # a roof or of a closed canopy may lie beyond it.
     most_cut: float = 0.1
 
-    def fits(self, regions: RaisedRegions, borders: Borders) -> np.ndarray:
-        """Return which regions are terrain by this rule; boolean, shape (regions,)."""
-        share = np.interp(np.log(regions.area), np.log(self.areas), self.shares)
-        bounded = borders.level + borders.rising + borders.sharp
-        is_level = (borders.level > 0) & (borders.level >= share * bounded)
-        is_level &= regions.cut <= self.most_cut * (bounded + regions.cut)
-        return is_level & (regions.area >= self.areas[0])
+    def fits(self, regions: RaisedRegions, level: np.ndarray, sharp: np.ndarray) -> np.ndarray:
+        """Return which regions are terrain, given the sides that are level or drop, (regions,)."""
+        area, border = regions.area, level + sharp
+        share = np.interp(np.log(area), np.log(self.areas), self.shares)
+        share[regions.cut > self.most_cut * (border + regions.cut)] = self.shares[0]
+        return (level > 0) & (level >= share * border) & (area >= self.least_area)
 
 
 @dataclass(frozen=True)
@@ -77,7 +49,6 @@ class GentleRegions(GridRule):
     # touches the ground without a step, and sharp where it drops.
 
     stage: ClassVar = Stage.TERRAIN
-    reads: ClassVar = ("heights", "filled", "surveyed", "surface", "objects", "raised")
     writes: ClassVar = ("raised",)
 
     # Largest step between cells, in metres beyond the terrain's own rise, that is not an edge. It
@@ -95,7 +66,6 @@ class GentleRegions(GridRule):
     in_images: bool = False
     on_slope: OnSlope | None = OnSlope()
     gentle_border: GentleBorder | None = GentleBorder()
-    level_border: LevelBorder | None = LevelBorder()
     rocks: Rocks | None = Rocks()
     low_banks: LowBanks | None = LowBanks()
 
@@ -154,21 +124,17 @@ class GentleRegions(GridRule):
     def _joined(self, regions: RaisedRegions, landforms: np.ndarray) -> np.ndarray:
         """Return which regions pass into the ground, or into others that do."""
         joined, count = landforms.copy(), len(regions.area)
-        rules = [rule for rule in (self.gentle_border, self.level_border) if rule]
+        if not self.gentle_border:
+            return joined
         sharp = np.sum(
             [np.bincount(drop[0], minlength=count) for _, drop, _ in regions.borders], axis=0
         )
         for _ in range(self.passes):
             ground = np.append(joined, True)  # the last one stands for cells that are not raised
-            level, rising = np.zeros((2, count))
-            for flat, _, rise in regions.borders:
+            level = np.zeros(count)
+            for flat, _, _ in regions.borders:
                 level += np.bincount(flat[0][ground[flat[1]]], minlength=count)
-                rising += np.bincount(rise[0][ground[rise[1]]], minlength=count)
-            borders = Borders(level, rising, sharp)
-            new = np.zeros(count, dtype=bool)
-            for rule in rules:
-                new |= rule.fits(regions, borders)
-            new &= regions.area >= self.area
+            new = self.gentle_border.fits(regions, level, sharp) & (regions.area >= self.area)
             if not (new & ~joined).any():
                 break
             joined |= new
@@ -176,9 +142,7 @@ class GentleRegions(GridRule):
 
 
 # Where earth is moved, also low berms and stockpiles without a sharp edge are wanted.
-SITE = GentleRegions(
-    in_images=True, gentle_border=GentleBorder(area=0.0), level_border=LevelBorder(most_cut=1.0)
-)
+SITE = GentleRegions(in_images=True, gentle_border=GentleBorder(least_area=0.0, most_cut=1.0))
 
 
 def smoothed(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:

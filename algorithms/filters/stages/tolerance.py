@@ -34,7 +34,6 @@ class PlainSurface(PointRule):
     """The surface goes through the lowest vertex of each cell."""
 
     stage: ClassVar = Stage.ACCEPTED
-    reads: ClassVar = ("points", "grids", "seeds")
     writes: ClassVar = ("limits",)
 
     # Tolerances in metres in level terrain.
@@ -57,8 +56,6 @@ class MeasuredNoise(Rule):
 
     # Where many points lie in a cell, the lowest lies far below the ground, so the surface goes
     # through the middle of their noise.
-
-    stage: ClassVar = Stage.ACCEPTED
 
     # Tolerance in metres above a surface through the middle of the noise, and the multiple of the
     # noise that is added to it.
@@ -97,8 +94,6 @@ class MeasuredNoise(Rule):
 class Breaks(Rule):
     """At breaks the surface is too smooth, so the tolerances are larger."""
 
-    stage: ClassVar = Stage.ACCEPTED
-
     curvature: float = 0.25  # curvature over a cell, in metres, above which there is a break
     factor: float = 1.5  # the tolerance that each metre above it adds
 
@@ -109,8 +104,6 @@ class LowPlants(Rule):
 
     # There the surface goes through the lowest vertices, and the tolerance above grows with no
     # noise and less with the slope.
-
-    stage: ClassVar = Stage.ACCEPTED
 
     slope_share: float = 0.3  # share of the tolerance on slopes that is left above the surface
 
@@ -124,7 +117,6 @@ class ToleranceSurface(PointRule):
     # so the tolerance on slopes is smaller in proportion.
 
     stage: ClassVar = Stage.ACCEPTED
-    reads: ClassVar = ("points", "grids", "seeds")
     writes: ClassVar = ("limits",)
 
     above: float  # metres in level terrain
