@@ -25,10 +25,10 @@ from .stages import shared_pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
 from .stages.breaks import Plants
 from .stages.densify import Densification
-from .stages.landforms import LowBanks
 from .stages.objects import RaisedObjects
 from .stages.opening import ProgressiveOpening
 from .stages.outliers import NarrowPits
+from .stages.regions import LowBanks
 from .stages.seeds import KnownGround, LowestPoints, Seeds
 from .stages.terrain import GentleBorder, GentleRegions
 from .stages.tolerance import NOISE_SPACING, PlainSurface, ToleranceSurface

@@ -1,11 +1,14 @@
-"""Regions of cells between steps: those between rims, and those of raised cells."""
+"""Regions of cells between steps: those between rims, and raised ones, such as rocks and banks."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
+from ...grids.morphology import within_square
+from ..pipeline import Rule
 from ..state import GridState
 
 # Least share of a pit's border that must be a rise.
@@ -235,3 +238,82 @@ def _borders(
             pairs.append((region[from_[which]], region[to[which]]))
         borders.append(pairs)
     return borders
+
+
+@dataclass(frozen=True)
+class Rocks(Rule):
+    """A region that rises more unevenly than roofs, bridges and woods is a rock."""
+
+    # A roof or a bridge is level; a wood on a slope is equally high above the ground everywhere.
+
+    area: float = 200.0  # least area in square metres
+    # Least standard deviation in metres of its heights, and of its heights above the ground.
+    deviation: float = 5.0
+    # A roof is lower, or level: then a band of so many metres holds more than this share of its
+    # cells.
+    band: float = 3.0
+    band_share: float = 1.0 / 3.0
+
+    def fits(self, regions: RaisedRegions) -> np.ndarray:
+        """Return which regions are rocks; boolean, shape (regions,)."""
+        number, count = regions.number, np.bincount(regions.number)
+        is_rock = regions.area >= self.area
+        for values in (regions.heights, regions.heights_above):
+            mean = np.bincount(number, values) / count
+            square = (values - mean[number]) * values
+            is_rock &= np.bincount(number, square) >= self.deviation**2 * count
+        for rock in np.flatnonzero(is_rock):
+            z = np.sort(regions.heights[number == rock])
+            in_band = np.searchsorted(z, z + self.band) - np.arange(len(z))
+            is_rock[rock] = in_band.max() <= self.band_share * len(z)
+        return is_rock
+
+
+@dataclass(frozen=True)
+class LowBanks(Rule):
+    """A low, narrow and even strip is a bank of a field, a dyke or the rim of a ditch."""
+
+    # Of a hedge or a wall, cells have points on the ground beside it; of a row of cars, they are
+    # not even. Platforms of ISPRS sample 42 need it.
+
+    area: float = 20.0  # least area in square metres
+    height: float = 1.2  # largest mean height above the ground in metres
+    width: float = 6.0  # largest mean width in metres
+    even_share: float = 0.7  # least share of the cells that are even
+    # On a larger share of its border than this, another strip as high is beside it: it is one of a
+    # row, as of panels or planters. 1 if that does not matter.
+    most_in_row: float = 0.8
+    beyond: float = 0.35  # the strip beside it may be lower by this share of the drop between them
+
+    def fits(self, regions: RaisedRegions) -> np.ndarray:
+        """Return which regions are banks; boolean, shape (regions,)."""
+        count = len(regions.area)
+        sides = np.zeros(count)
+        for kinds in regions.borders:
+            for first, _ in kinds:
+                sides += np.bincount(first, minlength=count)
+        width = 2.0 * regions.area / np.maximum(sides * regions.size, regions.size)
+        region = regions.number
+        share = np.bincount(region, regions.even, count) / np.bincount(region, minlength=count)
+        is_bank = (regions.area >= self.area) & (width <= self.width)
+        if self.most_in_row < 1.0:
+            is_bank &= ~self._in_rows(regions)
+        return is_bank & (regions.above <= self.height) & (share >= self.even_share)
+
+    def _in_rows(self, regions: RaisedRegions) -> np.ndarray:
+        """Return which regions have another as high beside them on most of their border."""
+        number = np.zeros(regions.shape, dtype=np.int32)
+        number.ravel()[regions.cells] = regions.number + 1
+        filled, reach = regions.filled, max(round(self.width / regions.size / 2.0), 1)
+        closed = within_square(np.minimum, within_square(np.maximum, filled, reach), reach)
+        into, border = np.zeros((2, len(regions.area) + 1))
+        for ahead, behind in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
+            for here, there in ((ahead, behind), (behind, ahead)):
+                beside = (number[here] > 0) & (number[here] != number[there])
+                of, drop = number[here][beside], (filled[here] - filled[there])[beside]
+                # Of the gap to the other, the closing fills all but a share of the drop.
+                is_gap = (number[there][beside] == 0) & (drop > 0.0)
+                is_gap &= closed[there][beside] >= filled[here][beside] - self.beyond * drop
+                border += np.bincount(of, minlength=len(border))
+                into += np.bincount(of, is_gap, len(border))
+        return (into > self.most_in_row * border)[1:]
