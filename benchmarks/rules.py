@@ -19,6 +19,7 @@ from bare_earth.algorithms.filters.stages.objects import RaisedObjects
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
 from bare_earth.algorithms.filters.stages.seeds import LowestPoints
 from bare_earth.algorithms.filters.stages.terrain import GentleRegions
+from bare_earth.algorithms.filters.stages.tolerance import ToleranceSurface
 
 # The variant with all rules.
 BASE = "base"
@@ -32,7 +33,6 @@ GROUPS = {
 
     ),
     "checks of seeds": ("plants", "level-seeds"),
-    "kinds of tolerance": ("measured-noise", "breaks"),
 }  # fmt: skip
 # Other values of a rule: its class, and the values.
 VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
@@ -44,6 +44,8 @@ VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
     "large windows in woods": (ProgressiveOpening, {"crown": np.inf}),
     "vertices without a level neighbour": (Densification, {"level": None}),
     "vertices in woods": (Densification, {"in_woods": True}),
+    "tolerance at breaks as elsewhere": (ToleranceSurface, {"at_breaks": 0.0}),
+    "tolerance under trees as elsewhere": (ToleranceSurface, {"under_trees": 1.0}),
     "nothing beyond the survey": (ProgressiveOpening, {"level_beyond": False}),
     "gaps are not judged": (GentleRegions, {"judges_gaps": False}),
 }

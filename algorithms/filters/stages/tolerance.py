@@ -91,24 +91,6 @@ class MeasuredNoise(Rule):
 
 
 @dataclass(frozen=True)
-class Breaks(Rule):
-    """At breaks the surface is too smooth, so the tolerances are larger."""
-
-    curvature: float = 0.25  # curvature over a cell, in metres, above which there is a break
-    factor: float = 1.5  # the tolerance that each metre above it adds
-
-
-@dataclass(frozen=True)
-class LowPlants(Rule):
-    """Under trees, low plants stand among the points of the ground."""
-
-    # There the surface goes through the lowest vertices, and the tolerance above grows with no
-    # noise and less with the slope.
-
-    slope_share: float = 0.3  # share of the tolerance on slopes that is left above the surface
-
-
-@dataclass(frozen=True)
 class ToleranceSurface(PointRule):
     """Points close to the surface through the seeds are ground."""
 
@@ -125,14 +107,18 @@ class ToleranceSurface(PointRule):
     # Metres in level terrain; more than above, because the surface is smoother than the ground.
     below: float = 0.6
     measured_noise: MeasuredNoise | None = MeasuredNoise()
-    breaks: Breaks | None = Breaks()
-    low_plants: LowPlants | None = LowPlants()
+    # At breaks the surface is too smooth: metres of curvature over a cell above which there is one,
+    # and what each metre above adds to the tolerances.
+    curvature: float = 0.25
+    at_breaks: float = 1.5
+    # Under trees low plants stand among the points of the ground: there the surface goes through
+    # the lowest vertices, and above it is no noise and this share of the tolerance on slopes.
+    under_trees: float = 0.3
 
     def apply(self, state: State) -> None:
         """Set the limits of the heights of ground points."""
         points, grid, spacing = state.points, state.grids[0], state.spacing
-        cells, plants = grid.cells, self.low_plants
-        woods = grid.woods if plants else np.zeros(cells.shape, dtype=bool)
+        cells, woods = grid.cells, grid.woods
         surface, slopes = _centred(points, state.seeds, cells, woods)
         above = self.above
         if self.measured_noise:
@@ -140,9 +126,9 @@ class ToleranceSurface(PointRule):
             surface = surface + np.where(woods, 0.0, level)
         slope, curvature = _smooth_steepness(surface, cells), _curvature(surface)
         rise = self.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE * slope
-        rise_above = np.where(woods, plants.slope_share, 1.0) * rise if plants else rise
-        if self.breaks and spacing < _SPARSE:
-            at_break = self.breaks.factor * np.maximum(curvature - self.breaks.curvature, 0.0)
+        rise_above = np.where(woods, self.under_trees, 1.0) * rise
+        if spacing < _SPARSE:
+            at_break = self.at_breaks * np.maximum(curvature - self.curvature, 0.0)
             rise, rise_above = rise + at_break, rise_above + at_break
         highest = np.where(woods, self.above, above) + rise_above
         state.limits = np.stack((surface - self.below - rise, surface + highest), axis=-1)
