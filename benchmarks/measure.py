@@ -22,7 +22,7 @@ from bare_earth.algorithms.runs.one_file import classify_cloud
 
 from . import data
 from .phases import PHASES, Phased, shifted
-from .spikes import Places, counted, places_off
+from .places import Places, counted, places_off
 from .work import side_by_side
 
 GROUND = 2

@@ -8,84 +8,27 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import NamedTuple, Sequence
+from typing import Sequence
 
 import numpy as np
 
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import NOT_GROUND
+from bare_earth.algorithms.grids.hillshade import hillshade
 from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
 
-# Least difference from the reference in metres, and least number of cells of 1 m.
-FROM, LEAST_CELLS = 1.0, 3
+from . import data
+from .accuracy import method_name
+from .measure import ReferenceModel
+from .places import FROM, places_off
+
 # Metres round a place that its picture shows, and half the width of the strip of its profile.
 _AROUND, _STRIP = 25.0, 0.75
 
 
-class Place(NamedTuple):
-    """A connected place where a terrain model is far off.
-
-    Attributes
-    ----------
-    row, column : int
-        The cell that is farthest off.
-    height : float
-        How far, in metres; negative for a pit.
-    cells : int
-        Number of cells.
-    """
-
-    row: int
-    column: int
-    height: float
-    cells: int
-
-
-class Places(NamedTuple):
-    """Number of spikes or of pits, and how far the largest is off, in metres."""
-
-    count: int = 0
-    largest: float = 0.0
-
-
-def places_off(difference: np.ndarray) -> list[Place]:
-    """Return the spikes and pits in the differences of two models with cells of 1 m, largest first.
-
-    Cells that touch at a corner belong to one place.
-    """
-    from scipy import ndimage
-
-    found = []
-    for sign in (1.0, -1.0):
-        off = np.nan_to_num(sign * difference)
-        labels, count = ndimage.label(off > FROM, np.ones((3, 3)))
-        numbers = np.arange(1, count + 1)
-        sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
-        tops = ndimage.maximum_position(off, labels, numbers) if count else []
-        found += [
-            Place(*map(int, top), float(difference[top]), int(size))
-            for top, size in zip(tops, sizes)
-            if size >= LEAST_CELLS
-        ]
-    return sorted(found, key=lambda place: -abs(place.height))
-
-
-def counted(places: Sequence[Place]) -> tuple[Places, Places]:
-    """Return the spikes and the pits among some places."""
-    both = []
-    for sign in (1.0, -1.0):
-        heights = [sign * place.height for place in places if sign * place.height > 0.0]
-        both.append(Places(len(heights), max(heights, default=0.0)))
-    return both[0], both[1]
-
-
 def main(arguments: Sequence[str] | None = None) -> None:
     """Draw the spikes and pits that the command line asks for."""
-    # They import this module.
-    from . import data
-    from .accuracy import method_name
-
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.spikes",
         description=__doc__,
@@ -103,9 +46,6 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def draw_tile(name: str, method: str, folder: Path) -> list[str]:
     """Draw the spikes and pits of a tile, and return a line about each of them."""
-    from . import data
-    from .measure import ReferenceModel
-
     cloud, reference = data.load(data.real(name))
     model = ReferenceModel(cloud, reference)
     points = cloud.points(np.ones(cloud.count, dtype=bool))
@@ -147,8 +87,6 @@ def _draw(model, points, reference, ground, difference, place, title, target) ->
     """Draw the relief round a place, and a profile through it."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
-
-    from bare_earth.algorithms.grids.hillshade import hillshade
 
     reach = int(_AROUND)
     rows = slice(max(place.row - reach, 0), place.row + reach + 1)

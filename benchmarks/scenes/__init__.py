@@ -7,7 +7,8 @@ are the `TUNING_SEEDS`; what is quoted is measured on the `REPORTING_SEEDS`.
 from __future__ import annotations
 
 from . import buildings, earthworks, faults, landforms, mixed, sensors, transport, vegetation
-from .scene import Kind, Scene, Settings
+from .scene import Kind, Scene
+from .settings import Settings
 
 __all__ = ["KINDS", "REPORTING_SEEDS", "TUNING_SEEDS", "Kind", "Scene", "Settings", "make"]
 

@@ -11,7 +11,7 @@ from .classes import GROUND
 from .landscape import Deck, Landscape
 
 if TYPE_CHECKING:
-    from .scene import Settings
+    from .settings import Settings
 
 # How far pulses slant at most, in metres per metre of fall; and from how far away, in metres,
 # something may stand in their way.

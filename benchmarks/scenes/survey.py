@@ -25,7 +25,7 @@ from .landscape import Landscape, Plants, Trees, Wire
 from .pulses import Pulses, cross_decks, fly
 
 if TYPE_CHECKING:
-    from .scene import Settings
+    from .settings import Settings
 
 # A scanner cannot tell two returns apart that are nearer than this.
 _DEAD_ZONE = 0.7

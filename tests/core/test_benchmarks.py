@@ -12,7 +12,19 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.products.comparison import compare
-from benchmarks import accuracy, cache, data, maps, measure, peers, report, spikes, tables, work
+from benchmarks import (
+    accuracy,
+    cache,
+    data,
+    maps,
+    measure,
+    peers,
+    places,
+    report,
+    spikes,
+    tables,
+    work,
+)
 from benchmarks.measure import Filter
 from benchmarks.scenes import KINDS, make
 from benchmarks.scenes.simple import village
@@ -188,9 +200,9 @@ def test_spikes_and_pits_are_places_of_three_cells_more_than_a_metre_off():
     difference[5:8, 20:25] = 0.9  # too low
     difference[16:18, 20:23] = -7.0
     difference[0, :] = np.nan
-    places = spikes.places_off(difference)
-    assert [(place.height, place.cells) for place in places] == [(-7.0, 6), (3.0, 3), (1.5, 4)]
-    assert spikes.counted(places) == ((2, 3.0), (1, 7.0))
+    found = places.places_off(difference)
+    assert [(place.height, place.cells) for place in found] == [(-7.0, 6), (3.0, 3), (1.5, 4)]
+    assert places.counted(found) == ((2, 3.0), (1, 7.0))
 
 
 def test_each_spike_is_drawn_with_the_rule_that_decided(folder, capsys):
