@@ -1,7 +1,9 @@
 """Buildings among the points above the ground: roofs, and what belongs to them.
 
 A roof is made of planes of some size, and a laser pulse meets it once. Leaves and branches lie on
-no plane, and a pulse meets several of them. Both are asked of the neighbours of each point.
+no plane, and a pulse meets several of them. Both are asked of the neighbours of each point, and
+then of each face as a whole: a few points of a crown lie on a plane by chance, and many sensors
+tell several returns of few pulses there, but the mean of a face is sure.
 
 The parts of the method are known from others: planes and single returns (LAStools lasclassify,
 TerraScan, LiDAR360), a least area (all of them), growing from certain roofs (GRASS
@@ -20,7 +22,7 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..grids.cells import Cells, spacing
 from ..grids.local_planes import LocalPlanes
-from ..grids.morphology import closing, dilation, opening
+from ..grids.morphology import closing, dilation, erosion, opening
 
 # The highest point of each square of this side, in metres, stands for the roof there. More points
 # would tell more of the noise of the sensor than of the roof.
@@ -34,7 +36,16 @@ _LEAST_NODES = 5
 _MOST_SEVERAL = 0.5
 # More of the surroundings must lie on the plane of a node than have several returns, by this share
 # of all; and this share must without return numbers.
-_LEAD, _SHARE_WITHOUT_RETURNS = 0.2, 0.6
+_LEAD, _SHARE_WITHOUT_RETURNS = 0.1, 0.6
+# A face is roof if the mean share of its surroundings on its planes exceeds two shares together by
+# at least the first number: that of points under it, and that with several returns, as a part of
+# the same share of leaves and times the second number.
+_LEAST_EVIDENCE, _RETURNS = 0.1, 0.6
+# Leaves are nodes with fewer than this share of their surroundings on a plane. Returns tell nothing
+# if a smaller share of leaves than this has several.
+_LEAVES, _LEAST_TOLD = 0.6, 0.05
+# Points so many metres under all nodes of their cell were seen through leaves.
+_DEPTH = 1.5
 # Nodes of a face have planes that differ by at most so many degrees. A crown curves more.
 _BEND = 15.0
 # Smaller planes are roof as well so many metres from a face, or so many spacings of the points.
@@ -147,9 +158,9 @@ class Buildings:
         some = points.take(high)
         upside_down = Points(some.x, some.y, -some.z)
         high = high[Cells.over(some, _NODE).lowest_points(upside_down)]
-        places = np.column_stack(points.take(high))
-        faces = self._faces(places, several[high], apart, progress)
-        cell = cells.index[high]
+        places, cell = np.column_stack(points.take(high)), cells.index[high]
+        through = _seen_through(points.z, high, cells)[cell]
+        faces = self._faces(places, several[high], through, apart, progress)
         covered = self._wide(_holding(cells, cell[faces.roof]), cells.size)
         kept = faces.roof & dilation(covered, _CLOSING).ravel()[cell]
         covered |= closing(_holding(cells, cell[kept]), _CLOSING)
@@ -162,7 +173,12 @@ class Buildings:
         return opening(closed.view(np.uint8), radius).view(bool) if radius >= 1.0 else closed
 
     def _faces(
-        self, places: np.ndarray, several: np.ndarray, apart: float, progress: Progress
+        self,
+        places: np.ndarray,
+        several: np.ndarray,
+        through: np.ndarray,
+        apart: float,
+        progress: Progress,
     ) -> _Faces:
         """Return which nodes are roof, and their planes."""
         from scipy.spatial import cKDTree
@@ -181,31 +197,18 @@ class Buildings:
         least = _LEAD + share if several.any() else _SHARE_WITHOUT_RETURNS
         votes = np.count_nonzero(planes.on, axis=1)
         plane = open_sky & (votes >= np.maximum(least * count, _LEAST_NODES))
-        face = plane & self._are_large(neighbours, planes, plane, max(_NODE, apart))
+        told = _mean(several, votes < _LEAVES * count)
+        evidence = votes / count - (_RETURNS * share / told if told > _LEAST_TOLD else 0.0)
+        face = _face_of(neighbours, planes, plane)
+        plane &= _means(evidence, face, plane) - _means(through, face, plane) >= _LEAST_EVIDENCE
+        size = np.bincount(face[plane], minlength=len(places))[face]
+        face = plane & (size >= max(_LEAST_NODES, self.area / max(_NODE, apart) ** 2))
         if face.any():
             far = max(_JOIN, _JOIN_SPACINGS * apart)
             grown, _ = cKDTree(places[face, :2]).query(places[:, :2], distance_upper_bound=far)
             face |= plane & np.isfinite(grown)
         votes = np.bincount(neighbours[planes.on & face[:, None]], minlength=len(places))
         return _Faces(planes.rise, face, face | (votes >= _VOTES))
-
-    def _are_large(
-        self, neighbours: np.ndarray, planes: LocalPlanes, plane: np.ndarray, node: float
-    ) -> np.ndarray:
-        """Return which nodes belong to a large face: neighbours on planes of nearly one slope."""
-        from scipy.sparse import coo_matrix
-        from scipy.sparse.csgraph import connected_components
-
-        normal = np.column_stack([-planes.rise[:, :2], np.ones(len(plane), dtype=np.float32)])
-        normal /= np.linalg.norm(normal, axis=1)[:, None]
-        one, place = np.nonzero(planes.on & plane[:, None] & plane[neighbours])
-        two = neighbours[one, place]
-        even = (normal[one] * normal[two]).sum(axis=1) >= math.cos(math.radians(_BEND))
-        one, two = one[even], two[even]
-        links = coo_matrix((np.ones(len(one), dtype=bool), (one, two)), shape=(len(plane),) * 2)
-        face = connected_components(links, directed=False)[1]
-        least = max(_LEAST_NODES, self.area / node**2)
-        return np.bincount(face)[face] >= least
 
 
 class _Faces(NamedTuple):
@@ -214,6 +217,47 @@ class _Faces(NamedTuple):
     rise: np.ndarray
     plane: np.ndarray
     roof: np.ndarray
+
+
+def _face_of(neighbours: np.ndarray, planes: LocalPlanes, plane: np.ndarray) -> np.ndarray:
+    """Return the number of the face of each node: neighbours on planes of nearly one slope."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    normal = np.column_stack([-planes.rise[:, :2], np.ones(len(plane), dtype=np.float32)])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    one, place = np.nonzero(planes.on & plane[:, None] & plane[neighbours])
+    two = neighbours[one, place]
+    even = (normal[one] * normal[two]).sum(axis=1) >= math.cos(math.radians(_BEND))
+    one, two = one[even], two[even]
+    links = coo_matrix((np.ones(len(one), dtype=bool), (one, two)), shape=(len(plane),) * 2)
+    return connected_components(links, directed=False)[1]
+
+
+def _mean(values: np.ndarray, where: np.ndarray) -> float:
+    """Return the mean of some values; 0 of none."""
+    return float(values[where].mean()) if where.any() else 0.0
+
+
+def _means(values: np.ndarray, face: np.ndarray, where: np.ndarray) -> np.ndarray:
+    """Return for each node the mean of its face over some nodes, without NaN; 0 of none."""
+    where = where & np.isfinite(values)
+    total = np.bincount(face[where], weights=values[where], minlength=len(face))
+    return (total / np.maximum(np.bincount(face[where], minlength=len(face)), 1))[face]
+
+
+def _seen_through(z: np.ndarray, high: np.ndarray, cells: Cells) -> np.ndarray:
+    """Return the share of points under the nodes of each cell; NaN at edges, where walls are."""
+    cell = cells.index[high]
+    holding = _holding(cells, cell)
+    lowest = np.full(holding.size, np.inf)
+    np.minimum.at(lowest, cell, z[high])
+    under = z < np.where(holding.ravel(), lowest - _DEPTH, -np.inf)[cells.index]
+    found, count = (
+        np.bincount(cells.index[which], minlength=holding.size) for which in (under, slice(None))
+    )
+    inner = erosion(closing(holding, _CLOSING).view(np.uint8), 1.0).view(bool).ravel()
+    return np.where(inner, found / np.maximum(count, 1), np.nan)
 
 
 def _holding(cells: Cells, index: np.ndarray) -> np.ndarray:
