@@ -91,7 +91,10 @@ class Cells:
             index[part] = wide.take(self.index[part])
 
         over_parts(fill, points.count, _POINTS_A_PART, SILENT)
-        return Cells(size, first_row, first_column, rows, columns, index)
+        wider = Cells(size, first_row, first_column, rows, columns, index)
+        counts = np.bincount(wide, self.counts.ravel(), minlength=rows * columns)
+        wider.__dict__["counts"] = counts.astype(np.int32).reshape(rows, columns)
+        return wider
 
     @property
     def first(self) -> tuple[int, int]:

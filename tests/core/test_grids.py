@@ -89,6 +89,17 @@ def test_of_points_equally_low_those_with_the_smallest_x_then_y_are_chosen():
     assert sorted(zip(*chosen)) == sorted(zip(*expected))
 
 
+@pytest.mark.parametrize("size", [2.0, 2.5, 3.0])
+def test_wider_cells_are_those_over_the_points(size):
+    points = _points()
+    wider, expected = Cells.over(points, 0.5).wider(points, size), Cells.over(points, size)
+    assert (wider.shape, wider.first, wider.size) == (expected.shape, expected.first, size)
+    assert np.array_equal(wider.index, expected.index)
+    assert np.array_equal(wider.counts, expected.counts)
+    other = Cells.over(points, 0.7).wider(points, size)
+    assert np.array_equal(other.index, expected.index)
+
+
 def test_a_grid_is_interpolated_exactly_where_it_is_a_plane():
     points = _points()
     cells = Cells.over(points, 1.0)
@@ -192,6 +203,25 @@ def test_gaps_are_filled_alike_wherever_the_grid_begins(south, west, share):
     different = np.abs(part - whole[south:, west:])[40 - south - 24 : 32, 40 - west - 24 : 32]
     assert different.max() < 1e-4
     assert not np.array_equal(inpaint(grid[1:], first=(0, 0)), whole[1:])
+
+
+def test_gaps_of_a_large_grid_are_filled_as_those_of_a_small_one():
+    random = np.random.default_rng(1)
+    grid = np.where(random.random((500, 400)) < 0.5, random.normal(100.0, 3.0, (500, 400)), np.nan)
+    part = slice(100, 300), slice(100, 300)
+    assert np.array_equal(
+        inpaint(grid)[150:250, 150:250], inpaint(grid[part], first=(100, 100))[50:150, 50:150]
+    )
+
+
+def test_heights_beside_land_do_not_depend_on_the_void_beyond():
+    random = np.random.default_rng(2)
+    grid = np.full((900, 900), np.nan)
+    grid[300:420, 250:400] = random.normal(100.0, 3.0, (120, 150))
+    grid[350:370, 300:340] = np.nan
+    near = slice(295, 425), slice(245, 405)
+    smaller = inpaint(grid[100:700, 100:700], first=(100, 100))
+    assert np.allclose(inpaint(grid)[near], smaller[195:325, 145:305], atol=1e-4)
 
 
 def test_the_smallest_grids_are_filled_wherever_they_begin():

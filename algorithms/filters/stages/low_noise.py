@@ -240,7 +240,8 @@ class BelowWater(PointRule):
             return ndimage.uniform_filter(share, 3, mode="nearest")
 
         is_finite = np.isfinite(points.z)
-        looked_at = density(cells.counts_of(None if is_finite.all() else is_finite)) < self.sparse
+        counts = cells.counts if is_finite.all() else cells.counts_of(is_finite)
+        looked_at = density(counts) < self.sparse
         looked_at &= self._deep(points, cells, lowest)
         if not looked_at.any():
             return np.zeros(points.count, dtype=bool)
