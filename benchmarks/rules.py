@@ -32,7 +32,7 @@ GROUPS = {
         "isolated-low-points",
 
     ),
-    "checks of seeds": ("plants", "level-seeds"),
+    "checks of seeds": ("plants", "shrubs", "level-seeds"),
 }  # fmt: skip
 # Other values of a rule: its class, and the values.
 VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {

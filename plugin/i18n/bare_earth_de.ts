@@ -2726,6 +2726,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Startpunkte feinerer Zellen</translation>
     </message>
     <message>
+        <source>shrubs</source>
+        <translation>Sträucher</translation>
+    </message>
+    <message>
         <source>single low points</source>
         <translation>einzelne tiefe Punkte</translation>
     </message>

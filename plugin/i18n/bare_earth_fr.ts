@@ -2726,6 +2726,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>points de départ de cellules plus fines</translation>
     </message>
     <message>
+        <source>shrubs</source>
+        <translation>arbustes</translation>
+    </message>
+    <message>
         <source>single low points</source>
         <translation>points bas isolés</translation>
     </message>

@@ -35,6 +35,7 @@ OTHER = {
     "steep-rises": Verdict(mark("steep rises"), "#f6cf3f"),
     "rims": Verdict(mark("rims of low objects"), "#8a4fb0"),
     "plants": Verdict(mark("plants or outliers"), "#e07ac0"),
+    "shrubs": Verdict(mark("shrubs"), "#a8457f"),
     "seeds": Verdict(mark("on one grid only"), "#7a6a9e"),
     "fine-seeds": Verdict(mark("finer cells off surface"), "#b9a6e0"),
     "near-surface": Verdict(mark("none near surface"), "#464a6e"),

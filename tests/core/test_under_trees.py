@@ -11,6 +11,7 @@ from bare_earth.algorithms.filters.stages.breaks import LevelSeeds, Plants
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
 from bare_earth.algorithms.filters.stages.outliers import NarrowPits, UnderCanopy
 from bare_earth.algorithms.filters.stages.seeds import Woods, openness
+from bare_earth.algorithms.filters.stages.shrubs import Shrubs
 from bare_earth.algorithms.filters.state import GridState, State
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.height_grid import HeightGrid
@@ -159,3 +160,60 @@ def test_terrain_models_of_forests_come_out_as_measured(tile, most):
     cloud, reference = data.load(real(f"real/{tile}"))
     model = ReferenceModel(cloud, reference)
     assert model.error(Filter("tin-densification").ground(cloud)).rmse < most
+
+
+def hillside(shrub, slope=0.3, side=60.0):
+    """Return the state of points a metre apart on a slope, all seeds, and which are on a shrub."""
+    random = np.random.default_rng(3)
+    x, y = random.uniform(0.0, side, (2, int(side**2)))
+    z = slope * x + random.normal(0.0, 0.03, len(x))
+    points = Points(x, y, z + shrub(x, y))
+    state = State(points, SILENT, seeds=np.arange(len(x)))
+    state.grids = [GridState.of(points, 1.0, 1.0)]
+    return state, shrub(x, y) > 0.0
+
+
+def mound(x, y):
+    return np.where(np.hypot(x - 30.0, y - 30.0) < 2.5, 1.5, 0.0)
+
+
+def test_a_shrub_wider_than_the_nearest_seeds_is_no_ground():
+    state, of_shrub = hillside(mound)
+    Plants().apply(state)
+    assert np.isin(np.flatnonzero(of_shrub), state.seeds).mean() > 0.3
+    Shrubs().apply(state)
+    left = np.isin(np.arange(len(of_shrub)), state.seeds)
+    assert left[of_shrub].mean() < 0.2 and left[~of_shrub].mean() > 0.99
+    assert np.array_equal(np.sort(np.append(state.seeds, state.waiting)), np.arange(len(left)))
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.5, 1.5])
+def test_a_dyke_is_no_shrub(slope):
+    state, of_dyke = hillside(lambda x, y: np.clip(1.5 - 0.5 * np.abs(y - 30.0), 0.0, None), slope)
+    for rule in (Shrubs(), LevelSeeds()):
+        rule.apply(state)
+    assert np.isin(np.flatnonzero(of_dyke), state.seeds).mean() > 0.95
+
+
+def test_under_trees_lower_shrubs_are_no_ground():
+    state, of_shrub = hillside(lambda x, y: 0.25 * (mound(x, y) > 0.0), slope=0.1)
+    kept = []
+    for wood in (False, True):
+        state.seeds = np.arange(len(of_shrub))
+        state.grids[0].woods[:] = wood
+        Shrubs().apply(state)
+        kept.append(np.isin(np.flatnonzero(of_shrub), state.seeds).mean())
+    assert kept[0] > 0.9 and kept[1] < 0.5
+
+
+def test_a_lone_seed_far_above_those_round_a_gap_is_no_ground():
+    state, _ = hillside(lambda x, y: 0.0 * x, slope=0.1)
+    x, y, z = state.points
+    away = np.hypot(x - 30.0, y - 30.0) > 10.0
+    points = Points(np.append(x[away], 30.0), np.append(y[away], 30.0), np.append(z[away], 12.0))
+    state = State(points, SILENT, seeds=np.arange(points.count))
+    state.grids = [GridState.of(points, 1.0, 1.0)]
+    Plants().apply(state)
+    assert points.count - 1 in state.seeds
+    Shrubs().apply(state)
+    assert points.count - 1 not in state.seeds

@@ -10,6 +10,7 @@ from .objects import RaisedObjects
 from .opening import ProgressiveOpening
 from .outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
 from .seeds import LowestPoints, Woods
+from .shrubs import Shrubs
 from .terrain import SITE, GentleRegions
 from .tolerance import ToleranceSurface
 
@@ -43,6 +44,7 @@ def shared_pipeline(
             SITE if is_site else GentleRegions(),
             *seeds,
             plants,
+            Shrubs(),
             LevelSeeds(),
             *surface,
             tolerance,

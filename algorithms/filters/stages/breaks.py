@@ -47,11 +47,12 @@ class Sides:
 
     # `ground`: Points of the ground.
     # `reach`: Metres within which ground points are neighbours.
+    # `apart`: Metres within which they are none, as they may belong to the same plant.
 
-    def __init__(self, ground: Points, reach: float) -> None:
+    def __init__(self, ground: Points, reach: float, apart: float = 0.0) -> None:
         from scipy.spatial import cKDTree
 
-        self._ground, self._reach = ground, reach
+        self._ground, self._reach, self._apart = ground, reach, apart
         self._tree = None
         if ground.count:
             places = np.column_stack((ground.x, ground.y))
@@ -83,7 +84,7 @@ class Sides:
             distance, which = distance[:, 1:], which[:, 1:]
         # If several are equally far away, the tree may return any of them. Then none of them
         # counts.
-        there = distance[:, :-1] < distance[:, -1:]
+        there = (distance[:, :-1] < distance[:, -1:]) & (distance[:, :-1] >= self._apart)
         which = np.where(there, which[:, :-1], 0)
         x, y, z = (
             np.where(there, of[which] - at[:, None], 0.0) for of, at in zip(self._ground, points)

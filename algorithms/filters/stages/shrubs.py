@@ -1,0 +1,79 @@
+"""Shrubs and canopies that are wider than a few cells, so that their own points surround a seed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ...core.points import Points
+from ...grids.cells import Cells
+from ...grids.gradient import steepness
+from ..pipeline import PointRule, Stage
+from ..state import State
+from .breaks import Sides, mean_surface
+
+# Seeds of blocks are neighbours within so many times their width, and not within this share of it.
+_REACH, _APART = 5.0, 0.5
+
+
+@dataclass(frozen=True)
+class Shrubs(PointRule):
+    """A seed above the planes of all sides through the lowest seeds of blocks is a shrub.
+
+    Most of the seeds next to it may belong to the same shrub, but the lowest of a block that is as
+    wide lies beside it. Where there are few seeds, their planes reach farther than those that
+    `Plants` compares.
+
+    Attributes
+    ----------
+    widths : tuple of float
+        Sides of the blocks in metres, one after another.
+    height, per_slope : float
+        Least height in metres above the planes, and the share of the width of a block that a slope
+        of 45 degrees adds to it.
+    misfit : float
+        The share of the misfit of a plane that is added.
+    in_woods : float
+        Least height under trees, on any slope.
+    steepest : float
+        Where the land is steeper (rise over run), nothing is judged.
+    """
+
+    stage: ClassVar = Stage.SEEDS
+    reads: ClassVar = ("points", "grids", "seeds", "waiting")
+    writes: ClassVar = ("seeds", "waiting")
+
+    widths: tuple[float, ...] = (2.0, 4.0)
+    height: float = 0.3
+    per_slope: float = 0.15
+    misfit: float = 0.5
+    in_woods: float = 0.15
+    steepest: float = 1.0
+
+    def apply(self, state: State) -> None:
+        """Let the wrong seeds wait."""
+        cells, woods = state.grids[0].cells, state.grids[0].woods.ravel()
+        for width in self.widths:
+            seeds, in_wood = state.points.take(state.seeds), woods[cells.index[state.seeds]]
+            wrong = self._wrong(seeds, in_wood, width)
+            state.waiting = np.append(state.waiting, state.seeds[wrong])
+            state.seeds = state.seeds[~wrong]
+
+    def _wrong(self, seeds: Points, in_wood: np.ndarray, width: float) -> np.ndarray:
+        """Return which seeds lie above the planes of all sides."""
+        blocks = Cells.over(seeds, width)
+        mean = mean_surface(seeds, np.arange(seeds.count), blocks, width)
+        above = seeds.z - blocks.at(mean, seeds.x, seeds.y)
+        doubtful = np.flatnonzero(above > np.where(in_wood, self.in_woods, self.height))
+        lowest = seeds.take(blocks.lowest_points(seeds))
+        sides = Sides(lowest, _REACH * width, _APART * width)
+        rise, misfit = sides.rises(seeds.take(doubtful), own=False)
+        slope = steepness(mean, width).ravel()[blocks.index[doubtful]]
+        least = np.fmin.reduce(rise - self.misfit * misfit, axis=1)
+        wrong = np.zeros(seeds.count, dtype=bool)
+        open_ = self.height + self.per_slope * width * slope
+        allowed = np.where(in_wood[doubtful], self.in_woods, open_)
+        wrong[doubtful] = (least > allowed) & (slope <= self.steepest)
+        return wrong
