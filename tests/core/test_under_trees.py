@@ -187,6 +187,20 @@ def test_a_shrub_wider_than_the_nearest_seeds_is_no_ground():
     assert np.array_equal(np.sort(np.append(state.seeds, state.waiting)), np.arange(len(left)))
 
 
+@pytest.mark.parametrize("slope", [0.0, 0.5])
+def test_a_long_ridge_stays(slope):
+    # Narrower than blocks, so that the lowest seeds of all blocks lie beside it.
+    def ridge(x, y):
+        return np.clip(1.2 - 0.6 * np.abs(y - 0.4 * x - 15.0), 0.0, None)
+
+    state, of_ridge = hillside(ridge, slope)
+    Shrubs().apply(state)
+    assert np.isin(np.flatnonzero(of_ridge), state.seeds).mean() > 0.9
+    state.seeds = np.arange(len(of_ridge))
+    Shrubs(longest=np.inf).apply(state)
+    assert np.isin(np.flatnonzero(of_ridge), state.seeds).mean() < 0.8
+
+
 @pytest.mark.parametrize("slope", [0.0, 0.5, 1.5])
 def test_a_dyke_is_no_shrub(slope):
     state, of_dyke = hillside(lambda x, y: np.clip(1.5 - 0.5 * np.abs(y - 30.0), 0.0, None), slope)

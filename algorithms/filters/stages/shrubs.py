@@ -10,6 +10,7 @@ import numpy as np
 from ...core.points import Points
 from ...grids.cells import Cells
 from ...grids.gradient import steepness
+from ...grids.morphology import within_square
 from ..pipeline import PointRule, Stage
 from ..state import State
 from .breaks import Sides, mean_surface
@@ -35,6 +36,8 @@ class Shrubs(PointRule):
         of 45 degrees adds to it.
     misfit : float
         The share of the misfit of a plane that is added.
+    longest : float
+        A group of such seeds that is so many metres long is a bank or a dyke, and stays.
     in_woods : float
         Least height under trees, on any slope.
     steepest : float
@@ -49,6 +52,7 @@ class Shrubs(PointRule):
     height: float = 0.3
     per_slope: float = 0.15
     misfit: float = 0.5
+    longest: float = 10.0
     in_woods: float = 0.15
     steepest: float = 1.0
 
@@ -58,6 +62,7 @@ class Shrubs(PointRule):
         for width in self.widths:
             seeds, in_wood = state.points.take(state.seeds), woods[cells.index[state.seeds]]
             wrong = self._wrong(seeds, in_wood, width)
+            wrong &= ~self._long(cells, state.seeds, wrong, in_wood)
             state.waiting = np.append(state.waiting, state.seeds[wrong])
             state.seeds = state.seeds[~wrong]
 
@@ -77,3 +82,19 @@ class Shrubs(PointRule):
         allowed = np.where(in_wood[doubtful], self.in_woods, open_)
         wrong[doubtful] = (least > allowed) & (slope <= self.steepest)
         return wrong
+
+    def _long(
+        self, cells: Cells, seeds: np.ndarray, wrong: np.ndarray, in_wood: np.ndarray
+    ) -> np.ndarray:
+        """Return which seeds lie in long groups of cells with wrong seeds."""
+        from scipy import ndimage
+
+        # Groups may have gaps, but not under trees, where plants stand close together.
+        near = within_square(np.maximum, cells.holding(seeds[wrong & ~in_wood]), 1)
+        groups, _ = ndimage.label(near | cells.holding(seeds[wrong]), np.ones((3, 3)))
+        extents = [
+            max(rows.stop - rows.start, columns.stop - columns.start)
+            for rows, columns in ndimage.find_objects(groups)
+        ]
+        is_long = np.array([0, *extents]) * cells.size >= self.longest
+        return is_long[groups.ravel()[cells.index[seeds]]]
