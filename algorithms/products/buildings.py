@@ -76,28 +76,13 @@ class _Roof(NamedTuple):
 
 @dataclass(frozen=True)
 class Buildings:
-    """The rule for points of buildings.
+    """The rule for points of buildings."""
 
-    Attributes
-    ----------
-    height : float
-        Least height of a roof above the ground in metres.
-    area : float
-        Least area of one of its faces in square metres. Crowns have smaller planes.
-    width : float
-        Least width of a roof in metres. Walls and hedges are narrower.
-    tolerance : float
-        Nodes lie on a plane if they are at most so many metres from it: the noise of heights, and
-        the misfit of strips.
-    steepest : float
-        Largest slope of a roof in degrees.
-    """
-
-    height: float = 2.0
-    area: float = 10.0
-    width: float = 2.0
-    tolerance: float = 0.15
-    steepest: float = 65.0
+    height: float = 2.0  # metres: least height of a roof above the ground
+    area: float = 10.0  # m2: least area of one of its faces; crowns have smaller planes
+    width: float = 2.0  # metres: least width of a roof; walls and hedges are narrower
+    tolerance: float = 0.15  # metres from nodes to their plane: noise of heights, misfit of strips
+    steepest: float = 65.0  # degrees: largest slope of a roof
 
     def find(
         self,
@@ -107,26 +92,11 @@ class Buildings:
         several: np.ndarray,
         progress: Progress = SILENT,
     ) -> np.ndarray:
-        """Return which points belong to buildings.
-
-        Parameters
-        ----------
-        points : Points
-            All points.
-        heights : numpy.ndarray of float, shape (n,)
-            Their heights above the ground in metres.
-        possible : numpy.ndarray of bool, shape (n,)
-            Which can belong to a building; not the ground.
-        several : numpy.ndarray of bool, shape (n,)
-            Which are of pulses with several returns. If none is, the planes alone decide.
-        progress : Progress
-            Receives progress.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (n,)
-            Points on roofs, on what stands on them, and on walls below their edges.
+        """Return which points are on roofs, on what stands on them, and on walls below their edges,
+        by heights above the ground in metres and by planes.
         """
+        # `possible` are the points that can belong to a building, not the ground, and `several`
+        # those of pulses with several returns; without any, the planes alone decide.
         found = np.zeros(points.count, dtype=bool)
         high = np.flatnonzero(possible & (heights > self.height))
         if len(high) < _LEAST_NODES:
@@ -268,11 +238,9 @@ def _holding(cells: Cells, index: np.ndarray) -> np.ndarray:
 
 
 def _belong(points: Points, roof: _Roof, inside: np.ndarray, several: np.ndarray) -> np.ndarray:
-    """Return which points near roofs belong to them.
-
-    They do if they lie on the plane of a near node, below it beside the roof or under it, or above
-    it with no gap to look through, as chimneys do and branches do not.
-    """
+    """Return which points near roofs belong to them."""
+    # They do if they lie on the plane of a near node, below it beside the roof or under it, or
+    # above it with no gap to look through, as chimneys do and branches do not.
     from scipy.spatial import cKDTree
 
     places = np.column_stack([points.x, points.y])
