@@ -9,20 +9,16 @@
 from __future__ import annotations
 
 import argparse
-import shutil
 import subprocess
 import tempfile
-from functools import partial
 from pathlib import Path
 
-from benchmarks import data
 from benchmarks.cache import FOLDER
-from benchmarks.work import side_by_side
 
 from .agreed import AGREED, AGREED_IN_QGIS, ROOT, differences, read, write
-from .commands import TILE_COMMANDS
 from .digests import Digests
-from .running import of_commands, of_everything, working_in
+from .running import of_everything
+from .tiles import of_tiles
 
 _QGIS = (str(ROOT / "tools" / "environment"), "qgis", "/usr/bin/python3")
 _MOST_LINES = 200
@@ -40,7 +36,7 @@ def main() -> int:
             target = FOLDER / "goldens" / f"{chosen.keep or chosen.against}.json"
             if chosen.against and not target.exists():
                 raise SystemExit(f"Nothing is remembered as {chosen.against}: use --keep first.")
-            runs = {target: _of_tiles(folder, bool(chosen.folder))}
+            runs = {target: of_tiles(folder, bool(chosen.folder))}
         else:
             runs = {AGREED: of_everything(_made(folder / "core")), **_of_qgis(folder)}
     if chosen.write or chosen.keep:
@@ -79,31 +75,6 @@ def _of_qgis(folder: Path) -> dict[Path, Digests]:
     module = "benchmarks.goldens.dialogs"
     subprocess.run([*_QGIS, "-m", module, target.parent, target], cwd=ROOT, check=True)
     return {AGREED_IN_QGIS: read(target)}
-
-
-def _of_tiles(folder: Path, keeps: bool) -> Digests:
-    paths = [*data.isprs(), *sorted((data.FOLDER / "real").glob("*.la[sz]"))]
-    if not paths:
-        raise SystemExit(f"There are no tiles in {data.FOLDER}. Set BARE_EARTH_DATA.")
-    found: Digests = {}
-    work = partial(_of_tile, folder=folder, keeps=keeps)
-    for path, some in zip(paths, side_by_side(work, [path.resolve() for path in paths])):
-        print(path.name, flush=True)
-        found.update(some)
-    return found
-
-
-def _of_tile(path: Path, folder: Path, keeps: bool) -> Digests:
-    """Return the digests of what is run on one tile; its name begins those of the outputs."""
-    name = path.name.split(".")[0]
-    commands = {
-        f"{name}/{key}": words.replace("TILE", str(path)) for key, words in TILE_COMMANDS.items()
-    }
-    with working_in(folder):
-        found = of_commands(commands, folder)
-    if not keeps:
-        shutil.rmtree(folder / name)
-    return found
 
 
 def _compared(path: Path, found: Digests) -> int:
