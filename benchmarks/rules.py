@@ -14,6 +14,7 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import Method
 from bare_earth.algorithms.filters.pipeline import Pipeline, Rule
+from bare_earth.algorithms.filters.stages.breaks import LevelSeeds
 from bare_earth.algorithms.filters.stages.densify import Densification
 from bare_earth.algorithms.filters.stages.objects import RaisedObjects
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
@@ -40,6 +41,7 @@ VALUES: dict[str, tuple[type[Rule], dict[str, Any]]] = {
     "objects on the cells of the filter": (RaisedObjects, {"wide": None}),
     "low and wide objects": (RaisedObjects, {"steepness": 0.0}),
     "windows for halls as for houses": (ProgressiveOpening, {"usual_window": np.inf}),
+    "level seeds under plants": (LevelSeeds, {"openness": 0.0}),
     "plateaus are not cut off": (ProgressiveOpening, {"plateau_share": 1.1}),
     "large windows in woods": (ProgressiveOpening, {"crown": np.inf}),
     "vertices without a level neighbour": (Densification, {"level": None}),

@@ -21,7 +21,7 @@ from ...grids.cells import Cells, lower_at
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
-from ..pipeline import PointRule, Rule, Stage
+from ..pipeline import PointRule, Stage
 from ..state import State
 from .seeds import DENSE_SPACING, openness
 
@@ -172,16 +172,6 @@ class Plants(PointRule):
 
 
 @dataclass(frozen=True)
-class Openness(Rule):
-    """A condition: points join the ground at breaks only where it is open."""
-
-    # Under trees, plants are level with something, too.
-
-    # Least share of the points round about that lie near the lowest points of their cells.
-    share: float = 0.8
-
-
-@dataclass(frozen=True)
 class LevelSeeds(PointRule):
     """A waiting point on the plane of the seeds on one side is ground: a break."""
 
@@ -196,21 +186,21 @@ class LevelSeeds(PointRule):
     passes: int = 2  # how often points join the ground
     step: float = 1.5  # they join within so many spacings of the ground each time
     steepest: float = 1.5  # largest rise over run from the seeds within that distance
-    openness: Openness | None = Openness()
+    # They join only where it is open, as under trees plants are level with something, too: least
+    # share of the points round about that lie near the lowest points of their cells.
+    openness: float = 0.8
 
     def apply(self, state: State) -> None:
         """Let level points join the seeds."""
         if state.spacing <= DENSE_SPACING:
             return
         points, cells, spacing = state.points, state.grids[0].cells, state.seed_spacing
-        never = state.waiting[:0]
-        if self.openness:
-            if state.rise is None:
-                mean = mean_surface(points, state.seeds, cells, spacing)
-                state.rise = steepness(mean, cells.size) * cells.size
-            share = openness(points, cells, state.grids[0].lowest, state.rise)
-            is_open = (share >= self.openness.share).ravel()[cells.index[state.waiting]]
-            state.waiting, never = state.waiting[is_open], state.waiting[~is_open]
+        if state.rise is None:
+            mean = mean_surface(points, state.seeds, cells, spacing)
+            state.rise = steepness(mean, cells.size) * cells.size
+        share = openness(points, cells, state.grids[0].lowest, state.rise)
+        is_open = (share >= self.openness).ravel()[cells.index[state.waiting]]
+        state.waiting, never = state.waiting[is_open], state.waiting[~is_open]
         for _ in range(self.passes):
             joins = self._level(points, state.seeds, state.waiting, cells, spacing)
             state.seeds = np.append(state.seeds, state.waiting[joins])
