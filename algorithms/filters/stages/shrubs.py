@@ -21,40 +21,25 @@ _REACH, _APART = 5.0, 0.5
 
 @dataclass(frozen=True)
 class Shrubs(PointRule):
-    """A seed above the planes of all sides through the lowest seeds of blocks is a shrub.
+    """A seed above the planes of all sides through the lowest seeds of blocks is a shrub."""
 
-    Most of the seeds next to it may belong to the same shrub, but the lowest of a block that is as
-    wide lies beside it. Where there are few seeds, their planes reach farther than those that
-    `Plants` compares.
-
-    Attributes
-    ----------
-    widths : tuple of float
-        Sides of the blocks in metres, one after another.
-    height, per_slope : float
-        Least height in metres above the planes, and the share of the width of a block that a slope
-        of 45 degrees adds to it.
-    misfit : float
-        The share of the misfit of a plane that is added.
-    longest : float
-        A group of such seeds that is so many metres long is a bank or a dyke, and stays.
-    in_woods : float
-        Least height under trees, on any slope.
-    steepest : float
-        Where the land is steeper (rise over run), nothing is judged.
-    """
+    # Most of the seeds next to it may belong to the same shrub, but the lowest of a block that is
+    # as wide lies beside it. Where there are few seeds, their planes reach farther than those that
+    # `Plants` compares.
 
     stage: ClassVar = Stage.SEEDS
-    reads: ClassVar = ("points", "grids", "seeds", "waiting")
     writes: ClassVar = ("seeds", "waiting")
 
-    widths: tuple[float, ...] = (2.0, 4.0)
+    widths: tuple[float, ...] = (2.0, 4.0)  # sides of the blocks in metres, one after another
+    # Least height in metres above the planes, and the share of the width of a block that a slope of
+    # 45 degrees adds to it.
     height: float = 0.3
     per_slope: float = 0.15
-    misfit: float = 0.5
+    misfit: float = 0.5  # the share of the misfit of a plane that is added
+    # A group of such seeds that is so many metres long is a bank or a dyke, and stays.
     longest: float = 10.0
-    in_woods: float = 0.15
-    steepest: float = 1.0
+    in_woods: float = 0.15  # least height under trees, on any slope
+    steepest: float = 1.0  # where the land is steeper (rise over run), nothing is judged
 
     def apply(self, state: State) -> None:
         """Let the wrong seeds wait."""
