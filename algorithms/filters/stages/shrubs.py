@@ -11,9 +11,10 @@ from ...core.points import Points
 from ...grids.cells import Cells
 from ...grids.gradient import steepness
 from ...grids.morphology import within_square
+from ...grids.side_planes import Sides
 from ..pipeline import PointRule, Stage
 from ..state import State
-from .breaks import Sides, mean_surface
+from .breaks import mean_surface
 
 # Seeds of blocks are neighbours within so many times their width, and not within this share of it.
 _REACH, _APART = 5.0, 0.5

@@ -1,0 +1,97 @@
+"""Planes through the points on each side of a place."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import SILENT
+from ..core.threads import over_parts
+
+# Nearest neighbours that are used, and how many of them a side needs for a plane.
+_NEIGHBOURS, _LEAST = 16, 4
+# Number of sides, in evenly spread directions.
+_SIDES = 8
+# Points that are judged at a time.
+_AT_ONCE = 1 << 13
+# Points of a leaf of the tree: more than usual, because there are few queries.
+_LEAF = 32
+# Square metres that are added to the variances of the neighbours' places, so that there is always a
+# plane.
+_STIFFNESS = 0.1
+
+
+class Sides:
+    """The ground round points, separately for each side."""
+
+    # `ground`: Points of the ground.
+    # `reach`: Metres within which ground points are neighbours.
+    # `apart`: Metres within which they are none, as they may belong to the same plant.
+
+    def __init__(self, ground: Points, reach: float, apart: float = 0.0) -> None:
+        from scipy.spatial import cKDTree
+
+        self._ground, self._reach, self._apart = ground, reach, apart
+        self._tree = None
+        if ground.count:
+            places = np.column_stack((ground.x, ground.y))
+            self._tree = cKDTree(places, _LEAF, compact_nodes=False, balanced_tree=False)
+
+    def rises(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Return how many metres points lie above the plane of each side, NaN with too few
+        neighbours, and its misfit, both (n, 8); `own` points are ground, and not their own
+        neighbours.
+        """
+        rise = np.full((points.count, _SIDES), np.nan)
+        misfit = np.full((points.count, _SIDES), np.nan)
+        tree = self._tree
+        if tree is None:
+            return rise, misfit
+
+        def judge(part: slice) -> None:
+            rise[part], misfit[part] = self._of_some(tree, points.take(part), own)
+
+        over_parts(judge, points.count, _AT_ONCE, SILENT)
+        return rise, misfit
+
+    def _of_some(self, tree: Any, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+        places = np.column_stack((points.x, points.y))
+        distance, which = tree.query(
+            places, _NEIGHBOURS + 1 + own, distance_upper_bound=self._reach
+        )
+        if own:
+            distance, which = distance[:, 1:], which[:, 1:]
+        # If several are equally far away, the tree may return any of them. Then none of them
+        # counts.
+        there = (distance[:, :-1] < distance[:, -1:]) & (distance[:, :-1] >= self._apart)
+        which = np.where(there, which[:, :-1], 0)
+        x, y, z = (
+            np.where(there, of[which] - at[:, None], 0.0) for of, at in zip(self._ground, points)
+        )
+        angles = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
+        ahead = x[:, :, None] * np.cos(angles) + y[:, :, None] * np.sin(angles) >= -1e-6
+        sums = (ahead & there[:, :, None]).astype(float).transpose(0, 2, 1) @ np.stack(
+            (np.ones_like(x), x, y, z, x * x, x * y, y * y, x * z, y * z, z * z), axis=-1
+        )
+        return _plane(sums)
+
+
+def _plane(sums: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return how far (0, 0, 0) lies above planes, and their misfit, from sums over neighbours."""
+    count, x, y, z, xx, xy, yy, xz, yz, zz = np.moveaxis(sums, -1, 0)
+    total = np.maximum(count, 1.0)
+    x, y, z = x / total, y / total, z / total
+    xx, xy, yy = xx / total - x * x, xy / total - x * y, yy / total - y * y
+    xz, yz, zz = xz / total - x * z, yz / total - y * z, zz / total - z * z
+    # A small term on the diagonal, because neighbours on one line have no slope across it.
+    stiff_xx, stiff_yy = xx + _STIFFNESS, yy + _STIFFNESS
+    determinant = stiff_xx * stiff_yy - xy * xy
+    east = (stiff_yy * xz - xy * yz) / determinant
+    north = (stiff_xx * yz - xy * xz) / determinant
+    rise = east * x + north * y - z
+    square = zz - 2.0 * (east * xz + north * yz)
+    square += east * east * xx + 2.0 * east * north * xy + north * north * yy
+    rise[count < _LEAST] = square[count < _LEAST] = np.nan
+    return rise, np.sqrt(np.maximum(square, 0.0))
