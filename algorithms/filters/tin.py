@@ -237,6 +237,9 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
     if resolved != parameters or apart <= NOISE_SPACING:
         progress.choice(_in_words(resolved, _of_spacing(apart)))
     size, cell = resolved.max_building_size, max(resolved.cell_size, apart)
+    is_site = parameters.preset == "site"
+    # A distance that the user gave is used in every cloud, and so is that of a site.
+    knows_images = parameters.iteration_distance is None and not is_site
     return shared_pipeline(
         LowestPoints(cell, grids=2),
         size,
@@ -245,8 +248,8 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
         ),
         (Seeds(),),
         Plants(),
-        is_site=parameters.preset == "site",
-        surface=(KnownGround(), _densification(resolved)),
+        is_site=is_site,
+        surface=(KnownGround(), _densification(resolved, knows_images)),
         accepted=_key_points(resolved),
     )
 
@@ -278,7 +281,7 @@ def _classic(resolved: TinDensification) -> Pipeline:
             ),
             Seeds(objects_wait=True),
             KnownGround(),
-            dataclasses.replace(_densification(resolved), level=None),
+            dataclasses.replace(_densification(resolved, False), level=None),
             PlainSurface(
                 resolved.ground_tolerance,
                 resolved.slope_tolerance,
@@ -290,8 +293,8 @@ def _classic(resolved: TinDensification) -> Pipeline:
     )
 
 
-def _densification(resolved: TinDensification) -> Densification:
-    return Densification(
+def _densification(resolved: TinDensification, knows_images: bool) -> Densification:
+    rule = Densification(
         resolved.iteration_angle,
         resolved.iteration_distance,
         resolved.max_terrain_angle,
@@ -299,6 +302,7 @@ def _densification(resolved: TinDensification) -> Densification:
         resolved.stop_edge,
         resolved.noise_distance,
     )
+    return rule if knows_images else dataclasses.replace(rule, in_images=None)
 
 
 def _key_points(resolved: TinDensification) -> tuple[OnlyKeyPoints, ...]:

@@ -8,6 +8,7 @@ International Archives of Photogrammetry and Remote Sensing 33 (B4), section 3.
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 from dataclasses import dataclass
@@ -54,6 +55,9 @@ class Densification(PointRule):
     reduce_angle_edge: float | None = 5.0
     stop_edge: float | None = 2.0  # triangles whose longest edge is shorter take no point
     noise_distance: float = 0.3  # a point so close to the facet is taken at any angle
+    # The largest distance in clouds from images, whose walls are slopes that the TIN would climb;
+    # None for the same as in others.
+    in_images: float | None = 0.5
     # One of the eight cells round a candidate is level with it, within so many metres beside the
     # rise of the surface: ground continues, but bushes below trees have points at any height.
     level: float | None = 0.3
@@ -61,6 +65,10 @@ class Densification(PointRule):
 
     def apply(self, state: State) -> None:
         """Let waiting points in gaps between vertices join the seeds."""
+        if self.in_images is not None and state.from_images:
+            nearest = min(self.in_images, self.iteration_distance)
+            dataclasses.replace(self, iteration_distance=nearest, in_images=None).apply(state)
+            return
         points, cells, waiting = state.points, state.grids[0].cells, state.waiting
         if not self.in_woods:
             waiting = waiting[~state.grids[0].woods.ravel()[cells.index[waiting]]]

@@ -11,6 +11,7 @@ from ...core.points import Points
 from ...grids.cells import Cells, lower_at
 from ...grids.gradient import gradient, length, steepness
 from ...grids.inpaint import inpaint
+from ...grids.morphology import within_square
 from ..pipeline import PointRule, Rule, Stage
 from ..state import State
 from .noise import below_middle, from_middle, middle_of_noise, noise_of_squares
@@ -91,6 +92,28 @@ class MeasuredNoise(Rule):
 
 
 @dataclass(frozen=True)
+class WallFoot(Rule):
+    """In clouds from images, the ground rises at the foot of walls and trees: edges are rounded."""
+
+    stage: ClassVar = Stage.ACCEPTED
+
+    more: float = 0.3  # metres that this adds to the tolerance above
+    # Points so many metres above the ground show what is tall, if they are more than this share of
+    # the points of a cell. Its foot are the cells within one cell of it, but for those with ground
+    # in all cells round them.
+    tall: float = 2.0
+    share: float = 0.05
+
+    def where(self, state: State, highest: np.ndarray) -> np.ndarray:
+        """Return the cells that are a foot; `highest` are the heights up to which points count."""
+        points, cells = state.points, state.grids[0].cells
+        is_tall = points.z > highest.ravel().take(cells.index) + self.tall
+        tall = cells.counts_of(is_tall) > self.share * cells.counts
+        all_ground = within_square(np.minimum, cells.holding(state.seeds), 1)
+        return within_square(np.maximum, tall.reshape(cells.shape), 1) & ~all_ground
+
+
+@dataclass(frozen=True)
 class ToleranceSurface(PointRule):
     """Points close to the surface through the seeds are ground."""
 
@@ -114,6 +137,7 @@ class ToleranceSurface(PointRule):
     # Under trees low plants stand among the points of the ground: there the surface goes through
     # the lowest vertices, and above it is no noise and this share of the tolerance on slopes.
     under_trees: float = 0.3
+    wall_foot: WallFoot | None = WallFoot()
 
     def apply(self, state: State) -> None:
         """Set the limits of the heights of ground points."""
@@ -130,8 +154,10 @@ class ToleranceSurface(PointRule):
         if spacing < _SPARSE:
             at_break = self.at_breaks * np.maximum(curvature - self.curvature, 0.0)
             rise, rise_above = rise + at_break, rise_above + at_break
-        highest = np.where(woods, self.above, above) + rise_above
-        state.limits = np.stack((surface - self.below - rise, surface + highest), axis=-1)
+        highest = surface + np.where(woods, self.above, above) + rise_above
+        if self.wall_foot and state.from_images:
+            highest += np.where(self.wall_foot.where(state, highest), self.wall_foot.more, 0.0)
+        state.limits = np.stack((surface - self.below - rise, highest), axis=-1)
 
 
 def _smooth(surface: np.ndarray, metres: float, cells: Cells) -> np.ndarray:
