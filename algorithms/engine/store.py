@@ -75,6 +75,8 @@ class BlockPoints(NamedTuple):
 
     def take(self, which: np.ndarray | slice) -> BlockPoints:
         """Return the points that a mask or a slice selects."""
+        if isinstance(which, np.ndarray) and which.dtype == bool:
+            which = np.flatnonzero(which)  # faster than to use the mask six times
         return BlockPoints(self.points.take(which), *(each[which] for each in self[1:]))
 
     def within(self, box: Box) -> BlockPoints:

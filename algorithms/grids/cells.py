@@ -145,7 +145,9 @@ class Cells:
         for part in parts_of(len(self.index), _POINTS_A_COUNT):
             # Part by part, because bincount copies the indices to 8 bytes each.
             index = self.index[part]
-            step = np.bincount(index if which is None else index[which[part]])
+            if which is not None:
+                index = index.take(np.flatnonzero(which[part]))
+            step = np.bincount(index)
             counts[: len(step)] += step
         return counts.reshape(self.shape)
 

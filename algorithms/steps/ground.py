@@ -158,7 +158,7 @@ def _labelled(
     if notes.count:
         try:
             found, decided = _labels(contents, core, partial(label, box), blocks.buffer, notes)
-            labels = found[core]
+            labels = found if core.all() else found[core]
             if decided is not None:
                 some = contents.points.take(core)
                 decided = decided._replace(codes=decided.codes[core])
