@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -39,24 +39,28 @@ class Sides:
             places = np.column_stack((ground.x, ground.y))
             self._tree = cKDTree(places, _LEAF, compact_nodes=False, balanced_tree=False)
 
-    def rises(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
-        """Return how many metres points lie above the plane of each side, NaN with too few
-        neighbours, and its misfit, both (n, 8); `own` points are ground, and not their own
-        neighbours.
+    def rises(
+        self, points: Points, own: bool, sides: Sequence[int] = range(_SIDES)
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return how many metres points lie above the plane of each side, or of some of the eight
+        by number, NaN with too few neighbours, and its misfit, both (n, sides); `own` points are
+        ground, and not their own neighbours.
         """
-        rise = np.full((points.count, _SIDES), np.nan)
-        misfit = np.full((points.count, _SIDES), np.nan)
+        rise = np.full((points.count, len(sides)), np.nan)
+        misfit = np.full((points.count, len(sides)), np.nan)
         tree = self._tree
         if tree is None:
             return rise, misfit
 
         def judge(part: slice) -> None:
-            rise[part], misfit[part] = self._of_some(tree, points.take(part), own)
+            rise[part], misfit[part] = self._of_some(tree, points.take(part), own, sides)
 
         over_parts(judge, points.count, _AT_ONCE, SILENT)
         return rise, misfit
 
-    def _of_some(self, tree: Any, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+    def _of_some(
+        self, tree: Any, points: Points, own: bool, sides: Sequence[int]
+    ) -> tuple[np.ndarray, np.ndarray]:
         places = np.column_stack((points.x, points.y))
         distance, which = tree.query(
             places, _NEIGHBOURS + 1 + own, distance_upper_bound=self._reach
@@ -70,7 +74,7 @@ class Sides:
         x, y, z = (
             np.where(there, of[which] - at[:, None], 0.0) for of, at in zip(self._ground, points)
         )
-        angles = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
+        angles = 2.0 * np.pi * np.array(sides) / _SIDES
         ahead = x[:, :, None] * np.cos(angles) + y[:, :, None] * np.sin(angles) >= -1e-6
         sums = (ahead & there[:, :, None]).astype(float).transpose(0, 2, 1) @ np.stack(
             (np.ones_like(x), x, y, z, x * x, x * y, y * y, x * z, y * z, z * z), axis=-1

@@ -18,6 +18,8 @@ from .breaks import mean_surface
 
 # Seeds of blocks are neighbours within so many times their width, and not within this share of it.
 _REACH, _APART = 5.0, 0.5
+# Metres by which sums may differ.
+_ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
@@ -57,16 +59,22 @@ class Shrubs(PointRule):
         blocks = Cells.over(seeds, width)
         mean = mean_surface(seeds, np.arange(seeds.count), blocks, width)
         above = seeds.z - blocks.at(mean, seeds.x, seeds.y)
-        doubtful = np.flatnonzero(above > np.where(in_wood, self.in_woods, self.height))
+        slope = steepness(mean, width).ravel()[blocks.index]
+        open_ = self.height + self.per_slope * width * slope
+        allowed = np.where(in_wood, self.in_woods, open_)
+        doubtful = above > np.where(in_wood, self.in_woods, self.height)
+        doubtful = np.flatnonzero(doubtful & (slope <= self.steepest))
         lowest = seeds.take(blocks.lowest_points(seeds))
         sides = Sides(lowest, _REACH * width, _APART * width)
-        rise, misfit = sides.rises(seeds.take(doubtful), own=False)
-        slope = steepness(mean, width).ravel()[blocks.index[doubtful]]
-        least = np.fmin.reduce(rise - self.misfit * misfit, axis=1)
+
+        def least(which: np.ndarray, *some: int) -> np.ndarray:
+            rise, misfit = sides.rises(seeds.take(which), False, some)
+            return np.fmin.reduce(rise - self.misfit * misfit, axis=1)
+
+        # Two opposite sides are enough to clear most of them.
+        doubtful = doubtful[~(least(doubtful, 0, 4) < allowed[doubtful] - _ROUNDING)]
         wrong = np.zeros(seeds.count, dtype=bool)
-        open_ = self.height + self.per_slope * width * slope
-        allowed = np.where(in_wood[doubtful], self.in_woods, open_)
-        wrong[doubtful] = (least > allowed) & (slope <= self.steepest)
+        wrong[doubtful] = least(doubtful, *range(8)) > allowed[doubtful]
         return wrong
 
     def _long(
