@@ -101,7 +101,7 @@ class LevelSeeds(PointRule):
     passes: int = 2  # how often points join the ground
     step: float = 1.5  # they join within so many spacings of the ground each time
     steepest: float = 1.5  # largest rise over run from the seeds within that distance
-    # They join only where it is open, as under trees plants are level with something, too: least
+    # Points wait only where it is open, as under trees plants are level with something, too: least
     # share of the points round about that lie near the lowest points of their cells.
     openness: float = 0.8
 
@@ -115,12 +115,11 @@ class LevelSeeds(PointRule):
             state.rise = steepness(mean, cells.size) * cells.size
         share = openness(points, cells, state.grids[0].lowest, state.rise)
         is_open = (share >= self.openness).ravel()[cells.index[state.waiting]]
-        state.waiting, never = state.waiting[is_open], state.waiting[~is_open]
+        state.waiting = state.waiting[is_open]
         for _ in range(self.passes):
             joins = self._level(points, state.seeds, state.waiting, cells, spacing)
             state.seeds = np.append(state.seeds, state.waiting[joins])
             state.waiting = state.waiting[~joins]
-        state.waiting = np.append(state.waiting, never)
 
     def _level(
         self,
