@@ -12,6 +12,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from .tools import POINT_TOOLS
+
 if TYPE_CHECKING:
     from .core.errors import BareEarthError as BareEarthError
     from .core.errors import Cancelled as Cancelled
@@ -47,28 +49,18 @@ if TYPE_CHECKING:
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
     from .products.water import Water as Water
-    from .products.water_classes import WaterClasses as WaterClasses
-    from .products.water_classes import WaterPolygons as WaterPolygons
     from .products.water_files import WaterRequest as WaterRequest
     from .products.water_files import write_water as find_water  # noqa: F401
     from .rasters.sampling import HeightRaster as HeightRaster
-    from .runs.entry import above_ground as above_ground
+    from .runs.entry import PointFunction
     from .runs.entry import classify as classify
-    from .runs.entry import heights as heights
-    from .runs.entry import key_points as key_points
     from .runs.entry import terrain as terrain
-    from .runs.entry import water_classes as water_classes
     from .runs.options import RasterOutput as RasterOutput
     from .runs.options import TileInput as TileInput
     from .runs.options import TileOutput as TileOutput
-    from .runs.requests import AboveGroundRequest as AboveGroundRequest
     from .runs.requests import ClassifyRequest as ClassifyRequest
-    from .runs.requests import HeightRequest as HeightRequest
-    from .runs.requests import KeyPointRequest as KeyPointRequest
+    from .runs.requests import PointRequest as PointRequest
     from .runs.requests import TerrainRequest as TerrainRequest
-    from .runs.requests import WaterClassRequest as WaterClassRequest
-    from .steps.heights import HeightOutput as HeightOutput
-    from .steps.key_points import KeyPointMark as KeyPointMark
     from .steps.output import Output as Output
     from .survey.area import Area as Area
     from .survey.checkpoint_files import Checkpoints as Checkpoints
@@ -79,8 +71,21 @@ if TYPE_CHECKING:
     from .survey.vector_files import read_boundary as read_boundary
     from .survey.vector_files import read_corrections as read_corrections
     from .survey.vector_files import read_lines as read_lines
+    from .tools.above_ground import ClassifyAboveGround as ClassifyAboveGround
+    from .tools.heights import HeightOutput as HeightOutput
+    from .tools.heights import MeasureHeights as MeasureHeights
+    from .tools.key_points import FindKeyPoints as FindKeyPoints
+    from .tools.key_points import KeyPointMark as KeyPointMark
+    from .tools.water_classes import ClassifyWater as ClassifyWater
+    from .tools.water_classes import WaterClasses as WaterClasses
+    from .tools.water_classes import WaterPolygons as WaterPolygons
     from .trial.comparing import compare_settings as compare_settings
     from .trial.options import TrialOptions as TrialOptions
+
+    above_ground: PointFunction
+    heights: PointFunction
+    key_points: PointFunction
+    water_classes: PointFunction
 
 # The module of each name; with the name in that module, if it differs.
 _MODULES = {
@@ -94,8 +99,11 @@ _MODULES = {
     "DeliveryRequest": "delivery.request",
     "DeliveryTerrain": "delivery.request",
     "DeliveryWater": "delivery.request",
-    "HeightOutput": "steps.heights",
-    "KeyPointMark": "steps.key_points",
+    "ClassifyAboveGround": "tools.above_ground",
+    "HeightOutput": "tools.heights",
+    "MeasureHeights": "tools.heights",
+    "FindKeyPoints": "tools.key_points",
+    "KeyPointMark": "tools.key_points",
     "Resources": "engine.memory",
     "RasterOutput": "runs.options",
     "TileInput": "runs.options",
@@ -106,18 +114,11 @@ _MODULES = {
     "quality": "products.quality:survey_quality",
     "RasterFiles": "products.raster_files",
     "RasterTarget": "products.raster_grid",
-    "AboveGroundRequest": "runs.requests",
     "ClassifyRequest": "runs.requests",
-    "HeightRequest": "runs.requests",
-    "KeyPointRequest": "runs.requests",
+    "PointRequest": "runs.requests",
     "TerrainRequest": "runs.requests",
-    "WaterClassRequest": "runs.requests",
-    "above_ground": "runs.entry",
     "classify": "runs.entry",
-    "heights": "runs.entry",
-    "key_points": "runs.entry",
     "terrain": "runs.entry",
-    "water_classes": "runs.entry",
     "compare_settings": "trial.comparing",
     "TrialOptions": "trial.options",
     "GridMinimum": "filters.grid_minimum",
@@ -138,8 +139,9 @@ _MODULES = {
     "SurfaceModel": "products.surface_model",
     "TerrainModel": "products.terrain_model",
     "Water": "products.water",
-    "WaterClasses": "products.water_classes",
-    "WaterPolygons": "products.water_classes",
+    "ClassifyWater": "tools.water_classes",
+    "WaterClasses": "tools.water_classes",
+    "WaterPolygons": "tools.water_classes",
     "WaterRequest": "products.water_files",
     "find_water": "products.water_files:write_water",
     "HeightRaster": "rasters.sampling",
@@ -154,10 +156,13 @@ _MODULES = {
     "read_lines": "survey.vector_files",
 }
 
-__all__ = list(_MODULES)
+__all__ = [*_MODULES, *(each.file for each in POINT_TOOLS.values())]
 
 
 def __getattr__(name: str) -> Any:
+    for command, listed in POINT_TOOLS.items():
+        if name == listed.file:
+            return importlib.import_module(".runs.entry", __name__).function_of(command)
     if name not in _MODULES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     module, _, there = _MODULES[name].partition(":")

@@ -18,17 +18,13 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any, Callable, NamedTuple
 
+from bare_earth.algorithms import FindKeyPoints, MeasureHeights, heights, key_points
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.products.assessment import AssessmentOptions, assess_files
-from bare_earth.algorithms.runs.entry import classify, heights, key_points, terrain
-from bare_earth.algorithms.runs.requests import (
-    ClassifyRequest,
-    HeightRequest,
-    KeyPointRequest,
-    TerrainRequest,
-)
+from bare_earth.algorithms.runs.entry import classify, terrain
+from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.runs.terrain_maps import MapFiles, MapRequest, make_maps
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.steps.rasters import RasterFiles
@@ -139,7 +135,8 @@ def runs(source: Path, folder: Path, resources: Resources) -> dict[str, Callable
     one_raster = TerrainRequest(resources=resources, rasters=RasterFiles(dtm=rasters["dtm"]))
     found["Terrain model alone"] = lambda it: terrain(ground, one_raster, it)
     found["All rasters"] = lambda it: terrain(ground, all_rasters, it)
-    above, keys = HeightRequest(resources=resources), KeyPointRequest(resources=resources)
+    above = PointRequest(MeasureHeights(), resources=resources)
+    keys = PointRequest(FindKeyPoints(), resources=resources)
     found["Height above ground"] = lambda it: heights(ground, folder / "h.laz", above, it)
     found["Model key points"] = lambda it: key_points(ground, folder / "k.laz", keys, it)
     pages = folder / "report.html", folder / "errors.tif"

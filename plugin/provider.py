@@ -9,9 +9,11 @@ from qgis.PyQt.QtGui import QIcon
 
 from .. import __version__
 from ..algorithms.products.line_files import FORMATS
+from ..algorithms.tools import POINT_TOOLS
 from .processing import ALGORITHMS
 from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
+from .processing.point_tools import PointToolAlgorithm
 
 ICON = Path(__file__).parent / "icons" / "bare_earth.svg"
 
@@ -46,7 +48,8 @@ class BareEarthProvider(QgsProcessingProvider):
     def loadAlgorithms(self) -> None:
         """Add an instance of each algorithm, and the models of the plugin."""
         self._models = shipped_models()
-        for algorithm in [*(each() for each in ALGORITHMS), *self._models]:
+        own = [*(each() for each in ALGORITHMS), *map(PointToolAlgorithm, POINT_TOOLS)]
+        for algorithm in [*own, *self._models]:
             self.addAlgorithm(algorithm)
 
     def load_models(self, _: str = "") -> None:

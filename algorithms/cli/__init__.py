@@ -9,9 +9,11 @@ import traceback
 from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
+from ..tools import POINT_TOOLS
 from . import checking, classifying, comparing, delivering, odm, products
 from .command import FAILED, USAGE
 from .options import UsageError
+from .tools import command_of
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (
@@ -82,7 +84,9 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
     common.add_argument(
         "--verbose", action="store_true", help="print what is done, and where an error arose"
     )
-    for each in _COMMANDS:
+    names = {each.name for each in _COMMANDS}
+    further = (command_of(name) for name in POINT_TOOLS if name not in names)
+    for each in (*_COMMANDS, *further):
         its_parser = commands.add_parser(
             each.name, parents=[common], help=each.help, description=each.description, epilog=_EMPTY
         )

@@ -14,7 +14,7 @@ class Command(NamedTuple):
 
     name: str
     help: str  # one line
-    description: str  # one or two sentences
+    description: str  # one or two sentences; empty if `add` sets it
     # adds options to a parser; they can depend on the whole command line
     add: Callable[[argparse.ArgumentParser, Sequence[str]], None]
     run: Callable[[argparse.Namespace], int]  # returns the exit code

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Sequence
+from typing import Sequence
 
 from .command import DONE, Command
-from .options import KEPT, add_crs, add_inputs, add_json, add_parameters, chosen
+from .options import add_crs, add_inputs, add_json, add_parameters, chosen
 from .surveys import (
     add_area,
     add_constraints,
@@ -19,15 +19,11 @@ from .surveys import (
     constraints_of,
     contours_after,
     raster_target_of,
-    tell_of_survey,
-    water_polygons_of,
     with_found_water,
     workers_of,
 )
 from .terminal import Terminal, tell
-
-if TYPE_CHECKING:
-    from ..core.parameters import ParameterSet
+from .tools import command_of
 
 
 def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -94,93 +90,6 @@ def _relief(options: argparse.Namespace) -> int:
     how = ReliefPictures.among(chosen(options))
     with Terminal(options.verbose) as progress:
         write_relief(options.input, options.output, options.kind, how, progress)
-    return DONE
-
-
-def _add_height(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..steps.heights import HeightOutput
-
-    _add_files(parser, HeightOutput)
-    parser.add_argument(
-        "--dtm", metavar="FILE",
-        help="measure the heights above this raster, in the CRS of the points, and not above the"
-        " ground points; the points need no classes",
-    )  # fmt: skip
-
-
-def _add_key_points(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..grids.model_key_points import ModelKeyPoints
-    from ..steps.key_points import KeyPointMark
-
-    _add_files(parser, ModelKeyPoints, KeyPointMark)
-
-
-def _add_above_ground(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.above_ground import AboveGround
-
-    _add_files(parser, AboveGround)
-    add_area(parser, "change only points in", "; points outside keep their class")
-
-
-def _add_water_classes(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.water_classes import WaterClasses
-    from ..survey.vector_files import FORMATS
-
-    _add_files(parser, WaterClasses)
-    parser.add_argument(
-        "--water", metavar="FILE", required=True,
-        help=f"polygons of water ({FORMATS}); with the word automatic, the water is found first, as"
-        " the command 'water' does",
-    )  # fmt: skip
-
-
-def _add_files(parser: argparse.ArgumentParser, *sets: type[ParameterSet]) -> None:
-    """Add the options of the commands that write classified files anew."""
-    from ..engine.memory import Resources
-    from ..runs.options import TileInput, TileOutput
-    from ..survey.ground_classes import GroundClasses
-
-    add_inputs(parser, "a classified file, or ")
-    add_crs(parser, KEPT)
-    parser.add_argument(
-        "output", metavar="OUTPUT", type=Path,
-        help="the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs",
-    )  # fmt: skip
-    add_scheduler(parser)
-    add_json(parser)
-    add_parameters(parser, *sets, GroundClasses, TileInput, TileOutput, Resources)
-
-
-def _write(options: argparse.Namespace) -> int:
-    """Write classified files with the heights, key points or further classes."""
-    from ..rasters.sampling import HeightRaster
-    from ..runs.entry import write
-    from ..runs.many_files import SurveySummary
-    from ..runs.requests import (
-        AboveGroundRequest,
-        HeightRequest,
-        KeyPointRequest,
-        WaterClassRequest,
-    )
-
-    request: HeightRequest | KeyPointRequest | AboveGroundRequest | WaterClassRequest
-    if options.command == "height":
-        dtm = None if options.dtm is None else HeightRaster.of(options.dtm)
-        request = HeightRequest.of(chosen(options), dtm=dtm, crs=options.crs)
-    elif options.command == "above-ground":
-        request = AboveGroundRequest.of(chosen(options), area=area_of(options), crs=options.crs)
-    elif options.command == "water-classes":
-        sets = chosen(options)
-        water = water_polygons_of(options, sets)
-        request = WaterClassRequest.of(sets, water=water, crs=options.crs)
-    else:
-        request = KeyPointRequest.of(chosen(options), crs=options.crs)
-    workers, as_survey = workers_of(options, request.resources), bool(options.scheduler) or None
-    with Terminal(options.verbose) as progress:
-        done = write(options.input, options.output, request, progress, workers, as_survey)
-    if isinstance(done, SurveySummary):
-        return tell_of_survey(options, done)
-    tell(options, done, f"{options.output.parent / done.text}")
     return DONE
 
 
@@ -255,6 +164,7 @@ def _water(options: argparse.Namespace) -> int:
     return DONE
 
 
+# Tools that are not named here follow at the end of the list of all commands.
 COMMANDS = (
     Command(
         "remove-off-terrain-objects",
@@ -264,33 +174,9 @@ COMMANDS = (
         _add_remove_objects,
         _remove_objects,
     ),
-    Command(
-        "height",
-        "add the height above ground of every point",
-        "Adds to every point its height above the TIN of the ground points, in the vertical unit"
-        " of the CRS. The input is a classified file, or many as one survey. With --dtm, heights"
-        " are above a raster.",
-        _add_height,
-        _write,
-    ),
-    Command(
-        "above-ground",
-        "classify vegetation, buildings and bridges",
-        "Classifies the points above the ground of a classified file, or of many as one survey:"
-        " low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges"
-        " (17) and high noise (18). Only points of class 0 and 1 change.",
-        _add_above_ground,
-        _write,
-    ),
-    Command(
-        "key-points",
-        "mark the ground points that a terrain model needs",
-        "Marks the model key points of a classified file, or of many as one survey: the few ground"
-        " points that a terrain model needs. No other ground point lies farther from their TIN"
-        " than the tolerances.",
-        _add_key_points,
-        _write,
-    ),
+    command_of("height"),
+    command_of("above-ground"),
+    command_of("key-points"),
     Command(
         "terrain",
         "make rasters of the terrain and of what stands on it",
@@ -324,13 +210,5 @@ COMMANDS = (
         _add_water,
         _water,
     ),
-    Command(
-        "water-classes",
-        "give classes to ground points in water and beside its shore",
-        "Gives class 9 (water) to the ground points of a classified file, or of many as one survey,"
-        " that lie in polygons of water, and class 20 (ignored ground) to those beside the shore,"
-        " as the Lidar Base Specification asks for. Nothing else changes.",
-        _add_water_classes,
-        _write,
-    ),
+    command_of("water-classes"),
 )

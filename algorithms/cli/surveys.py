@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from ..products.constraints import Constraints
     from ..products.raster_files import RasterFiles
     from ..products.raster_grid import RasterTarget
-    from ..products.water_classes import WaterPolygons
     from ..runs.many_files import SurveySummary
     from ..survey.area import Area
 
@@ -34,7 +33,7 @@ _CONSTRAINTS = {
     "no-ground": "polygons in which the terrain uses no ground points, such as bridges and roofs",
 }
 # The word for water that is found.
-_AUTOMATIC = "automatic"
+AUTOMATIC = "automatic"
 
 
 def add_rasters(parser: argparse.ArgumentParser) -> None:
@@ -157,7 +156,7 @@ def add_constraints(parser: argparse.ArgumentParser, note: str = "") -> None:
 
 def water_is_automatic(options: argparse.Namespace) -> bool:
     """Return whether water is to be found, and not read."""
-    return str(options.water).lower() == _AUTOMATIC
+    return str(options.water).lower() == AUTOMATIC
 
 
 def with_found_water(
@@ -174,22 +173,6 @@ def with_found_water(
         found = SurveyWater.of(options.input, request, progress)
         progress.info(f"Water: {found.summary.text}.")
         return known.with_water(found.constraints, progress)
-
-
-def water_polygons_of(options: argparse.Namespace, sets: Sequence[ParameterSet]) -> WaterPolygons:
-    """Return the polygons of water of the options, read or found."""
-    from ..las.writing import check_cloud
-    from ..products.constraints import NO_CONSTRAINTS
-    from ..products.water_classes import WaterPolygons
-    from ..survey.files import is_one_file
-    from ..survey.vector_files import read_boundary
-
-    if water_is_automatic(options):
-        # To find the water can take minutes.
-        if is_one_file(options.input):
-            check_cloud(options.input[0], options.output)
-        return WaterPolygons(with_found_water(options, NO_CONSTRAINTS, sets).water_outlines)
-    return WaterPolygons(read_boundary(Path(options.water)))
 
 
 def constraints_of(options: argparse.Namespace, finds_water: bool = False) -> Constraints:

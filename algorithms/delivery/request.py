@@ -18,7 +18,6 @@ from ..products.specifications import SPECIFICATIONS
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
 from ..products.water import Water
-from ..products.water_classes import WaterClasses
 from ..runs.requests import ClassifyRequest, Request
 from ..steps.output import Output
 from ..survey.area import Area
@@ -26,6 +25,7 @@ from ..survey.checkpoint_files import Checkpoints
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
+from ..tools.water_classes import WaterClasses
 from .deliveries import DEFAULT_DELIVERY, DELIVERIES, Delivery
 
 _Set = TypeVar("_Set", bound=ParameterSet)

@@ -23,15 +23,15 @@ from ..products.quality import QualityRequest, survey_quality
 from ..products.quality_figures import Quality
 from ..products.raster_files import RasterFiles
 from ..products.surface_model import SurfaceModel
-from ..products.water_classes import WaterPolygons
 from ..products.water_files import SurveyWater, WaterRequest, WaterSummary
 from ..runs.entry import classify, terrain, write
 from ..runs.one_file import Summary
 from ..runs.options import TileInput
-from ..runs.requests import KeyPointRequest, TerrainRequest, WaterClassRequest
-from ..steps.key_points import KeyPointMark
+from ..runs.requests import PointRequest, TerrainRequest
 from ..survey.files import Survey
 from ..survey.overview import overview_of
+from ..tools.key_points import FindKeyPoints, KeyPointMark
+from ..tools.water_classes import ClassifyWater, WaterPolygons
 from .deliveries import WITH_BUILDINGS
 from .folder import KEY_POINTS, QUALITY, WATER, DeliveryFolder
 from .request import DeliveryRequest
@@ -174,23 +174,17 @@ class DeliverySteps:
         how, known = self.request.water_classes, self.made.constraints or self.request.constraints
         if how is None or not known.water:
             return
-        asked = WaterClassRequest(
-            parameters=how, ground=self.request.ground, water=WaterPolygons(known.water_outlines),
-            **self._further,
-        )  # fmt: skip
-        done = self._change(asked, WATER, second)
+        step = ClassifyWater(how, self.request.ground, WaterPolygons(known.water_outlines))
+        done = self._change(PointRequest(step, **self._further), WATER, second)
         self.made.class_counts = done.class_counts
         self.made.ground_count = done.class_counts.get(self.request.selection.to_class, 0)
 
     def _mark(self, progress: Progress) -> None:
         """Mark the key points: among the ground that water and its shore leave."""
-        mark = KeyPointMark(mark_as="flag")
-        how = KeyPointRequest(ground=self.request.ground, mark=mark, **self._further)
-        self._change(how, KEY_POINTS, progress)
+        step = FindKeyPoints(ground=self.request.ground, mark=KeyPointMark(mark_as="flag"))
+        self._change(PointRequest(step, **self._further), KEY_POINTS, progress)
 
-    def _change(
-        self, how: WaterClassRequest | KeyPointRequest, name: str, progress: Progress
-    ) -> Any:
+    def _change(self, how: PointRequest, name: str, progress: Progress) -> Any:
         """Change the classified points, of many files in a folder `name` until all outputs are
         made, so that a run can be continued.
         """

@@ -5,23 +5,17 @@ Here it is decided whether a run works on one file, or on many files as one surv
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterable, Union
+from typing import TYPE_CHECKING, Any, Iterable, Protocol, Union
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..steps.raster_output import RasterSize
 from ..survey.files import is_one_file
+from ..tools import POINT_TOOLS, point_tool
 from .one_file import classify_file, rasters_of_file, write_points
-from .requests import (
-    AboveGroundRequest,
-    ClassifyRequest,
-    HeightRequest,
-    KeyPointRequest,
-    PointRequest,
-    TerrainRequest,
-    WaterClassRequest,
-)
+from .requests import ClassifyRequest, PointRequest, TerrainRequest
 
 if TYPE_CHECKING:
     from ..engine.workers import Workers
@@ -86,136 +80,6 @@ def classify(
     return classify_files(paths, target, request, progress, workers, vpc)
 
 
-def heights(
-    sources: Sources,
-    output: str | Path,
-    request: HeightRequest = HeightRequest(),
-    progress: Progress = SILENT,
-    workers: Workers | None = None,
-    as_survey: bool | None = None,
-) -> Any:
-    """Write classified files with the height of every point above the ground.
-
-    Parameters
-    ----------
-    request : HeightRequest
-        Which points are ground, and where the heights go.
-    sources, output, progress, workers, as_survey
-        As for `classify`.
-
-    Returns
-    -------
-    HeightSummary or SurveySummary
-        What was done, of one file or of many.
-
-    Raises
-    ------
-    BareEarthError, Cancelled
-        As for `classify`, and if the input has no ground.
-    """
-    return write(sources, output, request, progress, workers, as_survey)
-
-
-def key_points(
-    sources: Sources,
-    output: str | Path,
-    request: KeyPointRequest = KeyPointRequest(),
-    progress: Progress = SILENT,
-    workers: Workers | None = None,
-    as_survey: bool | None = None,
-) -> Any:
-    """Write classified files with their model key points marked.
-
-    Parameters
-    ----------
-    request : KeyPointRequest
-        How closely the key points follow the ground, and how they are marked.
-    sources, output, progress, workers, as_survey
-        As for `classify`.
-
-    Returns
-    -------
-    KeyPointSummary or SurveySummary
-        What was done, of one file or of many.
-
-    Raises
-    ------
-    BareEarthError, Cancelled
-        As for `classify`, and if the input has no ground.
-    """
-    return write(sources, output, request, progress, workers, as_survey)
-
-
-def above_ground(
-    sources: Sources,
-    output: str | Path,
-    request: AboveGroundRequest = AboveGroundRequest(),
-    progress: Progress = SILENT,
-    workers: Workers | None = None,
-    as_survey: bool | None = None,
-) -> Any:
-    """Write classified files with the points above the ground classified too.
-
-    Parameters
-    ----------
-    request : AboveGroundRequest
-        Which points are ground, and which classes the others get.
-    sources, output, progress, workers, as_survey
-        As for `classify`.
-
-    Returns
-    -------
-    AboveGroundSummary or SurveySummary
-        What was done, of one file or of many.
-
-    Raises
-    ------
-    BareEarthError, Cancelled
-        As for `classify`, and if the input has no ground.
-    """
-    return write(sources, output, request, progress, workers, as_survey)
-
-
-def water_classes(
-    sources: Sources,
-    output: str | Path,
-    request: WaterClassRequest,
-    progress: Progress = SILENT,
-    workers: Workers | None = None,
-    as_survey: bool | None = None,
-) -> Any:
-    """Write classified files with classes for ground points in water and beside its shore.
-
-    Parameters
-    ----------
-    request : WaterClassRequest
-        The polygons of water, which points are ground, and the classes that they get.
-    sources, output, progress, workers, as_survey
-        As for `classify`.
-
-    Returns
-    -------
-    WaterClassSummary or SurveySummary
-        What was done, of one file or of many.
-
-    Raises
-    ------
-    BareEarthError, Cancelled
-        As for `classify`, and if the input has no ground, or no polygon lies where points are.
-
-    Examples
-    --------
-    >>> from bare_earth.algorithms import (
-    ...     WaterClassRequest, WaterPolygons, read_boundary, water_classes
-    ... )
-    >>> water = WaterPolygons(read_boundary("water.gpkg"))  # doctest: +SKIP
-    >>> request = WaterClassRequest(water=water)  # doctest: +SKIP
-    >>> water_classes("ground.laz", "water.laz", request).water_count  # doctest: +SKIP
-    1234
-    """
-    return write(sources, output, request, progress, workers, as_survey)
-
-
 def terrain(
     sources: Sources,
     request: TerrainRequest,
@@ -257,6 +121,69 @@ def terrain(
     return rasters_of_files(paths, request, progress, workers)
 
 
+class PointFunction(Protocol):
+    """The function of the library for a tool that writes classified files anew."""
+
+    def __call__(
+        self,
+        sources: Sources,
+        output: str | Path,
+        request: PointRequest | None = None,
+        progress: Progress = SILENT,
+        workers: Workers | None = None,
+        as_survey: bool | None = None,
+    ) -> Any:
+        """Write them as its request says, by default with the values of its parameters."""
+
+
+_DOCUMENTATION = """Write classified files with {tool.writes}.
+
+Parameters
+----------
+request : PointRequest, optional
+    What to do, with a `{step}` as its step; by default with its default values.
+sources, output, progress, workers, as_survey
+    As for `classify`.
+
+Returns
+-------
+{summary} or SurveySummary
+    What was done, of one file or of many.
+
+Raises
+------
+BareEarthError, Cancelled
+    As for `classify`, and if the input has no ground, or does not fit the further inputs.
+
+Examples
+--------
+>>> from bare_earth.algorithms import PointRequest, {step}, {name}
+>>> {name}("ground.laz", "out.laz", PointRequest({step}()))  # doctest: +SKIP
+"""
+
+
+@cache
+def function_of(command: str) -> PointFunction:
+    """Return the function of the library for a tool, given its command."""
+    tool, name = point_tool(command), POINT_TOOLS[command].file
+
+    def write_tool(
+        sources: Sources,
+        output: str | Path,
+        request: PointRequest | None = None,
+        progress: Progress = SILENT,
+        workers: Workers | None = None,
+        as_survey: bool | None = None,
+    ) -> Any:
+        asked = PointRequest(tool.step()) if request is None else request
+        return write(sources, output, asked, progress, workers, as_survey)
+
+    step, summary = tool.step.__name__, tool.step.summary_type.__name__
+    write_tool.__doc__ = _DOCUMENTATION.format(tool=tool, name=name, step=step, summary=summary)
+    write_tool.__name__ = write_tool.__qualname__ = name
+    return write_tool
+
+
 def write(
     sources: Sources,
     output: str | Path,
@@ -266,7 +193,7 @@ def write(
     as_survey: bool | None = None,
     vpc: Path | None = None,
 ) -> Any:
-    """Do what `heights` and such do, as the type of the request says; for `vpc`, see `classify`."""
+    """Write classified files with what the step of a request finds; for `vpc`, see `classify`."""
     paths, target = _paths(sources), Path(output)
     if _is_one(paths, as_survey):
         return write_points(paths[0], target, request, progress)

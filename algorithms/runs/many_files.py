@@ -34,7 +34,7 @@ from ..survey.files import Survey, open_survey
 from ..survey.shapes import Place
 from ..survey.vpc import write_vpc
 from .raster_jobs import make_rasters
-from .requests import ClassifyRequest, Request, TerrainRequest
+from .requests import ClassifyRequest, RunOptions, TerrainRequest
 from .survey_checks import check_rasters, check_stems, check_survey, targets_of
 
 
@@ -102,7 +102,7 @@ def write_files(
     sources: Iterable[Path],
     folder: Path,
     steps: Sequence[PointStep],
-    request: Request = Request(),
+    request: RunOptions = RunOptions(),
     progress: Progress = SILENT,
     workers: Workers | None = None,
     vpc: Path | None = None,
@@ -138,7 +138,7 @@ class _SurveyRun:
         self,
         folder: Path,
         steps: Sequence[PointStep],
-        request: Request,
+        request: RunOptions,
         rasters: MakeRasters | None,
         vpc: Path | None,
     ) -> None:

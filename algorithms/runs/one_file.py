@@ -35,7 +35,7 @@ from ..steps.rasters import MakeRasters
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
-from .requests import ClassifyRequest, PointRequest, Request, TerrainRequest
+from .requests import ClassifyRequest, PointRequest, RunOptions, TerrainRequest
 
 # Shares of the progress bar: of reading, of each step, and of writing.
 _READING, _FILTER, _STEP, _WRITING = 1.5, 5.0, 3.0, 0.8
@@ -251,7 +251,7 @@ def rasters_of_file(
         return run.size
 
 
-def _checked(source: Path, target: Path, request: Request) -> LasFile:
+def _checked(source: Path, target: Path, request: RunOptions) -> LasFile:
     """Refuse an output that cannot be written, and return the opened input."""
     check_cloud(source, target)
     return open_las(source, request.stated)

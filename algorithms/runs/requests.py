@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterable, TypeVar
+from typing import Any, Iterable, Mapping, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
@@ -12,36 +12,32 @@ from ..crs.stated import stated_wkt
 from ..engine.memory import Resources
 from ..engine.step import PointStep
 from ..filters import DEFAULT_METHOD, METHODS
-from ..grids.model_key_points import ModelKeyPoints
-from ..products.above_ground import AboveGround, ThenAboveGround
+from ..products.above_ground import ThenAboveGround
 from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.raster_block import LAYERS
 from ..products.raster_files import RasterFiles
 from ..products.raster_grid import ANYWHERE, RasterTarget
 from ..products.surface_model import Gaps, SurfaceModel
 from ..products.terrain_model import TerrainModel
-from ..products.water_classes import NO_WATER, WaterClasses, WaterPolygons
-from ..rasters.sampling import HeightRaster
-from ..steps.above_ground import ClassifyAboveGround
 from ..steps.explanation import Explanation
-from ..steps.heights import HeightOutput, MeasureHeights
-from ..steps.key_points import FindKeyPoints, KeyPointMark
 from ..steps.labelling import LabelGround
 from ..steps.output import Output
 from ..steps.rasters import MakeRasters
-from ..steps.water_classes import ClassifyWater
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
+from ..tools.above_ground import ClassifyAboveGround
+from ..tools.declaration import PointTool
+from ..tools.heights import MeasureHeights
 from .options import RasterOutput, TileInput, TileMethod, TileOutput
 
 _Request = TypeVar("_Request", bound="Request")
 
 
 @dataclass(frozen=True)
-class Request:
-    """Base of the requests."""
+class RunOptions:
+    """Which files a run reads, how it writes them, and what it may use."""
 
     files: TileInput = field(default_factory=TileInput)  # of folders
     # of many files: their format, and whether finished ones are kept
@@ -55,6 +51,11 @@ class Request:
     def stated(self) -> str | None:
         """The well-known text of `crs`, or an error if it is not known."""
         return stated_wkt(self.crs)
+
+
+@dataclass(frozen=True)
+class Request(RunOptions):
+    """Base of the requests that have a field for each parameter set."""
 
     @classmethod
     def of(cls: type[_Request], sets: Iterable[ParameterSet], **others: Any) -> _Request:
@@ -95,13 +96,62 @@ class RasterRequest(Request):
         )  # fmt: skip
 
 
-class PointRequest(Request):
-    """Base of the requests whose result is a value of each point."""
+@dataclass(frozen=True)
+class _OfStep:
+    """What a `PointRequest` has before the options of the run."""
 
-    @property
-    def step(self) -> PointStep:
-        """The step that finds it."""
-        raise NotImplementedError
+    step: PointStep
+
+
+@dataclass(frozen=True)
+class PointRequest(RunOptions, _OfStep):
+    """A request to write classified files with what a step finds for each point.
+
+    Attributes
+    ----------
+    step : MeasureHeights, FindKeyPoints, ClassifyAboveGround or ClassifyWater
+        What to find, with its parameters and further inputs.
+    files : TileInput
+        Which files of folders are read.
+    tiles : TileOutput
+        How many files are written, and whether finished ones are kept.
+    resources : Resources
+        Threads and memory.
+    crs : str or None
+        The CRS of the points in place of that of the files.
+    """
+
+    @classmethod
+    def of(
+        cls,
+        tool: PointTool,
+        sets: Iterable[ParameterSet] = (),
+        inputs: Mapping[str, Any] = {},
+        crs: str | None = None,
+    ) -> PointRequest:
+        """Return a request for a tool.
+
+        Parameters
+        ----------
+        tool : PointTool
+            The declaration of the tool.
+        sets : iterable of ParameterSet
+            Sets of the tool and of the run in any order: their types decide where they go.
+        inputs : mapping of str
+            The further inputs of the tool, by their names.
+        crs : str or None
+            As the attribute.
+        """
+        of_step = {type(value): name for name, value in vars(tool.step()).items()}
+        of_run = {type(value): name for name, value in vars(RunOptions()).items()}
+        fields: dict[str, Any] = dict(inputs)
+        options: dict[str, Any] = {}
+        for each in sets:
+            if type(each) in of_run:
+                options[of_run[type(each)]] = each
+            else:
+                fields[of_step[type(each)]] = each
+        return cls(tool.step(**fields), crs=crs, **options)
 
 
 @dataclass(frozen=True)
@@ -189,102 +239,6 @@ class ClassifyRequest(RasterRequest):
         """The step that measures the heights of the classified points."""
         area = self.area if self.output.area_only else None
         return MeasureHeights(self.ground, area=area, roads=self.selection.roads)
-
-
-@dataclass(frozen=True)
-class HeightRequest(PointRequest):
-    """A request to measure heights above ground.
-
-    Attributes
-    ----------
-    ground : GroundClasses
-        Which points are ground.
-    output : HeightOutput
-        Whether the heights are an extra dimension or replace z; both in the vertical unit.
-    dtm : HeightRaster or None
-        Heights are measured above this raster, and the points need no ground.
-    """
-
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    output: HeightOutput = field(default_factory=HeightOutput)
-    dtm: HeightRaster | None = None
-
-    @property
-    def step(self) -> MeasureHeights:
-        """The step that measures the heights."""
-        return MeasureHeights(self.ground, self.output, dtm=self.dtm)
-
-
-@dataclass(frozen=True)
-class KeyPointRequest(PointRequest):
-    """A request to mark model key points.
-
-    Attributes
-    ----------
-    parameters : ModelKeyPoints
-        How closely they follow the ground.
-    ground : GroundClasses
-        Which points are ground.
-    mark : KeyPointMark
-        Whether they get a class or a flag.
-    """
-
-    parameters: ModelKeyPoints = field(default_factory=ModelKeyPoints)
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    mark: KeyPointMark = field(default_factory=KeyPointMark)
-
-    @property
-    def step(self) -> FindKeyPoints:
-        """The step that finds the key points."""
-        return FindKeyPoints(self.parameters, self.ground, self.mark)
-
-
-@dataclass(frozen=True)
-class AboveGroundRequest(PointRequest):
-    """A request to classify the points above the ground.
-
-    Attributes
-    ----------
-    parameters : AboveGround
-        Which classes they get.
-    ground : GroundClasses
-        Which points are ground.
-    area : Area or None
-        Where points can change; None for everywhere.
-    """
-
-    parameters: AboveGround = field(default_factory=AboveGround)
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    area: Area | None = None
-
-    @property
-    def step(self) -> ClassifyAboveGround:
-        """The step that classifies them."""
-        return ClassifyAboveGround(self.parameters, self.ground, self.area)
-
-
-@dataclass(frozen=True)
-class WaterClassRequest(PointRequest):
-    """A request to give classes to ground points in water and beside its shore.
-
-    Attributes
-    ----------
-    parameters : WaterClasses
-        The classes, and the distance from the shore.
-    ground : GroundClasses
-        Which points are ground.
-    water : WaterPolygons
-        The water.
-    """
-
-    parameters: WaterClasses = field(default_factory=WaterClasses)
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    water: WaterPolygons = NO_WATER
-
-    @property
-    def step(self) -> ClassifyWater:
-        """The step that gives the classes."""
-        return ClassifyWater(self.parameters, self.ground, self.water)
 
 
 @dataclass(frozen=True)

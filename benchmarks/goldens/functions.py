@@ -40,7 +40,8 @@ def _check(out: Path) -> Any:
 
 def _water_classes(out: Path) -> Any:
     water = bare.WaterPolygons(bare.read_boundary(Path("water.geojson")))
-    return bare.water_classes(_TRUTH, out / "a.las", bare.WaterClassRequest(water=water))
+    request = bare.PointRequest(bare.ClassifyWater(water=water))
+    return bare.water_classes(_TRUTH, out / "a.las", request)
 
 
 FUNCTIONS: dict[str, Callable[[Path], Any]] = {

@@ -11,7 +11,7 @@ from ...algorithms.survey.ground_classes import GroundClasses
 from ..styles import layers
 from . import checkpoints as fields
 from .base import command_line
-from .given_terrain import add_terrain, terrain_of
+from .given_terrain import DTM, add_terrain, terrain_of
 from .inputs import ANY_CLOUD_HELP, SurveyInput
 from .products import ProductAlgorithm
 from .stated_crs import add_crs
@@ -46,7 +46,8 @@ class CheckAlgorithm(ProductAlgorithm):
         """Declare the fields of the dialog and the results."""
         self.addParameter(SurveyInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
         fields.add_checkpoints(self)
-        add_terrain(self, "The heights of this raster are compared with the checkpoints as well.")
+        text = "The heights of this raster are compared with the checkpoints as well."
+        add_terrain(self, DTM, "Terrain model", text)
         add_crs(self)
         self.add_declared()
         fields.add_judgement(self)

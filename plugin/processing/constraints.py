@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -12,14 +12,8 @@ from qgis.core import (
 
 from ...algorithms.core.progress import Progress
 from ...algorithms.products.constraints import Constraints
-from ...algorithms.products.water_classes import WaterPolygons
-from ...algorithms.products.water_files import SurveyWater, WaterRequest
-from ...algorithms.survey.ground_classes import GroundClasses
 from .. import compat
-from .inputs import CloudCrs, layer_polygons, layer_shapes
-
-if TYPE_CHECKING:
-    from .products import ProductAlgorithm
+from .inputs import CloudCrs, layer_shapes
 
 # Name, label, kind of the layer and help of each field.
 _FIELDS = {
@@ -82,43 +76,6 @@ def constraints_of(
         f" GeoJSON, and add {' '.join(map(_option, given))}."
     )
     return Constraints(**found)
-
-
-def add_water(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add a field for polygons of water, which are found if it is empty."""
-    field = QgsProcessingParameterFeatureSource("WATER", "Water", [compat.POLYGONS], None, True)
-    text = (
-        "Polygons of water, with islands as holes. Empty: the water is found first, as 'Find water'"
-        " does with its default values."
-    )
-    algorithm.addParameter(field, text)
-
-
-def water_option(parameters: dict[str, Any]) -> str:
-    """Return the value of the option of the command line for the field of `add_water`."""
-    return "automatic" if compat.is_empty(parameters.get("WATER")) else "water.geojson"
-
-
-def water_of(
-    algorithm: ProductAlgorithm,
-    parameters: dict[str, Any],
-    context: QgsProcessingContext,
-    ground: GroundClasses,
-    progress: Progress,
-) -> WaterPolygons:
-    """Return the water in the field of `add_water`, in the CRS of the points, or find it."""
-    if not compat.is_empty(parameters.get("WATER")):
-        progress.info(
-            "In the command line the water is missing: save it in the CRS of the points as"
-            " water.geojson."
-        )
-        crs = algorithm.crs_of(algorithm.source)
-        polygons = layer_polygons(algorithm, parameters, "WATER", "Water", context, crs)
-        return WaterPolygons(polygons)
-    request = WaterRequest(ground=ground, crs=algorithm.stated)
-    found = SurveyWater.of([algorithm.source], request, progress)
-    progress.info(f"Water: {found.summary.text}.")
-    return WaterPolygons(found.constraints.water_outlines)
 
 
 def _option(name: str) -> str:

@@ -1,4 +1,4 @@
-"""The field for a given terrain model, above which heights are measured."""
+"""The field for a given terrain model."""
 
 from __future__ import annotations
 
@@ -17,21 +17,19 @@ from .inputs import raster_of
 DTM = "DTM"
 
 
-def add_terrain(algorithm: QgsProcessingAlgorithm, text: str = "") -> None:
-    """Add the field to a dialog; `text` is its help, if heights are not measured above it."""
-    algorithm.addParameter(
-        QgsProcessingParameterRasterLayer(DTM, "Terrain model", None, True),
-        text
-        or "Heights are measured above this raster, and not above the ground points. It must have"
-        " the CRS of the points. Empty: above the ground points.",
-    )
+def add_terrain(algorithm: QgsProcessingAlgorithm, name: str, label: str, text: str) -> None:
+    """Add a field for the raster to a dialog; `text` is its help."""
+    algorithm.addParameter(QgsProcessingParameterRasterLayer(name, label, None, True), text)
 
 
 def terrain_of(
-    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    name: str = DTM,
 ) -> str:
     """Return the file of the raster, empty if there is none; refuse a layer that is no file."""
-    if compat.is_empty(parameters.get(DTM)):
+    if compat.is_empty(parameters.get(name)):
         return ""
     text = mark("The terrain model is not a file. Export it as GeoTIFF first.")
-    return raster_of(algorithm, parameters, DTM, context, text).source()
+    return raster_of(algorithm, parameters, name, context, text).source()

@@ -1,19 +1,21 @@
-"""Words for the search of the toolbox, for each algorithm."""
+"""Words for the search of the toolbox, for each algorithm that is no tool with a declaration."""
 
 from __future__ import annotations
 
+from typing import Iterable
+
 from ...algorithms.filters import METHODS
+from ...algorithms.tools.declaration import CANOPY as _CANOPY
+from ...algorithms.tools.declaration import CLOUD as _CLOUD
+from ...algorithms.tools.declaration import TERRAIN as _TERRAIN
+from ...algorithms.tools.declaration import TIN as _TIN
 from ..i18n import mark, tr
 
-_CLOUD = mark("lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud")
 _GROUND = mark(
     "ground,bare earth,ground filter,ground classification,classify ground,extract ground,"
     "ground points,noise,outliers,vegetation removal,smrf,pmf,csf,mcc,lasground,classifyground"
 )
-_TERRAIN = mark("terrain,terrain model,elevation model,dtm,dem,dsm,hillshade,relief")
-_CANOPY = mark("chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight")
 _TILES = mark("vpc,tiles,batch,survey,folder,many files")
-_TIN = mark("tin,triangulation")
 _RASTER = mark("grid,raster,rasterize,interpolate")
 
 # Groups of words, by the second half of the id.
@@ -28,23 +30,8 @@ _WORDS = {
     },
     "classifytiles": (_CLOUD, _GROUND, _TERRAIN, _TILES),
     "terrainmodel": (_CLOUD, _TERRAIN, _CANOPY, _TIN, _RASTER),
-    "heightaboveground": (_CLOUD, _CANOPY, _TIN, mark("height,extra bytes")),
-    "classifyaboveground": (
-        _CLOUD, _CANOPY,
-        mark("buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign"),
-    ),
-    "modelkeypoints": (
-        _CLOUD, _TERRAIN, _TIN, mark("ground,thin,thinning,generalize,keypoints,contours"),
-    ),
     "water": (
         _CLOUD, mark("lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines"),
-    ),
-    "waterclasses": (
-        _CLOUD,
-        mark(
-            "lake,river,pond,shore,breaklines,hydro-flattening,class 9,class 20,ignored ground,"
-            "usgs,lbs,classes,classification"
-        ),
     ),
     "comparesettings": (
         _CLOUD, _GROUND, _TERRAIN, mark("preview,try,test,preset,parameters,compare,profile"),
@@ -89,6 +76,10 @@ _WORDS = {
 
 def words_of(identifier: str) -> list[str]:
     """Return the words for an algorithm, by half of its id, in English and the user's language."""
-    groups = _WORDS[identifier]
+    return words_in(_WORDS[identifier])
+
+
+def words_in(groups: Iterable[str]) -> list[str]:
+    """Return the words of groups, separated by commas, in English and the user's language."""
     words = (word for group in groups for text in (group, tr(group)) for word in text.split(","))
     return list(dict.fromkeys(words))

@@ -9,6 +9,15 @@ import sys
 from pathlib import Path
 
 import bare_earth.algorithms as package
+from bare_earth.algorithms import (
+    FindKeyPoints,
+    HeightOutput,
+    KeyPointMark,
+    MeasureHeights,
+    PointRequest,
+    heights,
+    key_points,
+)
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.progress import SILENT, Progress
@@ -20,16 +29,9 @@ from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.runs import many_files
-from bare_earth.algorithms.runs.entry import classify, heights, key_points, terrain
+from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.options import RasterOutput, TileInput, TileOutput
-from bare_earth.algorithms.runs.requests import (
-    ClassifyRequest,
-    HeightRequest,
-    KeyPointRequest,
-    TerrainRequest,
-)
-from bare_earth.algorithms.steps.heights import HeightOutput
-from bare_earth.algorithms.steps.key_points import KeyPointMark
+from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.steps.rasters import RasterFiles
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
@@ -99,7 +101,7 @@ def write_height_above_ground(
     source, target, ground=GroundClasses(), output=HeightOutput(), resources=Resources(),
     progress=SILENT,
 ):  # fmt: skip
-    request = HeightRequest(ground=ground, output=output, resources=resources)
+    request = PointRequest(MeasureHeights(ground, output), resources=resources)
     return heights(source, target, request, progress)
 
 
@@ -107,7 +109,7 @@ def write_key_points(
     source, target, parameters=ModelKeyPoints(), ground=GroundClasses(), mark=KeyPointMark(),
     progress=SILENT,
 ):  # fmt: skip
-    request = KeyPointRequest(parameters=parameters, ground=ground, mark=mark)
+    request = PointRequest(FindKeyPoints(parameters, ground, mark))
     return key_points(source, target, request, progress)
 
 
@@ -123,7 +125,7 @@ def write_terrain_models(
 
 
 def write_heights(sources, folder, **rest):
-    return many_files.write_files(sources, folder, [HeightRequest().step], **rest)
+    return many_files.write_files(sources, folder, [MeasureHeights()], **rest)
 
 
 def memory_store(parts, frame, blocks):

@@ -6,6 +6,7 @@ import pytest
 from conftest import Heard
 from runs import said
 
+from bare_earth.algorithms import ClassifyAboveGround, PointRequest, above_ground
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
@@ -19,10 +20,9 @@ from bare_earth.algorithms.products.above_ground import (
 )
 from bare_earth.algorithms.products.buildings import Buildings
 from bare_earth.algorithms.products.raster_files import RasterFiles
-from bare_earth.algorithms.runs.entry import above_ground, classify
+from bare_earth.algorithms.runs.entry import classify
 from bare_earth.algorithms.runs.options import TileOutput
-from bare_earth.algorithms.runs.requests import AboveGroundRequest, ClassifyRequest
-from bare_earth.algorithms.steps.above_ground import ClassifyAboveGround
+from bare_earth.algorithms.runs.requests import ClassifyRequest
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.corrections import Corrections
@@ -310,9 +310,9 @@ def test_the_files_of_a_survey_do_not_matter(finished, village, tmp_path):
     made = sorted((tmp_path / "out").glob("*.laz"))
     assert np.array_equal(_rows(made), _rows([finished]))
     # Finished files are kept.
-    resumed = AboveGroundRequest(tiles=TileOutput(resume=True))
+    resumed = PointRequest(ClassifyAboveGround(), tiles=TileOutput(resume=True))
     assert above_ground([folder], tmp_path / "out", resumed).kept_count == 4
-    anew = AboveGroundRequest(parameters=AboveGround("ign"), tiles=TileOutput(resume=True))
+    anew = PointRequest(ClassifyAboveGround(AboveGround("ign")), tiles=resumed.tiles)
     assert above_ground([folder], tmp_path / "out", anew).kept_count == 0
 
 
@@ -324,7 +324,7 @@ def test_there_are_no_seams_between_blocks(file, finished, tmp_path, monkeypatch
 
 
 def test_points_on_disk_get_the_same_classes(file, finished, tmp_path):
-    few, heard = AboveGroundRequest(resources=Resources(1, 0.001)), Heard()
+    few, heard = PointRequest(ClassifyAboveGround(), resources=Resources(1, 0.001)), Heard()
     above_ground(file, tmp_path / "disk.laz", few, heard)
     assert any("wait in a temporary file" in text for text in heard.infos)
     assert np.array_equal(_classes(finished), _classes(tmp_path / "disk.laz"))
@@ -342,7 +342,7 @@ def test_classes_with_a_meaning_stay(village, tmp_path):
     above_ground(source, tmp_path / "kept.laz")
     found = _classes(tmp_path / "kept.laz")
     assert np.array_equal(found[classes > 1], classes[classes > 1])
-    request = AboveGroundRequest(parameters=AboveGround(reclassify=True))
+    request = PointRequest(ClassifyAboveGround(AboveGround(reclassify=True)))
     above_ground(source, tmp_path / "anew.laz", request)
     anew = _classes(tmp_path / "anew.laz")
     fixed = np.isin(classes, (2, 7, 9))
@@ -354,7 +354,7 @@ def test_only_points_of_the_area_change(file, finished, village, tmp_path):
     x, y = village.points.x + ORIGIN[0], village.points.y + ORIGIN[1]
     west, south, east, north = (*map(np.median, (x, y)), x.max(), y.max())
     area = Area(box=(west, south, east, north))
-    above_ground(file, tmp_path / "out.laz", AboveGroundRequest(area=area))
+    above_ground(file, tmp_path / "out.laz", PointRequest(ClassifyAboveGround(area=area)))
     before, after, whole = map(_classes, (file, tmp_path / "out.laz", finished))
     inside = (x >= west) & (y >= south)
     assert np.array_equal(after[inside], whole[inside])
@@ -393,7 +393,7 @@ def test_the_command(file, tmp_path):
     code, text, errors = said("above-ground", file, out, "--above-ground", "ign", "--verbose")
     assert code == 0, errors
     assert "are buildings and" in text
-    above_ground(file, tmp_path / "same.laz", AboveGroundRequest(parameters=AboveGround("ign")))
+    above_ground(file, tmp_path / "same.laz", PointRequest(ClassifyAboveGround(AboveGround("ign"))))
     assert np.array_equal(_classes(out), _classes(tmp_path / "same.laz"))
     code, _, errors = said(
         "above-ground", file, out, "--above-ground", "own", "--medium-height", 3, "--high-height", 1
@@ -411,7 +411,7 @@ def _run(**options):
 def test_one_run_finds_the_ground_and_what_is_above(file, classified, village, tmp_path):
     (one, summary), ground, two = classified, tmp_path / "ground.laz", tmp_path / "two.laz"
     classify(file, ground)
-    above_ground(ground, two, AboveGroundRequest(parameters=AboveGround("ign")))
+    above_ground(ground, two, PointRequest(ClassifyAboveGround(AboveGround("ign"))))
     assert np.array_equal(_classes(one), _classes(two))
     assert summary.class_counts == dict(zip(*np.unique(_classes(one), return_counts=True)))
     assert _iou(_classes(one) == 6, village.classes == 6) > 0.93

@@ -12,10 +12,11 @@ from bare_earth.algorithms import (
     BareEarthError,
     ClassifyRequest,
     Corrections,
+    FindKeyPoints,
     GridMinimum,
     KeyPointMark,
-    KeyPointRequest,
     Output,
+    PointRequest,
     RasterFiles,
     Resources,
     Selection,
@@ -302,7 +303,7 @@ def test_changes_in_files_hold_in_tiles_and_with_heights(edited, integers, tmp_p
 
 def test_key_points_are_no_changes_by_hand(edited, tmp_path):
     marked, out = tmp_path / "marked.laz", tmp_path / "out.laz"
-    key_points(edited, marked, KeyPointRequest(mark=KeyPointMark(mark_as="class")))
+    key_points(edited, marked, PointRequest(FindKeyPoints(mark=KeyPointMark(mark_as="class"))))
     assert np.any(_whole(marked) == 8)
     classify(marked, out, _request(GONE))
     # Those on the mound are not known any more.

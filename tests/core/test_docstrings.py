@@ -19,7 +19,7 @@ def _exported():
     return {
         (place.joinpath(*node.module.split(".")).with_suffix(".py"), name.name)
         for node in ast.walk(tree_of(place / "__init__.py"))
-        if isinstance(node, ast.ImportFrom) and node.level == 1
+        if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module != "tools"
         for name in node.names
     }
 

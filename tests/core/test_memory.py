@@ -16,8 +16,8 @@ from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.products.terrain_model import TerrainModel
-from bare_earth.algorithms.steps.heights import MeasureHeights
 from bare_earth.algorithms.steps.rasters import MakeRasters
+from bare_earth.algorithms.tools.heights import MeasureHeights
 
 # So many points that the arrays of a single tile of `DenseSurface` hardly count.
 COUNT, SIDE = 500_000, 440.0

@@ -25,10 +25,10 @@ from bare_earth.algorithms.las.reading import inspect
 from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.steps import labelling
-from bare_earth.algorithms.steps.heights import HeightOutput
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.heights import HeightOutput
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 # The least that can be given: 8,000 points do not fit.

@@ -18,9 +18,9 @@ from bare_earth.algorithms.products import relief_rasters
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.products.surface_model import SurfaceModel, canopy_height
 from bare_earth.algorithms.products.terrain_model import TerrainModel
-from bare_earth.algorithms.steps.heights import HeightOutput
-from bare_earth.algorithms.steps.key_points import KeyPointMark
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
+from bare_earth.algorithms.tools.heights import HeightOutput
+from bare_earth.algorithms.tools.key_points import KeyPointMark
 
 FEET_WKT = (
     'PROJCS["feet",GEOGCS["g",DATUM["d",SPHEROID["s",6378137,298.257]],PRIMEM["Greenwich",0],'

@@ -14,6 +14,7 @@ from runs import classify_file, classify_tiles, write_heights, write_key_points
 from surveys import bytes_of, cut, finished, strip, write
 
 import bare_earth.algorithms as api
+from bare_earth.algorithms import FindKeyPoints, MeasureHeights, PointRequest, TileOutput
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.engine.memory import Resources
@@ -22,15 +23,11 @@ from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.runs import entry as runs_module
 from bare_earth.algorithms.runs.many_files import write_files
-from bare_earth.algorithms.runs.requests import (
-    ClassifyRequest,
-    HeightRequest,
-    KeyPointRequest,
-    TerrainRequest,
-)
+from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools import point_tool
 
 SLOPE = SlopeFilter(preset="whitebox")
 
@@ -108,9 +105,9 @@ def test_heights_go_on_where_a_run_ended(survey, tmp_path):
     write_heights(sources, folder)
     before = bytes_of(folder)
     (folder / "3.laz").unlink()
-    request = HeightRequest.of([runs_module.ClassifyRequest().tiles, GroundClasses()])
-    assert request == HeightRequest()
-    resumed = HeightRequest(tiles=type(request.tiles)(resume=True))
+    request = PointRequest.of(point_tool("height"), [TileOutput(), GroundClasses()])
+    assert request == PointRequest(MeasureHeights())
+    resumed = PointRequest(MeasureHeights(), tiles=TileOutput(resume=True))
     summary = write_files(sources, folder, [resumed.step], resumed)
     assert summary.kept_count == 5 and summary.done_count == 6
     assert bytes_of(folder) == before
@@ -140,8 +137,10 @@ def test_a_request_takes_parameter_sets_in_any_order():
     assert request == ClassifyRequest.of(sets[::-1])
     assert (request.parameters, request.selection.returns) == (SLOPE, "all")
     assert request.output.ground_only and request.resources.threads == 1
-    keys = KeyPointRequest.of([GroundClasses((2, 8)), ModelKeyPoints(tolerance_above=1.0)])
-    assert keys.parameters.tolerance_above == 1.0 and keys.ground.ground_classes == (2, 8)
+    sets = [GroundClasses((2, 8)), ModelKeyPoints(tolerance_above=1.0), Resources(threads=1)]
+    keys = PointRequest.of(point_tool("key-points"), sets, crs="EPSG:25832")
+    assert keys.step == FindKeyPoints(sets[1], sets[0])
+    assert keys.resources == sets[2] and keys.crs == "EPSG:25832"
 
 
 def test_the_public_api_is_there_and_costs_nothing_before_it_is_used():
@@ -151,6 +150,7 @@ def test_the_public_api_is_there_and_costs_nothing_before_it_is_used():
         api.nothing_of_that_name  # noqa: B018
     text = Path(api.__file__).read_text(encoding="utf-8")
     typed = {line.split()[-1] for line in text.splitlines() if line.startswith("    from .")}
+    typed |= set(re.findall(r"^    (\w+): PointFunction$", text, re.MULTILINE))
     assert {*api.__all__} - {"assess", "check", "find_water", "quality"} <= typed
     page = (Path(api.__file__).parents[1] / "docs" / "api.md").read_text(encoding="utf-8")
     shown = re.findall(r"^::: bare_earth\.algorithms\.(\w+)$", page, re.MULTILINE)

@@ -9,18 +9,15 @@ import pytest
 from conftest import Heard
 from realdata import real
 
+from bare_earth.algorithms import ClassifyAboveGround, PointRequest, above_ground
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.products.constraints import Constraints
 from bare_earth.algorithms.products.raster_files import RasterFiles
-from bare_earth.algorithms.runs.entry import above_ground, classify, terrain
-from bare_earth.algorithms.runs.requests import (
-    AboveGroundRequest,
-    ClassifyRequest,
-    TerrainRequest,
-)
+from bare_earth.algorithms.runs.entry import classify, terrain
+from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_corrections, read_lines
 
@@ -302,12 +299,14 @@ def test_the_area_of_classes_above_the_ground_is_transformed_for_one_file(cloud,
     las.write(str(cloud))
     west = np.minimum(CORNERS, (500_060.0, np.inf))
     area = read_boundary(geojson(tmp_path / "area.geojson", moved(west, "EPSG:4326")))
-    above_ground(cloud, tmp_path / "out.laz", AboveGroundRequest(area=Area(None, area)))
+    above_ground(
+        cloud, tmp_path / "out.laz", PointRequest(ClassifyAboveGround(area=Area(None, area)))
+    )
     changed = np.asarray(laspy.read(tmp_path / "out.laz").classification) == 6
     x = np.asarray(las.x)
     assert changed[(np.asarray(las.z) > 52.0) & (x < 500_058.0)].mean() > 0.9
     assert not changed[x > 500_060.1].any()
     far = Area(None, (CORNERS[None] + 50_000.0,))
     with pytest.raises(BareEarthError, match="lies in the area"):
-        above_ground(cloud, tmp_path / "far.laz", AboveGroundRequest(area=far))
+        above_ground(cloud, tmp_path / "far.laz", PointRequest(ClassifyAboveGround(area=far)))
     assert not (tmp_path / "far.laz").exists()

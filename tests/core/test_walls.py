@@ -31,13 +31,16 @@ FLOORS = {
     "products": "core crs grids las survey rasters filters report",
     "engine": "core crs las survey",
     "steps": "core crs grids las survey rasters filters products engine",
-    "runs": "core crs grids las survey rasters filters products engine steps",
-    "trial": "core crs grids las survey rasters filters report products engine steps runs",
-    "delivery": "core crs grids las survey rasters filters report products engine steps runs",
-    "cli": "core crs grids las survey rasters filters products engine steps runs trial delivery",
+    "tools": "core crs grids las survey rasters products engine steps",
+    "runs": "core crs grids las survey rasters filters products engine steps tools",
+    "trial": "core crs grids las survey rasters filters report products engine steps tools runs",
+    "delivery": "core crs grids las survey rasters filters report products engine steps tools runs",
+    "cli": (
+        "core crs grids las survey rasters filters products engine steps tools runs trial delivery"
+    ),
     "__main__": "cli",
     "__init__": (
-        "core crs grids las survey rasters filters products engine steps runs trial delivery"
+        "core crs grids las survey rasters filters products engine steps tools runs trial delivery"
     ),
 }
 
@@ -121,9 +124,9 @@ def test_no_file_imports_itself_by_way_of_others():
     assert not left, sorted(map(name_of, left))
 
 
-@pytest.mark.parametrize("step", ["heights", "key_points", "rasters"])
+@pytest.mark.parametrize("step", ["tools/heights", "tools/key_points", "steps/rasters"])
 def test_steps_for_classified_points_need_no_filter(step):
-    reached, left = set(), [ROOT / "algorithms" / "steps" / f"{step}.py"]
+    reached, left = set(), [ROOT / "algorithms" / f"{step}.py"]
     while left:
         path = left.pop()
         if path not in reached:

@@ -1,6 +1,7 @@
 """Classes of ground points in water and beside its shore, of one file and of many."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import laspy
@@ -12,17 +13,24 @@ from runs import CancelAt, said
 from scipy.spatial import cKDTree
 from test_water import lake, lake_scene
 
-from bare_earth.algorithms import find_water, read_boundary
+from bare_earth.algorithms import (
+    ClassifyWater,
+    PointRequest,
+    WaterClasses,
+    WaterPolygons,
+    find_water,
+    read_boundary,
+    water_classes,
+)
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.crs.provider import wkt_of_epsg
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.grids.lines import along, near_rings
 from bare_earth.algorithms.las.extrabytes import REMEMBERED
 from bare_earth.algorithms.products.water import Water
-from bare_earth.algorithms.products.water_classes import WaterClasses, WaterPolygons
 from bare_earth.algorithms.products.water_files import WaterRequest
-from bare_earth.algorithms.runs.entry import classify, water_classes
-from bare_earth.algorithms.runs.requests import ClassifyRequest, WaterClassRequest
+from bare_earth.algorithms.runs.entry import classify
+from bare_earth.algorithms.runs.requests import ClassifyRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.shapes import Shapes
@@ -91,7 +99,7 @@ def classes_of(path):
 def request(distance=DISTANCE, unit=1.0, shapes=None, **others):
     water = WaterPolygons(polygons(unit) if shapes is None else shapes)
     how = WaterClasses(shore_distance=distance)
-    return WaterClassRequest(parameters=how, water=water, **others)
+    return PointRequest(ClassifyWater(how, water=water), **others)
 
 
 @pytest.mark.parametrize(("epsg", "unit"), [(UTM, 1.0), (FEET, US_FOOT)])
@@ -119,7 +127,7 @@ def test_other_classes_are_given_if_the_user_asks(tmp_path):
     how = WaterClasses(shore_distance=2.0, water_class=41, ignored_class=45)
     ground = GroundClasses(ground_classes=(2, 20))
     water = WaterPolygons(polygons())
-    asked = WaterClassRequest(parameters=how, ground=ground, water=water)
+    asked = PointRequest(ClassifyWater(how, ground, water))
     water_classes(source, target, asked)
     before = laspy.read(source)
     is_water, is_beside = truth(*metres(before), 2.0)
@@ -218,7 +226,7 @@ def test_remembered_classes_follow(tmp_path):
 
 def test_without_polygons_nothing_changes_and_the_user_is_told(tmp_path):
     source, heard = write(tmp_path / "in.las"), Heard()
-    water_classes(source, tmp_path / "out.las", WaterClassRequest(), heard)
+    water_classes(source, tmp_path / "out.las", PointRequest(ClassifyWater()), heard)
     assert (tmp_path / "out.las").read_bytes() == source.read_bytes()
     assert heard.warnings == ["There is no polygon of water, so that no class changes."]
 
@@ -227,10 +235,10 @@ def test_what_cannot_be_done_is_a_sentence(tmp_path):
     source, target = write(tmp_path / "in.las"), tmp_path / "out.las"
     far = WaterPolygons(polygons(origin=(0.0, 0.0)))
     with pytest.raises(BareEarthError, match=r"lies in the polygons of water .* Give the polygons"):
-        water_classes(source, target, WaterClassRequest(water=far))
+        water_classes(source, target, PointRequest(ClassifyWater(water=far)))
     with pytest.raises(BareEarthError, match="has no ground points: none is of class 90,"):
-        water_classes(write(tmp_path / "no.las", classes=1), target,
-                      request(ground=GroundClasses(ground_classes=(90,))))  # fmt: skip
+        step = replace(request().step, ground=GroundClasses(ground_classes=(90,)))
+        water_classes(write(tmp_path / "no.las", classes=1), target, PointRequest(step))
     with pytest.raises(BareEarthError, match="not a finite number"):
         WaterPolygons(((np.full((4, 2), np.nan),),))
     old = laspy.LasData(laspy.LasHeader(point_format=1, version="1.2"))
@@ -238,7 +246,7 @@ def test_what_cannot_be_done_is_a_sentence(tmp_path):
     old.write(str(tmp_path / "old.las"))
     how = WaterClasses(ignored_class=45)
     with pytest.raises(BareEarthError, match=r"holds classes up to 31, not 45.* ignored ground"):
-        water_classes(tmp_path / "old.las", target, WaterClassRequest(parameters=how))
+        water_classes(tmp_path / "old.las", target, PointRequest(ClassifyWater(how)))
     with pytest.raises(Cancelled):
         water_classes(source, target, request(), CancelAt(0.5))
     (tmp_path / "empty.geojson").write_text('{"type": "FeatureCollection", "features": []}')

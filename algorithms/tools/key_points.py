@@ -1,4 +1,4 @@
-"""The step that finds model key points."""
+"""Classify model key points: a class or a flag for the few ground points a model needs."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..las.records import check_class
 from ..survey.ground_classes import GroundClasses, GroundCounts
+from .declaration import CLOUD, TERRAIN, TIN, PointTool
 
 # Values that a store holds for key points, and for other ground points.
 _KEY, _OTHER = 1, 2
@@ -77,11 +78,21 @@ class KeyPointSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class FindKeyPoints(PointStep):
-    """Finds the few ground points whose TIN is as good as that of all of them."""
+    """Finds the few ground points whose TIN is as good as that of all of them.
+
+    Attributes
+    ----------
+    parameters : ModelKeyPoints
+        How closely they follow the ground.
+    ground : GroundClasses
+        Which points are ground.
+    mark : KeyPointMark
+        Whether they get a class or a flag.
+    """
 
     parameters: ModelKeyPoints = field(default_factory=ModelKeyPoints)
     ground: GroundClasses = field(default_factory=GroundClasses)
-    mark: KeyPointMark = field(default_factory=KeyPointMark)  # a class or a flag
+    mark: KeyPointMark = field(default_factory=KeyPointMark)
 
     counts = GroundCounts
     summary_type = KeyPointSummary
@@ -174,3 +185,33 @@ def _keys(
     anchor = -corner[0], -corner[1]
     keys = model_key_points(contents.points, parameters, progress, anchor)[wanted]
     return np.where(keys, _KEY, _OTHER).astype(np.uint8)
+
+
+TOOL = PointTool(
+    step=FindKeyPoints,
+    sets=(ModelKeyPoints, KeyPointMark, GroundClasses),
+    dialog_sets=(ModelKeyPoints, GroundClasses, KeyPointMark),
+    command="key-points",
+    command_about="Marks the model key points of a classified file, or of many as one survey: the"
+    " few ground points that a terrain model needs. No other ground point lies farther from their"
+    " TIN than the tolerances.",
+    writes="their model key points marked",
+    identifier="modelkeypoints",
+    title="Classify model key points",
+    summary="Finds the few ground points that make as good a terrain model as all of them.",
+    about="Finds the few ground points of a classified point cloud that a terrain model needs. Of"
+    " all other ground points, none lies farther above or below the triangulation (TIN) of"
+    " these key points than the tolerances. Key points get a class of their own, or the"
+    " key-point flag; nothing else in the file changes.\n"
+    "Lengths are metres, whatever the unit of the CRS.",
+    page="model-key-points",
+    words=(CLOUD, TERRAIN, TIN, "ground,thin,thinning,generalize,keypoints,contours"),
+    output_label="Point cloud with key points",
+    output_help="The same points, with the key points marked.",
+    numbers=(
+        ("POINT_COUNT", "Points"),
+        ("GROUND_COUNT", "Ground points"),
+        ("KEY_POINT_COUNT", "Key points"),
+    ),
+    shows="key points",
+)

@@ -1,4 +1,4 @@
-"""The step that measures heights above ground."""
+"""Height above ground: a height of each point, as an extra dimension or in place of z."""
 
 from __future__ import annotations
 
@@ -24,9 +24,10 @@ from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..products.height_above_ground import GroundSurface, with_roads
 from ..rasters.sampling import FAR_ABOVE, HeightRaster, HeightSampler
+from ..steps.output import HEIGHT_DIMENSION, height_dimension
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundCounts
-from .output import HEIGHT_DIMENSION, height_dimension
+from .declaration import CANOPY, CLOUD, TIN, Input, PointTool
 
 # The buffer of a block in metres, and the memory that it takes.
 _BLOCKS = Blocks.of(100.0, Cost(150.0, 50.0))
@@ -71,13 +72,27 @@ class HeightSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class MeasureHeights(PointStep):
-    """Measures the height of each point above the ground."""
+    """Measures the height of each point above the ground.
+
+    Attributes
+    ----------
+    ground : GroundClasses
+        Which points are ground.
+    output : HeightOutput
+        Whether the heights are an extra dimension or replace z; both in the vertical unit.
+    area : Area or None
+        Where heights are wanted; None for everywhere.
+    roads : tuple of int
+        Classes that are ground as well, where they lie on it.
+    dtm : HeightRaster or None
+        Heights are measured above this raster, and the points need no ground.
+    """
 
     ground: GroundClasses = field(default_factory=GroundClasses)
     output: HeightOutput = field(default_factory=HeightOutput)
-    area: Area | None = None  # where heights are wanted; None for everywhere
-    roads: tuple[int, ...] = ()  # classes that are ground as well, where they lie on it
-    dtm: HeightRaster | None = None  # heights are measured above it, not above the ground points
+    area: Area | None = None
+    roads: tuple[int, ...] = ()
+    dtm: HeightRaster | None = None
 
     counts = GroundCounts
     kind = np.float64
@@ -254,3 +269,48 @@ def _measured(
     points = Points(*map(np.concatenate, zip(*(each[2].points for each in found))))
     heights[above] = surface.heights_above(points, progress.part(0.45, 1.0))
     return positions, heights
+
+
+TOOL = PointTool(
+    step=MeasureHeights,
+    sets=(HeightOutput, GroundClasses),
+    dialog_sets=(GroundClasses, HeightOutput),
+    inputs=(
+        Input(
+            "dtm",
+            "raster",
+            HeightRaster.of,
+            help="measure the heights above this raster, in the CRS of the points, and not above"
+            " the ground points; the points need no classes",
+            label="Terrain model",
+            field_help="Heights are measured above this raster, and not above the ground points. It"
+            " must have the CRS of the points. Empty: above the ground points.",
+            is_last=True,
+        ),
+    ),
+    command="height",
+    command_about="Adds to every point its height above the TIN of the ground points, in the"
+    " vertical unit of the CRS. The input is a classified file, or many as one survey. With --dtm,"
+    " heights are above a raster.",
+    writes="the height of every point above the ground",
+    identifier="heightaboveground",
+    title="Height above ground",
+    summary="Adds the height of every point above the ground points of a point cloud.",
+    about="Adds the height above ground to every point of a classified point cloud: its height"
+    " above the triangulation (TIN) of the ground points or, outside of it, above the nearest"
+    " ground point. Heights are in the vertical unit of the CRS. They become an extra dimension,"
+    " HeightAboveGround, or replace z; nothing else in the file changes.\n"
+    "With a terrain model, heights are measured above that raster, and the points need no"
+    " classes.",
+    page="height-above-ground",
+    words=(CLOUD, CANOPY, TIN, "height,extra bytes"),
+    output_label="Point cloud with heights",
+    output_help="The same points with their heights above ground.",
+    numbers=(
+        ("POINT_COUNT", "Points"),
+        ("GROUND_COUNT", "Ground points"),
+        ("MINIMUM", "Lowest height"),
+        ("MAXIMUM", "Highest height"),
+    ),
+    shows="heights",
+)

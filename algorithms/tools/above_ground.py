@@ -1,4 +1,4 @@
-"""The step that classifies the points above the ground."""
+"""Classify above ground: classes of vegetation, buildings, bridges and high noise."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from ..survey.corrections import NO_CORRECTIONS, Corrections, changed_since
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import DECIDED, ROADS, is_one_of
 from ..survey.shapes import outside
+from .declaration import CANOPY, CLOUD, Input, PointTool
 
 # The buffer of a block in metres, and the memory that it takes. A face of a roof that reaches
 # farther is large enough without what lies beyond.
@@ -51,12 +52,23 @@ class AboveGroundSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class ClassifyAboveGround(PointStep):
-    """Finds the classes of points above the ground."""
+    """Finds the classes of points above the ground.
+
+    Attributes
+    ----------
+    parameters : AboveGround
+        Which classes they get.
+    ground : GroundClasses
+        Which points are ground.
+    area : Area or None
+        Where points can change; None for everywhere.
+    corrections : Corrections
+        Points in these polygons keep the class that they have by hand.
+    """
 
     parameters: AboveGround = field(default_factory=AboveGround)
     ground: GroundClasses = field(default_factory=GroundClasses)
-    area: Area | None = None  # where points can change; None for everywhere
-    # points in these polygons keep the class that they have by hand
+    area: Area | None = None
     corrections: Corrections = NO_CORRECTIONS
 
     counts = GroundCounts
@@ -143,3 +155,41 @@ def _classes(
     ground = with_roads(contents.points, contents.known, contents.roads, progress.part(0.0, 0.1))
     several, part = contents.multi_return, progress.part(0.1, 1.0)
     return classes_above_ground(contents.points, ground, several, parameters, part)[wanted]
+
+
+TOOL = PointTool(
+    step=ClassifyAboveGround,
+    sets=(AboveGround, GroundClasses),
+    inputs=(
+        Input(
+            "area", "area", Area, "change only points in", more="; points outside keep their class"
+        ),
+    ),
+    command="above-ground",
+    command_about="Classifies the points above the ground of a classified file, or of many as one"
+    " survey: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6),"
+    " bridges (17) and high noise (18). Only points of class 0 and 1 change.",
+    writes="the points above the ground classified too",
+    identifier="classifyaboveground",
+    title="Classify above ground",
+    summary="Finds vegetation, buildings and bridges in a point cloud whose ground is known.",
+    about="Classifies the points above the ground of a classified point cloud: low, medium and high"
+    " vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise"
+    " (18). Buildings are found by planes that laser pulses meet once; without return numbers"
+    " the planes alone decide, and smooth crowns can become buildings.\n"
+    "Only points of class 0 and 1 change, unless you ask for more. Nothing else in the file"
+    " changes. Lengths are metres, whatever the unit of the CRS.",
+    page="above-ground",
+    words=(
+        CLOUD,
+        CANOPY,
+        "buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign",
+    ),
+    output_label="Point cloud with all classes",
+    output_help="The same points, with the classes above the ground.",
+    numbers=(
+        ("POINT_COUNT", "Points"),
+        ("GROUND_COUNT", "Ground points"),
+        ("CHANGED_COUNT", "Points with a new class"),
+    ),
+)

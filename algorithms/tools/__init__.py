@@ -1,0 +1,38 @@
+"""What a user can ask for of classified points, one file for each tool.
+
+A file declares its tool as `TOOL`. The command line, the library and the dialogs of QGIS are made
+from this declaration; see `declaration.py`.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from .declaration import PointTool
+
+
+class Listed(NamedTuple):
+    """A tool in the list of all commands, which imports no tool."""
+
+    file: str  # here; also the name of its function in the library
+    help: str  # one line
+
+
+# The tools that write classified files anew, by their commands.
+POINT_TOOLS = {
+    "height": Listed("heights", "add the height above ground of every point"),
+    "above-ground": Listed("above_ground", "classify vegetation, buildings and bridges"),
+    "key-points": Listed("key_points", "mark the ground points that a terrain model needs"),
+    "water-classes": Listed(
+        "water_classes", "give classes to ground points in water and beside its shore"
+    ),
+}
+
+
+def point_tool(command: str) -> PointTool:
+    """Return the declaration of a tool, given its command."""
+    module = importlib.import_module(f".{POINT_TOOLS[command].file}", __name__)
+    tool: PointTool = module.TOOL
+    return tool

@@ -1,0 +1,285 @@
+"""Classify water: classes of ground points in water, and of those beside its shore."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Sequence
+
+import numpy as np
+
+from ..core.parameters import ParameterSet, parameter
+from ..core.progress import SILENT, Progress
+from ..engine.blocks import Blocks
+from ..engine.memory import Resources
+from ..engine.step import Allocate, CountedClasses, PointResult, PointStep, with_classes
+from ..engine.store import Marks, Store
+from ..grids.lines import near_rings
+from ..las.cloud import PointCloud
+from ..las.lasfile import LasFile
+from ..las.records import check_class
+from ..survey.area import Area, Polygon
+from ..survey.ground_classes import GroundClasses, GroundCounts
+from ..survey.kept_classes import IGNORED_GROUND
+from ..survey.shapes import Geometry, Place, located
+from .declaration import CLOUD, Input, PointTool
+
+
+@dataclass(frozen=True)
+class WaterClasses(ParameterSet):
+    """Which classes ground points in water and beside its shore get."""
+
+    shore_distance: float = parameter(
+        0.7,
+        label="Ignored ground beside the shore",
+        unit="m",
+        minimum=0.0,
+        maximum=1000.0,
+        help="Ground points outside of the water, up to this far from its shore, become ignored"
+        " ground: there the breakline alone decides the terrain. The Lidar Base Specification asks"
+        " for one nominal point spacing: 0.7 m for QL2, 0.35 m for QL1. 0: none.",
+    )
+    water_class: int = parameter(
+        9,
+        label="Class of water",
+        minimum=0,
+        maximum=255,
+        advanced=True,
+        help="The class that ground points in the water get. Point formats 0 to 5 hold classes up"
+        " to 31.",
+    )
+    ignored_class: int = parameter(
+        IGNORED_GROUND,
+        label="Class of ignored ground",
+        minimum=0,
+        maximum=255,
+        advanced=True,
+        help="The class that ground points beside the shore get. Points that have it already keep"
+        " it, also in the water, unless it is one of the ground classes.",
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class WaterPolygons(Geometry):
+    """Polygons of water, in coordinates of the CRS.
+
+    Attributes
+    ----------
+    polygons : tuple of polygon
+        As in `Area`: shores, and islands as holes. Those of a file can be in another CRS until the
+        points are known.
+
+    Raises
+    ------
+    BareEarthError
+        If a corner is not finite.
+    """
+
+    polygons: tuple[Polygon, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.polygons:
+            # This refuses corners that are not finite.
+            Area(None, self.polygons)
+
+    def located(self, place: Place, progress: Progress = SILENT) -> WaterPolygons:
+        """Return the polygons in the CRS of the points.
+
+        Polygons of a file are transformed from the CRS that it states. Messages tell so, and
+        if there is no polygon.
+
+        Raises
+        ------
+        BareEarthError
+            If that is not possible, or all of them lie outside of the points.
+        """
+        if not self.polygons:
+            progress.warning("There is no polygon of water, so that no class changes.")
+        return WaterPolygons(located(self.polygons, "the polygons of water", place, progress))
+
+
+NO_WATER = WaterPolygons()
+
+
+def found_water(
+    sources: Sequence[Path], ground: GroundClasses, crs: str | None, progress: Progress
+) -> WaterPolygons:
+    """Return the water that is found in classified files, with the default values."""
+    from ..products.water_files import SurveyWater, WaterRequest
+
+    found = SurveyWater.of(sources, WaterRequest(ground=ground, crs=crs), progress)
+    progress.info(f"Water: {found.summary.text}.")
+    return WaterPolygons(found.constraints.water_outlines)
+
+
+def classes_at_water(
+    x: np.ndarray,
+    y: np.ndarray,
+    classes: np.ndarray,
+    ground: np.ndarray,
+    polygons: tuple[Polygon, ...],
+    how: WaterClasses,
+    unit: float = 1.0,
+) -> np.ndarray:
+    """Return the classes of points, uint8 (n,), with those of water and of ignored ground beside
+    its shore; points that are not ground keep their class.
+    """
+    # Places and polygons are in the CRS, of which a unit is so many metres. The classes 9 and 20
+    # are those of the Lidar Base Specification 2.1 of the U.S. Geological Survey.
+    found, which = classes.copy(), np.flatnonzero(ground)
+    if not polygons or not len(which):
+        return found
+    inside = Area(None, polygons).contains(x[which], y[which])
+    found[which[inside]] = how.water_class
+    if how.shore_distance > 0.0:
+        land = which[~inside]
+        rings = [ring for polygon in polygons for ring in polygon]
+        beside = near_rings(x[land], y[land], rings, how.shore_distance / unit)
+        found[land[beside]] = how.ignored_class
+    return found
+
+
+@dataclass(frozen=True, order=True)
+class WaterClassSummary(CountedClasses):
+    """The points of a file that became water or ignored ground."""
+
+    name: str  # of the output
+    point_count: int
+    water_count: int
+    ignored_count: int
+    class_counts: dict[int, int] = field(default_factory=dict)  # in the output
+
+    @property
+    def text(self) -> str:
+        """The summary as a sentence."""
+        return (
+            f"{self.name}: {self.water_count:,} of {self.point_count:,} points became water, and"
+            f" {self.ignored_count:,} ignored ground beside the shore"
+        )
+
+
+@dataclass(frozen=True)
+class ClassifyWater(PointStep):
+    """Finds the ground points in water, and those beside its shore.
+
+    Attributes
+    ----------
+    parameters : WaterClasses
+        The classes, and the distance from the shore.
+    ground : GroundClasses
+        Which points are ground.
+    water : WaterPolygons
+        The water.
+    """
+
+    parameters: WaterClasses = field(default_factory=WaterClasses)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    water: WaterPolygons = NO_WATER
+
+    counts = GroundCounts
+    blocks = Blocks.of(1.0)
+    summary_type = WaterClassSummary
+    vpc_name = "water_classes.vpc"
+
+    def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
+        """Count the ground points, and mark none, since no point needs others."""
+        self.check_tile(part)
+        self.ground.of(part, counts)
+        none = np.zeros(part.count, dtype=bool)
+        return Marks(none, none, none)
+
+    def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
+        """Refuse a file without ground."""
+        self.ground.check(counts, path)
+
+    def check_tile(self, tile: LasFile | PointCloud) -> None:
+        """Refuse a file whose points cannot hold the classes."""
+        how = self.parameters
+        for value, what in ((how.water_class, "water"), (how.ignored_class, "ignored ground")):
+            check_class(tile.path, tile.point_format, value, what)
+
+    def work(self, store: Store, resources: Resources, progress: Progress) -> None:
+        """Do nothing: each point is decided by its place alone."""
+
+    def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Return points with their classes; the values are not used."""
+        part.require_projected()
+        x, y = (
+            np.asarray(column, dtype=np.float64) * scale + offset
+            for column, scale, offset in zip((part.x, part.y), part.scale, part.offset)
+        )
+        ground = self.ground.points_of(part, self.ground.ground_classes)
+        polygons, unit = self.water.polygons, part.crs.horizontal_unit
+        classes = classes_at_water(
+            x, y, part.classification, ground, polygons, self.parameters, unit
+        )
+        return with_classes(part, classes)
+
+    def result(self, path: Path, allocate: Allocate) -> WaterOfPoints:
+        """Return an object that counts what changes in a file."""
+        return WaterOfPoints(self)
+
+
+class WaterOfPoints(PointResult):
+    """The numbers of points of a file that become water or ignored ground."""
+
+    def __init__(self, step: ClassifyWater) -> None:
+        self._step, self._count = step, 0
+        self._water_count = self._ignored_count = 0
+
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Count some points; return them with their classes."""
+        after, how = self._step.applied(part, values), self._step.parameters
+        new = after.classification[after.classification != part.classification]
+        self._count += part.count
+        self._water_count += int(np.count_nonzero(new == how.water_class))
+        self._ignored_count += int(np.count_nonzero(new == how.ignored_class))
+        return after
+
+    def summary(self, name: str, class_counts: dict[int, int]) -> WaterClassSummary:
+        """Return the numbers of points."""
+        numbers = self._count, self._water_count, self._ignored_count
+        return WaterClassSummary(name, *numbers, class_counts)
+
+
+TOOL = PointTool(
+    step=ClassifyWater,
+    sets=(WaterClasses, GroundClasses),
+    inputs=(
+        Input(
+            "water",
+            "polygons",
+            WaterPolygons,
+            help="polygons of water ({formats}); with the word automatic, the water is found first,"
+            " as the command 'water' does",
+            label="Water",
+            field_help="Polygons of water, with islands as holes. Empty: the water is found first,"
+            " as 'Find water' does with its default values.",
+            found=found_water,
+        ),
+    ),
+    command="water-classes",
+    command_about="Gives class 9 (water) to the ground points of a classified file, or of many as"
+    " one survey, that lie in polygons of water, and class 20 (ignored ground) to those beside the"
+    " shore, as the Lidar Base Specification asks for. Nothing else changes.",
+    writes="classes for ground points in water and beside its shore",
+    identifier="waterclasses",
+    title="Classify water",
+    summary="Gives class 9 to ground points in water, and class 20 to those beside its shore.",
+    about="Ground points in polygons of water become water (9), and those within a distance of the"
+    " shore ignored ground (20), as the Lidar Base Specification asks for. Nothing else in the"
+    " file changes: points with other classes keep them.",
+    page="water",
+    words=(
+        CLOUD,
+        "lake,river,pond,shore,breaklines,hydro-flattening,class 9,class 20,ignored ground,"
+        "usgs,lbs,classes,classification",
+    ),
+    output_label="Point cloud with water",
+    output_help="The same points, with the classes of water and of ignored ground.",
+    numbers=(
+        ("POINT_COUNT", "Points"),
+        ("WATER_COUNT", "Points that became water"),
+        ("IGNORED_COUNT", "Points that became ignored ground"),
+    ),
+)

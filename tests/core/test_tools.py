@@ -1,0 +1,72 @@
+"""The tools that write classified files anew: all follows from the declaration of each."""
+
+import inspect
+import json
+import subprocess
+import sys
+
+import laspy
+import numpy as np
+import pytest
+from runs import said
+from surveys import write
+from toy_tool import TOOL, NewClass, RenameGround, add_toy
+
+import bare_earth.algorithms as api
+from bare_earth.algorithms.tools import POINT_TOOLS, point_tool
+
+
+@pytest.fixture
+def toy(monkeypatch):
+    add_toy(monkeypatch)
+    return TOOL
+
+
+@pytest.fixture
+def ground(tmp_path):
+    (tmp_path / "in").mkdir()
+    place = 100 * np.arange(400)
+    points = np.column_stack((place % 2_000, place // 20, place // 400))
+    return write(tmp_path / "in" / "in.laz", points, classes=np.resize([2, 1], 400))
+
+
+def test_a_new_tool_is_found_in_the_command_line(toy, ground, tmp_path):
+    _, listed, _ = said("--help")
+    assert f"{toy.command}       {POINT_TOOLS[toy.command].help}" in listed
+    code, shown, _ = said(toy.command, "--help")
+    assert code == 0 and toy.command_about in " ".join(shown.split())
+    assert "--new-class" in shown and "--ground-classes" in shown and "--resume" in shown
+    words = toy.command, ground, tmp_path / "out.laz", "--new-class", "40", "--json"
+    code, printed, _ = said(*words)
+    assert code == 0 and json.loads(printed)["new_count"] == 200
+    before, after = (laspy.read(each).classification for each in (ground, tmp_path / "out.laz"))
+    assert np.array_equal(after, np.where(np.asarray(before) == 2, 40, before))
+
+
+def test_a_new_tool_is_a_function_of_the_library(toy, ground, tmp_path):
+    assert api.rename_ground.__name__ == "rename_ground"
+    assert toy.writes in api.rename_ground.__doc__ and "ToySummary" in api.rename_ground.__doc__
+    request = api.PointRequest(RenameGround(NewClass(new_class=40)))
+    one = api.rename_ground(ground, tmp_path / "out.laz", request)
+    many = api.rename_ground([ground.parent], tmp_path / "many", request)
+    assert one.new_count == many.class_counts[40] == 200
+    resumed = api.PointRequest(request.step, tiles=api.TileOutput(resume=True))
+    again = api.rename_ground([ground.parent], tmp_path / "many", resumed)
+    assert again.kept_count == 1
+
+
+@pytest.mark.parametrize("command", POINT_TOOLS)
+def test_the_functions_of_tools_tell_what_they_do(command):
+    function, tool = getattr(api, POINT_TOOLS[command].file), point_tool(command)
+    assert tool.command == command and function.__doc__.splitlines()[0].endswith(f"{tool.writes}.")
+    assert list(inspect.signature(function).parameters)[:3] == ["sources", "output", "request"]
+    assert {each.name for each in tool.inputs} <= vars(tool.step()).keys()
+
+
+def test_a_command_imports_no_other_tool():
+    code = (
+        "import sys; from bare_earth.algorithms.cli import main; main(['height', '--help']);"
+        "print(*(each for each in sys.modules if '.tools.' in each), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert {each.split(".tools.")[1] for each in done.stderr.split()} == {"heights", "declaration"}

@@ -1,0 +1,50 @@
+"""A tool for points that is declared is in the toolbox, and runs."""
+
+import laspy
+import numpy as np
+import pytest
+from toy_tool import TOOL, add_toy
+
+ID = f"bareearth:{TOOL.identifier}"
+
+
+@pytest.fixture
+def provider(registry, monkeypatch):
+    provider = registry.providerById("bareearth")
+    add_toy(monkeypatch)
+    provider.refreshAlgorithms()
+    yield provider
+    monkeypatch.undo()
+    provider.refreshAlgorithms()
+
+
+def test_a_new_tool_is_in_the_toolbox_with_its_help(registry, provider):
+    algorithm = registry.createAlgorithmById(ID)
+    assert (algorithm.displayName(), algorithm.group()) == (TOOL.title, "Products")
+    assert algorithm.shortDescription() == TOOL.summary and "toy" in algorithm.tags()
+    names = [each.name() for each in algorithm.parameterDefinitions()]
+    assert names[:2] == ["INPUT", "CRS"] and names[-1] == "OUTPUT"
+    assert {"NEW_CLASS", "GROUND_CLASSES", "THREADS"} <= set(names)
+    assert [each.name() for each in algorithm.outputDefinitions()][1:] == [
+        "POINT_COUNT",
+        "NEW_COUNT",
+    ]
+    text = algorithm.shortHelpString()
+    assert text.startswith(TOOL.about) and "The class that ground points get." in text
+
+
+def test_a_new_tool_runs(registry, provider, scene, tmp_path):
+    import processing
+
+    las = laspy.read(scene.path)
+    las.classification[:] = np.where(scene.ground, 2, 6)
+    las.write(str(scene.path))
+    values = {"INPUT": str(scene.path), "NEW_CLASS": 40, "OUTPUT": str(tmp_path / "new.las")}
+    results = processing.run(ID, values)
+    assert results["NEW_COUNT"] == np.count_nonzero(scene.ground)
+    found = np.asarray(laspy.read(results["OUTPUT"]).classification)
+    assert np.array_equal(found == 40, scene.ground)
+
+
+def test_without_it_the_toolbox_is_as_before(registry):
+    assert registry.createAlgorithmById(ID) is None
