@@ -95,8 +95,6 @@ class MeasuredNoise(Rule):
 class WallFoot(Rule):
     """In clouds from images, the ground rises at the foot of walls and trees: edges are rounded."""
 
-    stage: ClassVar = Stage.ACCEPTED
-
     more: float = 0.3  # metres that this adds to the tolerance above
     # Points so many metres above the ground show what is tall, if they are more than this share of
     # the points of a cell. Its foot are the cells within one cell of it, but for those with ground
