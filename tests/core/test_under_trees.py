@@ -220,14 +220,26 @@ def test_under_trees_lower_shrubs_are_no_ground():
     assert kept[0] > 0.9 and kept[1] < 0.5
 
 
-def test_a_lone_seed_far_above_those_round_a_gap_is_no_ground():
-    state, _ = hillside(lambda x, y: 0.0 * x, slope=0.1)
-    x, y, z = state.points
+@pytest.mark.parametrize(
+    ("height", "wood", "stays"), [(2.0, False, False), (9.0, False, True), (9.0, True, False)]
+)
+def test_a_lone_seed_above_those_round_a_gap_is_ground_only_if_it_is_a_rock(height, wood, stays):
+    x, y, z = hillside(lambda x, y: 0.0 * x, slope=0.1)[0].points
     away = np.hypot(x - 30.0, y - 30.0) > 10.0
-    points = Points(np.append(x[away], 30.0), np.append(y[away], 30.0), np.append(z[away], 12.0))
+    lone = 30.0, 30.0, 3.0 + height
+    points = Points(*(np.append(of[away], at) for of, at in zip((x, y, z), lone)))
     state = State(points, SILENT, seeds=np.arange(points.count))
     state.grids = [GridState.of(points, 1.0, 1.0)]
+    state.grids[0].woods[:] = wood
     Plants().apply(state)
     assert points.count - 1 in state.seeds
     Shrubs().apply(state)
-    assert points.count - 1 not in state.seeds
+    assert (points.count - 1 in state.seeds) == stays
+
+
+def test_shrubs_can_stay_where_it_is_open():
+    state, of_shrub = hillside(mound)
+    Shrubs(most_open=0.3).apply(state)
+    assert len(state.seeds) == len(of_shrub) and not len(state.waiting)
+    Shrubs(most_open=0.99).apply(state)
+    assert np.isin(np.flatnonzero(of_shrub), state.seeds).mean() < 0.2

@@ -110,11 +110,7 @@ class LevelSeeds(PointRule):
         if state.spacing <= DENSE_SPACING:
             return
         points, cells, spacing = state.points, state.grids[0].cells, state.seed_spacing
-        if state.rise is None:
-            mean = mean_surface(points, state.seeds, cells, spacing)
-            state.rise = steepness(mean, cells.size) * cells.size
-        share = openness(points, cells, state.grids[0].lowest, state.rise)
-        is_open = (share >= self.openness).ravel()[cells.index[state.waiting]]
+        is_open = (openness_of(state) >= self.openness).ravel()[cells.index[state.waiting]]
         state.waiting = state.waiting[is_open]
         for _ in range(self.passes):
             joins = self._level(points, state.seeds, state.waiting, cells, spacing)
@@ -148,6 +144,15 @@ class LevelSeeds(PointRule):
         fits = (misfit <= self.misfit) & (np.abs(rise) <= self.level)
         joins[candidates] = fits.any(axis=1)
         return joins
+
+
+def openness_of(state: State) -> np.ndarray:
+    """Return the openness of each cell, and note how much the seeds rise over a cell."""
+    grid = state.grids[0]
+    if state.rise is None:
+        mean = mean_surface(state.points, state.seeds, grid.cells, state.seed_spacing)
+        state.rise = steepness(mean, grid.cells.size) * grid.cells.size
+    return openness(state.points, grid.cells, grid.lowest, state.rise)
 
 
 def mean_surface(points: Points, seeds: np.ndarray, cells: Cells, spacing: float) -> np.ndarray:

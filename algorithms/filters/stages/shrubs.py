@@ -14,7 +14,7 @@ from ...grids.morphology import within_square
 from ...grids.side_planes import Sides
 from ..pipeline import PointRule, Stage
 from ..state import State
-from .breaks import mean_surface
+from .breaks import mean_surface, openness_of
 
 # Seeds of blocks are neighbours within so many times their width, and not within this share of it.
 _REACH, _APART = 5.0, 0.5
@@ -31,7 +31,7 @@ class Shrubs(PointRule):
     # `Plants` compares.
 
     stage: ClassVar = Stage.SEEDS
-    writes: ClassVar = ("seeds", "waiting")
+    writes: ClassVar = ("seeds", "waiting", "rise")
 
     widths: tuple[float, ...] = (2.0, 4.0)  # sides of the blocks in metres, one after another
     # Least height in metres above the planes, and the share of the width of a block that a slope of
@@ -41,15 +41,22 @@ class Shrubs(PointRule):
     misfit: float = 0.5  # the share of the misfit of a plane that is added
     # A group of such seeds that is so many metres long is a bank or a dyke, and stays.
     longest: float = 10.0
+    tallest: float = 3.0  # metres above the planes of a rock, which stays but under trees
     in_woods: float = 0.15  # least height under trees, on any slope
+    # Nothing is judged where a larger share of the points round about lies near the lowest ones of
+    # their cells, unless this is 1.
+    most_open: float = 1.0
     steepest: float = 1.0  # where the land is steeper (rise over run), nothing is judged
 
     def apply(self, state: State) -> None:
         """Let the wrong seeds wait."""
         cells, woods = state.grids[0].cells, state.grids[0].woods.ravel()
+        judged = np.ones(woods.size, dtype=bool)
+        if self.most_open < 1.0:
+            judged = (openness_of(state) < self.most_open).ravel()
         for width in self.widths:
             seeds, in_wood = state.points.take(state.seeds), woods[cells.index[state.seeds]]
-            wrong = self._wrong(seeds, in_wood, width)
+            wrong = self._wrong(seeds, in_wood, width) & judged[cells.index[state.seeds]]
             wrong &= ~self._long(cells, state.seeds, wrong, in_wood)
             state.waiting = np.append(state.waiting, state.seeds[wrong])
             state.seeds = state.seeds[~wrong]
@@ -74,7 +81,9 @@ class Shrubs(PointRule):
         # Two opposite sides are enough to clear most of them.
         doubtful = doubtful[~(least(doubtful, 0, 4) < allowed[doubtful] - _ROUNDING)]
         wrong = np.zeros(seeds.count, dtype=bool)
-        wrong[doubtful] = least(doubtful, *range(8)) > allowed[doubtful]
+        above = least(doubtful, *range(8))
+        wrong[doubtful] = above > allowed[doubtful]
+        wrong[doubtful] &= in_wood[doubtful] | (above < self.tallest)
         return wrong
 
     def _long(
