@@ -30,6 +30,7 @@ from .stages.opening import ProgressiveOpening
 from .stages.outliers import NarrowPits
 from .stages.regions import LowBanks
 from .stages.seeds import KnownGround, LowestPoints, Seeds
+from .stages.shrubs import Shrubs
 from .stages.terrain import GentleBorder, GentleRegions
 from .stages.tolerance import NOISE_SPACING, PlainSurface, ToleranceSurface
 
@@ -249,7 +250,12 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
         (Seeds(),),
         Plants(),
         is_site=is_site,
-        surface=(KnownGround(), _densification(resolved, knows_images)),
+        surface=(
+            # Low plants are level with each other, but hardly where it is wholly open.
+            Shrubs(most_open=0.95),
+            KnownGround(),
+            _densification(resolved, knows_images),
+        ),
         accepted=_key_points(resolved),
     )
 

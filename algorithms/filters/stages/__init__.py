@@ -46,8 +46,6 @@ def shared_pipeline(
             plants,
             Shrubs(),
             LevelSeeds(),
-            # Low plants are level with each other, but hardly where it is wholly open.
-            Shrubs(most_open=0.95),
             *surface,
             tolerance,
             NearSurface(),
