@@ -41,7 +41,7 @@ class Shrubs(PointRule):
     misfit: float = 0.5  # the share of the misfit of a plane that is added
     # A group of such seeds that is so many metres long is a bank or a dyke, and stays.
     longest: float = 10.0
-    tallest: float = 3.0  # metres above the planes of a rock, which stays but under trees
+    tallest: float = 2.0  # metres above the planes of a rock, which stays but under trees
     in_woods: float = 0.15  # least height under trees, on any slope
     # Nothing is judged where a larger share of the points round about lies near the lowest ones of
     # their cells, unless this is 1.
