@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -39,28 +39,30 @@ class Sides:
             places = np.column_stack((ground.x, ground.y))
             self._tree = cKDTree(places, _LEAF, compact_nodes=False, balanced_tree=False)
 
-    def rises(
-        self, points: Points, own: bool, sides: Sequence[int] = range(_SIDES)
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return how many metres points lie above the plane of each side, or of some of the eight
-        by number, NaN with too few neighbours, and its misfit, both (n, sides); `own` points are
-        ground, and not their own neighbours.
+    def rises(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Return how many metres points lie above the plane of each side, NaN with too few
+        neighbours, and its misfit, both (n, 8); `own` points are ground, and not their own
+        neighbours.
         """
-        rise = np.full((points.count, len(sides)), np.nan)
-        misfit = np.full((points.count, len(sides)), np.nan)
-        tree = self._tree
-        if tree is None:
-            return rise, misfit
-
-        def judge(part: slice) -> None:
-            rise[part], misfit[part] = self._of_some(tree, points.take(part), own, sides)
-
-        over_parts(judge, points.count, _AT_ONCE, SILENT)
+        rise, _, _, misfit = self.planes(points, own)
         return rise, misfit
 
-    def _of_some(
-        self, tree: Any, points: Points, own: bool, sides: Sequence[int]
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def planes(self, points: Points, own: bool = False) -> tuple[np.ndarray, ...]:
+        """Return the planes on all sides of points: how many metres these lie above them, their
+        slopes to the east and to the north, rise over run, and their misfits, all (n, 8).
+        """
+        found = np.full((4, points.count, _SIDES), np.nan)
+        tree = self._tree
+        if tree is not None:
+
+            def judge(part: slice) -> None:
+                found[:, part] = _planes(self._sums(tree, points.take(part), own))
+
+            over_parts(judge, points.count, _AT_ONCE, SILENT)
+        return tuple(found)
+
+    def _sums(self, tree: Any, points: Points, own: bool) -> np.ndarray:
+        """Return the sums over the neighbours on each side of points, shape (n, 8, 10)."""
         places = np.column_stack((points.x, points.y))
         distance, which = tree.query(
             places, _NEIGHBOURS + 1 + own, distance_upper_bound=self._reach
@@ -74,16 +76,17 @@ class Sides:
         x, y, z = (
             np.where(there, of[which] - at[:, None], 0.0) for of, at in zip(self._ground, points)
         )
-        angles = 2.0 * np.pi * np.array(sides) / _SIDES
+        angles = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
         ahead = x[:, :, None] * np.cos(angles) + y[:, :, None] * np.sin(angles) >= -1e-6
-        sums = (ahead & there[:, :, None]).astype(float).transpose(0, 2, 1) @ np.stack(
+        return (ahead & there[:, :, None]).astype(float).transpose(0, 2, 1) @ np.stack(
             (np.ones_like(x), x, y, z, x * x, x * y, y * y, x * z, y * z, z * z), axis=-1
         )
-        return _plane(sums)
 
 
-def _plane(sums: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return how far (0, 0, 0) lies above planes, and their misfit, from sums over neighbours."""
+def _planes(sums: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return how far (0, 0, 0) lies above planes, their slopes and misfits, from sums over
+    neighbours.
+    """
     count, x, y, z, xx, xy, yy, xz, yz, zz = np.moveaxis(sums, -1, 0)
     total = np.maximum(count, 1.0)
     x, y, z = x / total, y / total, z / total
@@ -98,4 +101,4 @@ def _plane(sums: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     square = zz - 2.0 * (east * xz + north * yz)
     square += east * east * xx + 2.0 * east * north * xy + north * north * yy
     rise[count < _LEAST] = square[count < _LEAST] = np.nan
-    return rise, np.sqrt(np.maximum(square, 0.0))
+    return rise, east, north, np.sqrt(np.maximum(square, 0.0))

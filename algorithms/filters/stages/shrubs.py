@@ -18,8 +18,6 @@ from .breaks import mean_surface, openness_of
 
 # Seeds of blocks are neighbours within so many times their width, and not within this share of it.
 _REACH, _APART = 5.0, 0.5
-# Metres by which sums may differ.
-_ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
@@ -71,17 +69,22 @@ class Shrubs(PointRule):
         allowed = np.where(in_wood, self.in_woods, open_)
         doubtful = above > np.where(in_wood, self.in_woods, self.height)
         doubtful = np.flatnonzero(doubtful & (slope <= self.steepest))
+        # The planes are those round the middle of a quarter of a block, for all seeds in it.
+        quarters = Cells.over(seeds, width / 2.0)
+        which, inside = np.unique(quarters.index[doubtful], return_inverse=True)
+        row, column = np.divmod(which, quarters.columns)
+        x, y = (
+            (np.array(number) + first + 0.5) * quarters.size
+            for number, first in ((column, quarters.first_column), (row, quarters.first_row))
+        )
+        middles = Points(x, y, blocks.at(mean, x, y))
         lowest = seeds.take(blocks.lowest_points(seeds))
         sides = Sides(lowest, _REACH * width, _APART * width)
-
-        def least(which: np.ndarray, *some: int) -> np.ndarray:
-            rise, misfit = sides.rises(seeds.take(which), False, some)
-            return np.fmin.reduce(rise - self.misfit * misfit, axis=1)
-
-        # Two opposite sides are enough to clear most of them.
-        doubtful = doubtful[~(least(doubtful, 0, 4) < allowed[doubtful] - _ROUNDING)]
+        rise, east, north, misfit = (found[inside] for found in sides.planes(middles))
+        x, y, z = ((of[doubtful] - at[inside])[:, None] for of, at in zip(seeds, middles))
+        rises = rise + z - east * x - north * y - self.misfit * misfit
+        above = np.fmin.reduce(rises, axis=1)
         wrong = np.zeros(seeds.count, dtype=bool)
-        above = least(doubtful, *range(8))
         wrong[doubtful] = above > allowed[doubtful]
         wrong[doubtful] &= in_wood[doubtful] | (above < self.tallest)
         return wrong
