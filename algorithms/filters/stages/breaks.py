@@ -101,7 +101,7 @@ class LevelSeeds(PointRule):
     passes: int = 2  # how often points join the ground
     step: float = 1.5  # they join within so many spacings of the ground each time
     steepest: float = 1.5  # largest rise over run from the seeds within that distance
-    # Points wait only where it is open, as under trees plants are level with something, too: least
+    # They join only where it is open, as under trees plants are level with something, too: least
     # share of the points round about that lie near the lowest points of their cells.
     openness: float = 0.8
 
@@ -111,11 +111,12 @@ class LevelSeeds(PointRule):
             return
         points, cells, spacing = state.points, state.grids[0].cells, state.seed_spacing
         is_open = (openness_of(state) >= self.openness).ravel()[cells.index[state.waiting]]
-        state.waiting = state.waiting[is_open]
+        state.waiting, never = state.waiting[is_open], state.waiting[~is_open]
         for _ in range(self.passes):
             joins = self._level(points, state.seeds, state.waiting, cells, spacing)
             state.seeds = np.append(state.seeds, state.waiting[joins])
             state.waiting = state.waiting[~joins]
+        state.waiting = np.append(state.waiting, never)
 
     def _level(
         self,
