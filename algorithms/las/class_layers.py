@@ -20,10 +20,9 @@ from typing import BinaryIO, Iterable, Iterator, NamedTuple, Sequence
 import numpy as np
 
 from .cloud import PointCloud
-from .columns import named
 from .lasfile import RECORD_LENGTHS, LasFile
 from .laszip import CLASSES, LAYERS, POINT_14, ChunkHead
-from .records import LazRecordWriter, laszip_vlr, read_records
+from .records import LazRecordWriter, laszip_vlr, named, read_records
 from .sources import damaged, open_source
 
 # The fields of a point that decide how its class is coded.

@@ -9,7 +9,6 @@ import numpy as np
 from ..core.progress import Progress
 from ..crs.system import compound_wkt
 from . import header as fields
-from .columns import Columns, named
 from .copc_octree import Cube
 from .crs_records import GEOKEY_RECORDS, WKT_RECORD, read_crs
 from .lasfile import (
@@ -27,7 +26,7 @@ from .lasfile import (
     new_vlr,
     text_of,
 )
-from .records import HeaderCounts, laszip_vlr
+from .records import HeaderCounts, as_points, laszip_vlr, named
 
 _GPS_TIME_TYPE, _SYNTHETIC_RETURNS, _WKT = 0x01, 0x08, 0x10
 _WAVEFORM_DESCRIPTORS = range(100, 355)
@@ -48,7 +47,7 @@ class Statistics(HeaderCounts):
         """Count points, given as their bytes."""
         super().add(records)
         points = named(self._layout, records)
-        if "gps_time" in points:
+        if "gps_time" in points.point_format.dimension_names:
             times = np.asarray(points["gps_time"])
             # Damaged times must not spoil the range.
             known = np.isfinite(times)
@@ -109,8 +108,8 @@ def convert(layout: LasFile, old: np.ndarray, classes: np.ndarray, new: np.ndarr
 def _modernise(layout: LasFile, old: np.ndarray, new: np.ndarray) -> None:
     """Convert points of the formats 0 to 5 to the formats 6 and 7."""
     before = named(layout, old)
-    after = Columns(NEW_FORMATS[layout.point_format], [("extra", layout.extra_bytes)], new)
-    after.copy_from(before)
+    after = as_points(NEW_FORMATS[layout.point_format], [("extra", layout.extra_bytes)], new)
+    after.copy_fields_from(before)
     after["scan_angle"] = np.rint(before["scan_angle_rank"] / _ANGLE_UNIT)
 
 

@@ -19,13 +19,13 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
-from .columns import Columns, named
 from .copc import HIERARCHY_ENTRY
 from .lasfile import COPC_INFO, LasFile
-from .records import needed, selection_of
+from .records import named, needed, selection_of
 from .sources import damage_told, damaged, open_source
 
 if TYPE_CHECKING:
+    import laspy
     import lazrs
 
 # Points decompressed at once.
@@ -121,7 +121,7 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
 
 def read_nodes(
     hierarchy: Hierarchy, nodes: np.ndarray, is_whole: bool = False, times: bool = False
-) -> Iterator[Columns]:
+) -> Iterator[laspy.PackedPointRecord]:
     """Yield the points of nodes, about a million at once, with what a `PointCloud` needs, or whole;
     the GPS times are undefined unless wanted.
     """
@@ -214,18 +214,18 @@ def _decompress(
     starts = itertools.accumulate(sizes, initial=0)
     if not all(head.fits(compressed, size, start) for size, start in zip(sizes, starts)):
         raise damaged(layout.path)
-    records = np.zeros((sum(counts), layout.record_length), dtype=np.uint8)
+    records = np.zeros(sum(counts) * layout.record_length, dtype=np.uint8)
     lazrs.decompress_points_with_chunk_table(
         compressed,
         layout.laszip,
-        records.reshape(-1),
+        records,
         list(zip(counts, sizes)),
         selection,
     )
     return records
 
 
-def _check_places(hierarchy: Hierarchy, nodes: np.ndarray, chunk: Columns) -> None:
+def _check_places(hierarchy: Hierarchy, nodes: np.ndarray, chunk: laspy.PackedPointRecord) -> None:
     """Check that the points of nodes lie in their cubes."""
     layout = hierarchy.layout
     starts = np.cumsum(nodes["count"], dtype=np.int64) - nodes["count"]

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
-from .columns import column
+from .records import column
 
 # The grid of a node has 2 to the power of this cells along each side.
 _GRID_BITS = 7

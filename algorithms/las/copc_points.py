@@ -16,8 +16,8 @@ import numpy as np
 
 from ..core.progress import Progress
 from ..core.unnamed import reach_disk, unnamed_file
-from .columns import column
 from .copc_octree import Branch, Cube, SortedPoints, Taken, runs
+from .records import column
 
 # Most points that are sorted and written at a time.
 _MOST_AT_ONCE = 500_000

@@ -9,11 +9,10 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import paced
-from .columns import column, named
 from .extrabytes import ExtraDimension, place_dimension
 from .header_edits import with_count, with_z_offset, with_z_range
 from .lasfile import LasFile
-from .records import MOST_KEPT, check_class, read_records
+from .records import MOST_KEPT, check_class, column, named, read_records
 
 
 @dataclass(frozen=True)

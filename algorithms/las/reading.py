@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, Iterator
+from typing import TYPE_CHECKING, Any, Iterator
 
 import numpy as np
 
@@ -16,13 +16,15 @@ from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.system import Crs, unit_name
 from .backends import require
 from .cloud import PointCloud
-from .columns import Columns, named
 from .crs_records import read_crs
 from .extrabytes import REMEMBERED, dimension_names, remembers
 from .lasfile import FIRST_EXTENDED_FORMAT, LasFile
 from .opening import open_las
-from .records import MOST_KEPT, needed, read_records
+from .records import MOST_KEPT, named, needed, read_records
 from .return_numbers import FROM_ZERO, count_from_one
+
+if TYPE_CHECKING:
+    import laspy
 
 _CHUNK = 500_000
 _POINTS_A_PART = 1 << 17
@@ -203,7 +205,9 @@ def require_packages(layout: LasFile) -> None:
     require(*(("laspy", "lazrs") if layout.is_compressed else ("laspy",)))
 
 
-def read_chunks(layout: LasFile, times: bool = False, strips: bool = False) -> Iterator[Columns]:
+def read_chunks(
+    layout: LasFile, times: bool = False, strips: bool = False
+) -> Iterator[laspy.PackedPointRecord]:
     """Yield all points in parts, which are always the same and share their memory; GPS times and
     point source ids are undefined in point formats 6 to 10 unless wanted.
     """
@@ -242,14 +246,14 @@ def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> P
     return cloud_of(layout, crs, **empty, **kept)
 
 
-def _fill(cloud: PointCloud, where: slice, points: Columns) -> None:
+def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> None:
     """Copy points into a part of a cloud, except for coordinates that stay among its records."""
     there = () if cloud.records is None else _COORDINATES
     names = {name: each for name, (each, _) in columns_of(cloud.file).items() if name not in there}
 
     def copy(part: slice) -> None:
         for name, source in names.items():
-            getattr(cloud, name)[where][part] = points.part(source, part)
+            getattr(cloud, name)[where][part] = np.asarray(points[source][part])
 
     over_parts(copy, len(points), _POINTS_A_PART, SILENT)
 

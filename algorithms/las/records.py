@@ -9,14 +9,14 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import paced
-from .columns import named
-from .extrabytes import remembers
+from .extrabytes import remembers, runs_of_bytes
 from .gps_times import check_gps_times
 from .lasfile import FIRST_EXTENDED_FORMAT, LASZIP, LasFile, Vlr, new_vlr
 from .laszip import with_chunk_size, with_wave_packets_of_1
 from .sources import changed, damage_told, damaged, open_source
 
 if TYPE_CHECKING:
+    import laspy
     import lazrs
 
 _NEEDED, _REMEMBERED = ("Z", "CLASSIFICATION", "FLAGS"), "ALL_EXTRA_BYTES"
@@ -69,7 +69,7 @@ def read_records(
     `into`, or ones whose memory the next can reuse.
     """
     # `columns` are the layers to decompress (formats 6 to 10, named as in
-    # lazrs), by default all; x, y, returns and scanner channel always are,
+    # `laspy.DecompressionSelection`), by default all; x, y, returns and scanner channel always are,
     # others are undefined.
     # `pieces` are what to read at a time, without gaps, none longer than `most`; by default about
     # as many points as are read in half a second.
@@ -108,6 +108,31 @@ def _reader(
                 raise damaged(layout.path)
 
         yield read
+
+
+def named(layout: LasFile, records: np.ndarray) -> laspy.PackedPointRecord:
+    """Return records as points of laspy, whose columns have names."""
+    return as_points(layout.point_format, runs_of_bytes(layout), records)
+
+
+def as_points(
+    point_format: int, extra: Iterable[tuple[str, int]], records: np.ndarray
+) -> laspy.PackedPointRecord:
+    """Return records as points of laspy; `extra` are names and sizes of the extra bytes."""
+    import laspy
+
+    point_type = laspy.PointFormat(point_format)
+    for name, size in extra:
+        if size:
+            point_type.add_extra_dimension(laspy.ExtraBytesParams(name, f"{size}u1"))
+    return laspy.PackedPointRecord.from_buffer(records, point_type)
+
+
+def column(records: np.ndarray, start: int, kind: str | np.dtype) -> np.ndarray:
+    """Return the field that begins at a byte of each record, as a writable view."""
+    # numpy before 1.23 cannot view some columns as another type, but whole rows.
+    row = {"names": ["field"], "formats": [kind], "offsets": [start]}
+    return records.view(np.dtype({**row, "itemsize": records.shape[1]}))["field"][:, 0]
 
 
 class HeaderCounts:

@@ -1,7 +1,8 @@
 """Writes files with changed points: with other classes, heights or extra bytes.
 
-The bytes of the input are copied, and only the necessary ones are changed. Libraries that write
-files make new headers and records, and drop what they do not know.
+laspy gives the positions of the fields of a point, but does not write: it would make new headers
+and records, and drop what it does not know. Instead the bytes of the input are copied, and only
+the necessary ones are changed.
 """
 
 from __future__ import annotations
@@ -18,7 +19,6 @@ from ..core.progress import SILENT, Progress
 from .backends import require
 from .class_layers import ClassLayers, class_layers
 from .cloud import PointCloud
-from .columns import named
 from .copc import write_copc
 from .copc_index import CopcIndex
 from .copc_nodes import OctreeError
@@ -27,7 +27,7 @@ from .header import EVLR_COUNT
 from .header_edits import with_statistics
 from .lasfile import COPC_HIERARCHY, COPC_INFO, LASZIP, LasFile
 from .opening import open_las
-from .records import HeaderCounts, LasRecordWriter, LazRecordWriter, copy_range, laszip_vlr
+from .records import HeaderCounts, LasRecordWriter, LazRecordWriter, copy_range, laszip_vlr, named
 from .sources import open_source
 
 _COPC_SUFFIX = ".copc.laz"
@@ -174,7 +174,7 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
             if len(records):
                 points = named(layout, records)
                 # The flags in the same byte stay.
-                points["classification"] = classes
+                points["classification"][:] = classes
                 if laszip is not None and layout.point_format in _EXTENDED_WITH_WAVEFORMS:
                     channels |= set(np.unique(points["scanner_channel"]).tolist())
                     _check_channels(layout, channels)

@@ -17,13 +17,13 @@ import numpy as np
 
 from ..core.files import replacing
 from ..core.progress import SILENT, Progress
-from ..las.columns import Columns, column, named
 from ..las.copc import write_copc
 from ..las.copc_nodes import find_nodes, read_hierarchy, read_nodes
 from ..las.edits import EditedFile, Edits
 from ..las.extrabytes import extra_dimensions, runs_of_bytes
 from ..las.header_edits import with_count
 from ..las.lasfile import LasFile
+from ..las.records import as_points, column, named
 
 _ENDING = "-overview.copc.laz"
 # An overview has at most so many points, and at most one of so many.
@@ -77,7 +77,8 @@ def _sample(layout: LasFile, like: LasFile, count: int) -> np.ndarray:
     step = -(-int(nodes["count"].sum(dtype=np.int64)) // count)
     parts = []
     for points in read_nodes(hierarchy, nodes, is_whole=True):
-        parts.append(_as_records(layout, like, points.records[::step].copy()))
+        records = points.array.view(np.uint8).reshape(len(points), -1)
+        parts.append(_as_records(layout, like, records[::step].copy()))
     return np.concatenate(parts)
 
 
@@ -89,7 +90,7 @@ def _as_records(layout: LasFile, like: LasFile, records: np.ndarray) -> np.ndarr
         new = records.copy()
     else:
         new = np.zeros((len(records), like.record_length), dtype=np.uint8)
-        Columns(like.point_format, runs_of_bytes(like), new).copy_from(old)
+        as_points(like.point_format, runs_of_bytes(like), new).copy_fields_from(old)
     fits = np.ones(len(records), dtype=bool)
     for axis, name in enumerate("XYZ"):
         values = np.asarray(old[name]) * layout.scale[axis] + layout.offset[axis]
