@@ -252,7 +252,7 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
         is_site=is_site,
         surface=(
             # Low plants are level with each other, but hardly where it is wholly open.
-            Shrubs(most_open=0.95),
+            *(() if is_site else (Shrubs(most_open=0.95),)),
             KnownGround(),
             _densification(resolved, knows_images),
         ),

@@ -44,7 +44,8 @@ def shared_pipeline(
             SITE if is_site else GentleRegions(),
             *seeds,
             plants,
-            Shrubs(),
+            # Heaps of a site are as wide as shrubs, and as high.
+            *(() if is_site else (Shrubs(),)),
             LevelSeeds(),
             *surface,
             tolerance,
