@@ -29,10 +29,10 @@ from .stages.objects import RaisedObjects
 from .stages.opening import ProgressiveOpening
 from .stages.outliers import NarrowPits
 from .stages.regions import LowBanks
-from .stages.seeds import KnownGround, LowestPoints, Seeds
+from .stages.seeds import DENSE_SPACING, KnownGround, LowestPoints, Seeds
 from .stages.shrubs import Shrubs
 from .stages.terrain import GentleBorder, GentleRegions
-from .stages.tolerance import NOISE_SPACING, PlainSurface, ToleranceSurface
+from .stages.tolerance import PlainSurface, ToleranceSurface
 
 # Least spacing of points in metres; a smaller one counts as this.
 _LEAST_SPACING = 0.01
@@ -235,7 +235,7 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
             progress.choice(_in_words(resolved, ""))
         return _classic(resolved)
     apart = spacing(points, _LEAST_SPACING)
-    if resolved != parameters or apart <= NOISE_SPACING:
+    if resolved != parameters or apart <= DENSE_SPACING:
         progress.choice(_in_words(resolved, _of_spacing(apart)))
     size, cell = resolved.max_building_size, max(resolved.cell_size, apart)
     is_site = parameters.preset == "site"
@@ -332,7 +332,7 @@ def _in_words(parameters: TinDensification, of_spacing: str) -> str:
 
 def _of_spacing(apart: float) -> str:
     """Return what follows from the spacing of the points, for the log."""
-    if apart > NOISE_SPACING:
+    if apart > DENSE_SPACING:
         return ""
     return f", a tolerance that follows the noise, as points lie {apart:.2g} m apart"
 

@@ -77,12 +77,13 @@ class MeasuredNoise(Rule):
         """Return the rise of the surface to the middle of the noise, and the tolerance above."""
         level = np.zeros(surface.shape)
         points, cells, spacing = state.points, state.grids[0].cells, state.spacing
-        if spacing <= NOISE_SPACING:
+        # Lasers scatter little, and the roughness of crops and plants is no noise.
+        if spacing <= (NOISE_SPACING if state.from_images else DENSE_SPACING):
             level, noise = middle_of_noise(points, cells, surface, slopes)
             level = level.reshape(surface.shape)
             of_noise = self.least + self.factor * noise
             above = of_noise if spacing <= DENSE_SPACING else max(above, of_noise)
-        elif spacing <= _SPARSE:
+        elif NOISE_SPACING < spacing <= _SPARSE:
             noise = noise_of_squares(points, cells, surface, slopes)
             # The surface goes through the lowest point of a cell, which has about so many.
             number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
