@@ -78,7 +78,8 @@ class MeasuredNoise(Rule):
         level = np.zeros(surface.shape)
         points, cells, spacing = state.points, state.grids[0].cells, state.spacing
         # Lasers scatter little, and the roughness of crops and plants is no noise.
-        if spacing <= (NOISE_SPACING if state.from_images else DENSE_SPACING):
+        is_laser = state.multi_return is not None and bool(state.multi_return.any())
+        if spacing <= (DENSE_SPACING if is_laser else NOISE_SPACING):
             level, noise = middle_of_noise(points, cells, surface, slopes)
             level = level.reshape(surface.shape)
             of_noise = self.least + self.factor * noise
