@@ -152,11 +152,15 @@ class State:
         return spacing(self.points, _LEAST_SPACING)
 
     @property
+    def has_multi_returns(self) -> bool:
+        """Whether some pulse is known to have several returns."""
+        return self.multi_return is not None and bool(self.multi_return.any())
+
+    @property
     def from_images(self) -> bool:
         """Whether the points come from images: they are dense, and no pulse has several returns."""
-        if self.multi_return is None or self.spacing > _IMAGE_SPACING:
-            return False
-        return not self.multi_return.any()
+        is_known = self.multi_return is not None
+        return is_known and self.spacing <= _IMAGE_SPACING and not self.has_multi_returns
 
     @property
     def seed_spacing(self) -> float:

@@ -27,7 +27,7 @@ _FACET_SMOOTHING = 0.7
 _SPARSE, _DENSE = 1.0, 0.25
 # Largest spacing in metres at which the noise is measured in each cell, because the lowest of many
 # points in a cell lies below the ground.
-NOISE_SPACING = 0.36
+_NOISE_SPACING = 0.36
 
 
 @dataclass(frozen=True)
@@ -78,13 +78,12 @@ class MeasuredNoise(Rule):
         level = np.zeros(surface.shape)
         points, cells, spacing = state.points, state.grids[0].cells, state.spacing
         # Lasers scatter little, and the roughness of crops and plants is no noise.
-        is_laser = state.multi_return is not None and bool(state.multi_return.any())
-        if spacing <= (DENSE_SPACING if is_laser else NOISE_SPACING):
+        if spacing <= (DENSE_SPACING if state.has_multi_returns else _NOISE_SPACING):
             level, noise = middle_of_noise(points, cells, surface, slopes)
             level = level.reshape(surface.shape)
             of_noise = self.least + self.factor * noise
             above = of_noise if spacing <= DENSE_SPACING else max(above, of_noise)
-        elif NOISE_SPACING < spacing <= _SPARSE:
+        elif _NOISE_SPACING < spacing <= _SPARSE:
             noise = noise_of_squares(points, cells, surface, slopes)
             # The surface goes through the lowest point of a cell, which has about so many.
             number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
