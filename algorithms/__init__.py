@@ -48,9 +48,6 @@ if TYPE_CHECKING:
     from .products.relief import write_relief as write_relief
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
-    from .products.water import Water as Water
-    from .products.water_files import WaterRequest as WaterRequest
-    from .products.water_files import write_water as find_water  # noqa: F401
     from .rasters.sampling import HeightRaster as HeightRaster
     from .runs.entry import PointFunction
     from .runs.entry import classify as classify
@@ -76,6 +73,9 @@ if TYPE_CHECKING:
     from .tools.heights import MeasureHeights as MeasureHeights
     from .tools.key_points import FindKeyPoints as FindKeyPoints
     from .tools.key_points import KeyPointMark as KeyPointMark
+    from .tools.water.files import WaterRequest as WaterRequest
+    from .tools.water.files import write_water as find_water  # noqa: F401
+    from .tools.water.finding import Water as Water
     from .tools.water_classes import ClassifyWater as ClassifyWater
     from .tools.water_classes import WaterClasses as WaterClasses
     from .tools.water_classes import WaterPolygons as WaterPolygons
@@ -138,12 +138,12 @@ _MODULES = {
     "write_relief": "products.relief",
     "SurfaceModel": "products.surface_model",
     "TerrainModel": "products.terrain_model",
-    "Water": "products.water",
+    "Water": "tools.water.finding",
     "ClassifyWater": "tools.water_classes",
     "WaterClasses": "tools.water_classes",
     "WaterPolygons": "tools.water_classes",
-    "WaterRequest": "products.water_files",
-    "find_water": "products.water_files:write_water",
+    "WaterRequest": "tools.water.files",
+    "find_water": "tools.water.files:write_water",
     "HeightRaster": "rasters.sampling",
     "Area": "survey.area",
     "Checkpoints": "survey.checkpoint_files",

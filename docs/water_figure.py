@@ -7,8 +7,8 @@ from drawing import FEW_COLOURS, save
 from matplotlib import pyplot
 
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.products.water import Water, find_water
-from bare_earth.algorithms.products.water_grid import WaterGrid
+from bare_earth.algorithms.tools.water.finding import Water, find_water
+from bare_earth.algorithms.tools.water.grid import WaterGrid
 
 _WIDE, _HIGH, _DENSITY = 500.0, 300.0, 4.0
 

@@ -137,8 +137,8 @@ def _terrain(options: argparse.Namespace) -> int:
 
 def _add_water(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..products.line_files import FORMATS
-    from ..products.water import Water
     from ..survey.ground_classes import GroundClasses
+    from ..tools.water.finding import Water
 
     add_inputs(parser, "a classified file, or ")
     add_crs(parser)
@@ -155,7 +155,7 @@ def _add_water(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Non
 
 
 def _water(options: argparse.Namespace) -> int:
-    from ..products.water_files import WaterRequest, write_water
+    from ..tools.water.files import WaterRequest, write_water
 
     request = WaterRequest.of(chosen(options), crs=options.crs, breaklines=options.breaklines_out)
     with Terminal(options.verbose) as progress:

@@ -163,8 +163,8 @@ def with_found_water(
     options: argparse.Namespace, known: Constraints, sets: Sequence[ParameterSet]
 ) -> Constraints:
     """Return constraints with the water of the input, if that is to be found."""
-    from ..products.water_files import SurveyWater, WaterRequest
     from ..survey.ground_classes import GroundClasses
+    from ..tools.water.files import SurveyWater, WaterRequest
 
     if not water_is_automatic(options):
         return known

@@ -17,7 +17,6 @@ from ..products.raster_grid import ANYWHERE, RasterTarget
 from ..products.specifications import SPECIFICATIONS
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
-from ..products.water import Water
 from ..runs.requests import ClassifyRequest, Request
 from ..steps.output import Output
 from ..survey.area import Area
@@ -25,6 +24,7 @@ from ..survey.checkpoint_files import Checkpoints
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
+from ..tools.water.finding import Water
 from ..tools.water_classes import WaterClasses
 from .deliveries import DEFAULT_DELIVERY, DELIVERIES, Delivery
 

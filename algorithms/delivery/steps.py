@@ -23,7 +23,6 @@ from ..products.quality import QualityRequest, survey_quality
 from ..products.quality_figures import Quality
 from ..products.raster_files import RasterFiles
 from ..products.surface_model import SurfaceModel
-from ..products.water_files import SurveyWater, WaterRequest, WaterSummary
 from ..runs.entry import classify, terrain, write
 from ..runs.one_file import Summary
 from ..runs.options import TileInput
@@ -31,6 +30,7 @@ from ..runs.requests import PointRequest, TerrainRequest
 from ..survey.files import Survey
 from ..survey.overview import overview_of
 from ..tools.key_points import FindKeyPoints, KeyPointMark
+from ..tools.water.files import SurveyWater, WaterRequest, WaterSummary
 from ..tools.water_classes import ClassifyWater, WaterPolygons
 from .deliveries import WITH_BUILDINGS
 from .folder import KEY_POINTS, QUALITY, WATER, DeliveryFolder

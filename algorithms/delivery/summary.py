@@ -9,7 +9,7 @@ from ..products.checkpoint_results import Check
 from ..products.contours import Interval
 from ..products.hold_out import AGREEMENT
 from ..products.quality_figures import Quality
-from ..products.water_files import WaterSummary
+from ..tools.water.files import WaterSummary
 
 
 @dataclass(frozen=True)

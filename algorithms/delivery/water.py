@@ -10,12 +10,12 @@ from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..products.fixed_terrain import parts_of
-from ..products.given_water import GivenWater
 from ..products.line_files import Feature, feature_writer
-from ..products.water_files import SurveyWater, write_features
 from ..runs.requests import TerrainRequest
 from ..survey.files import open_survey
 from ..survey.shapes import Place
+from ..tools.water.files import SurveyWater, write_features
+from ..tools.water.given import GivenWater
 from .request import DeliveryRequest
 
 

@@ -11,9 +11,9 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.descent import isotonic
-from bare_earth.algorithms.products.water import Water, find_water
-from bare_earth.algorithms.products.water_files import SurveyWater, WaterRequest
-from bare_earth.algorithms.products.water_grid import WaterGrid, cell_for
+from bare_earth.algorithms.tools.water.files import SurveyWater, WaterRequest
+from bare_earth.algorithms.tools.water.finding import Water, find_water
+from bare_earth.algorithms.tools.water.grid import WaterGrid, cell_for
 
 WIDE, DENSITY, LEVEL = 400.0, 4.0, 100.0
 

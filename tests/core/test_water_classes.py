@@ -27,13 +27,13 @@ from bare_earth.algorithms.crs.provider import wkt_of_epsg
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.grids.lines import along, near_rings
 from bare_earth.algorithms.las.extrabytes import REMEMBERED
-from bare_earth.algorithms.products.water import Water
-from bare_earth.algorithms.products.water_files import WaterRequest
 from bare_earth.algorithms.runs.entry import classify
 from bare_earth.algorithms.runs.requests import ClassifyRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.shapes import Shapes
+from bare_earth.algorithms.tools.water.files import WaterRequest
+from bare_earth.algorithms.tools.water.finding import Water
 
 pytest.importorskip("pyproj")
 EAST, NORTH, SIDE, DISTANCE = 500_000.0, 5_700_000.0, 80.0, 0.7

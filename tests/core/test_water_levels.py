@@ -6,8 +6,8 @@ from realdata import real
 from test_water import Scene
 
 from bare_earth.algorithms.grids.descent import Network, descent
-from bare_earth.algorithms.products.water_files import SurveyWater, WaterRequest
-from bare_earth.algorithms.products.water_reaches import reaches_of
+from bare_earth.algorithms.tools.water.files import SurveyWater, WaterRequest
+from bare_earth.algorithms.tools.water.reaches import reaches_of
 
 CELL = 2.5
 

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..grids.isolines import Isolines
-from ..grids.lines import along
+from ...grids.isolines import Isolines
+from ...grids.lines import along
 
 # Least certainty of each grade.
 GRADES = ((0.75, "certain"), (0.5, "likely"), (0.0, "doubtful"))

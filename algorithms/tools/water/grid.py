@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.points import Box, Points
-from ..grids.cells import lower_at
+from ...core.errors import BareEarthError
+from ...core.points import Box, Points
+from ...grids.cells import lower_at
 
 # Most cells of a survey, at 12 bytes each; up to 2 GB while water is found.
 _MOST_CELLS = 60_000_000

@@ -6,15 +6,15 @@ from typing import Iterable, Iterator, NamedTuple
 
 import numpy as np
 
-from ..crs.system import Crs
-from ..grids.lines import along
-from ..las.cloud import PointCloud, survey_frame
-from ..survey.area import Polygon
-from ..survey.ground_classes import GroundClasses
-from .constraints import STATION, Constraints
-from .fixed_terrain import PER_CELL, GivenTerrain
-from .level_water import LevelWater
-from .line_files import Feature
+from ...crs.system import Crs
+from ...grids.lines import along
+from ...las.cloud import PointCloud, survey_frame
+from ...products.constraints import STATION, Constraints
+from ...products.fixed_terrain import PER_CELL, GivenTerrain
+from ...products.level_water import LevelWater
+from ...products.line_files import Feature
+from ...survey.area import Polygon
+from ...survey.ground_classes import GroundClasses
 
 # What stands for the grade of certainty of water that was not found.
 _GRADE = "given"

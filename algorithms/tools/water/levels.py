@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..grids.descent import descent
-from ..grids.morphology import erosion
-from .water_reaches import Reaches, reaches_of
+from ...grids.descent import descent
+from ...grids.morphology import erosion
+from .reaches import Reaches, reaches_of
 
 # Cells round the water whose ground is its shore, and cells farther out that show whether the land
 # rises from it.

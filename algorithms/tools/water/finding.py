@@ -13,17 +13,17 @@ from typing import Callable, Iterator, NamedTuple
 
 import numpy as np
 
-from ..core.parameters import ParameterSet, parameter
-from ..core.progress import SILENT, Progress
-from ..grids.morphology import closing, dilation, erosion
-from .constraints import STATION
-from .water_body import WaterBody, divided, rings_of
-from .water_bridges import below_decks, beside_decks
-from .water_extent import surveyed
-from .water_grid import WaterGrid
-from .water_levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
-from .water_steps import STEP, parts_of_step
-from .water_surfaces import level_surfaces
+from ...core.parameters import ParameterSet, parameter
+from ...core.progress import SILENT, Progress
+from ...grids.morphology import closing, dilation, erosion
+from ...products.constraints import STATION
+from .body import WaterBody, divided, rings_of
+from .bridges import below_decks, beside_decks
+from .extent import surveyed
+from .grid import WaterGrid
+from .levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
+from .steps import STEP, parts_of_step
+from .surfaces import level_surfaces
 
 # Radius in cells of the disc that closes single stray cells, and of that which cuts thin links.
 _CLOSE, _OPEN = 1.5, 1.5

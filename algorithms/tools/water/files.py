@@ -8,21 +8,21 @@ from typing import Any, Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ..core.files import Outputs, check_distinct
-from ..core.parameters import ParameterSet
-from ..core.progress import SILENT, Progress
-from ..core.words import counted
-from ..crs.system import Crs
-from ..las.cloud import PointCloud
-from ..survey.ground_classes import GroundClasses
-from ..survey.kept_classes import NOISE, is_one_of
-from .constraints import Constraints
-from .line_files import Feature, Layer, check_features, feature_writer, files_beside
-from .survey_ground import SurveyGround
-from .water import Water, find_water
-from .water_body import GRADES, WaterBody
-from .water_bridges import decks_without_water
-from .water_grid import WaterGrid, cell_for
+from ...core.files import Outputs, check_distinct
+from ...core.parameters import ParameterSet
+from ...core.progress import SILENT, Progress
+from ...core.words import counted
+from ...crs.system import Crs
+from ...las.cloud import PointCloud
+from ...products.constraints import Constraints
+from ...products.line_files import Feature, Layer, check_features, feature_writer, files_beside
+from ...products.survey_ground import SurveyGround
+from ...survey.ground_classes import GroundClasses
+from ...survey.kept_classes import NOISE, is_one_of
+from .body import GRADES, WaterBody
+from .bridges import decks_without_water
+from .finding import Water, find_water
+from .grid import WaterGrid, cell_for
 
 # The classes of water and of the decks of bridges in the LAS specification.
 WATER_CLASS, _DECK_CLASS = 9, 17

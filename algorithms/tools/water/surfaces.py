@@ -10,9 +10,9 @@ from typing import Iterator
 
 import numpy as np
 
-from ..grids.morphology import closing, dilation
-from .water_grid import WaterGrid
-from .water_levels import margin, spread_of, surface_of
+from ...grids.morphology import closing, dilation
+from .grid import WaterGrid
+from .levels import margin, spread_of, surface_of
 
 # Cells of the square in which the lowest returns differ by at most so much, as a standard deviation
 # in metres, and the share of its cells that have returns.

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..grids.morphology import dilation
-from .water_levels import Levels
-from .water_reaches import Reaches
+from ...grids.morphology import dilation
+from .levels import Levels
+from .reaches import Reaches
 
 # A step is at least so high in metres, within so many reaches, and so many times what the water
 # falls in as many of the reaches on either side of it. So many reaches count there, at least so

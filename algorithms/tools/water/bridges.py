@@ -6,9 +6,9 @@ import itertools
 
 import numpy as np
 
-from ..grids.morphology import closing, dilation
-from ..survey.area import Area, Polygon
-from .water_grid import WaterGrid
+from ...grids.morphology import closing, dilation
+from ...survey.area import Area, Polygon
+from .grid import WaterGrid
 
 # Cells this near to a deck, in metres and at least in cells, have few returns from the water.
 _EDGE, _EDGE_CELLS = 2.0, 1.5

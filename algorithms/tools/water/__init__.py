@@ -1,0 +1,1 @@
+"""Water: finds lakes and rivers in classified points, with their levels."""
