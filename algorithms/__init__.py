@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from .filters.slope import SlopeFilter as SlopeFilter
     from .filters.tin import TinDensification as TinDensification
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
-    from .products.above_ground import AboveGround as AboveGround
     from .products.accuracy import Accuracy as Accuracy
     from .products.assessment import assess_files as assess  # noqa: F401
     from .products.checkpoint_outputs import CheckOutputs as CheckOutputs
@@ -69,6 +68,7 @@ if TYPE_CHECKING:
     from .survey.vector_files import read_corrections as read_corrections
     from .survey.vector_files import read_lines as read_lines
     from .tools.above_ground import ClassifyAboveGround as ClassifyAboveGround
+    from .tools.above_ground.classes import AboveGround as AboveGround
     from .tools.heights import HeightOutput as HeightOutput
     from .tools.heights import MeasureHeights as MeasureHeights
     from .tools.key_points import FindKeyPoints as FindKeyPoints
@@ -125,7 +125,7 @@ _MODULES = {
     "SlopeFilter": "filters.slope",
     "TinDensification": "filters.tin",
     "ModelKeyPoints": "grids.model_key_points",
-    "AboveGround": "products.above_ground",
+    "AboveGround": "tools.above_ground.classes",
     "assess": "products.assessment:assess_files",
     "Accuracy": "products.accuracy",
     "CheckOptions": "products.checkpoints",

@@ -6,7 +6,7 @@ import numpy as np
 from drawing import ADDED, GROUND, LINE, OTHER, save
 from matplotlib import pyplot
 
-from bare_earth.algorithms.products.above_ground import AboveGround, classes_above_ground
+from bare_earth.algorithms.tools.above_ground.classes import AboveGround, classes_above_ground
 from benchmarks.scenes import make
 
 _SEED, _HALF_WIDTH = 1, 1.5

@@ -8,7 +8,6 @@ from typing import Any, TypeVar
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..filters import DEFAULT_METHOD, METHODS
-from ..products.above_ground import ThenAboveGround
 from ..products.accuracy import Accuracy
 from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.contours import Contours
@@ -24,6 +23,7 @@ from ..survey.checkpoint_files import Checkpoints
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
+from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.water.finding import Water
 from ..tools.water_classes import WaterClasses
 from .deliveries import DEFAULT_DELIVERY, DELIVERIES, Delivery

@@ -14,9 +14,9 @@ from ..core.threads import parts_of
 from ..grids.cell_window import CellWindow
 from ..grids.cells import are_inside, first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+from ..grids.high_groups import HighGroups
 from ..grids.morphology import within_square
 from .confidence import confidence
-from .high_groups import HighGroups
 from .terrain_edges import follow_edges
 
 # Longest edge of the triangles in a block, in metres and in cells. Triangles across wider gaps need

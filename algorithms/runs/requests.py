@@ -12,7 +12,6 @@ from ..crs.stated import stated_wkt
 from ..engine.memory import Resources
 from ..engine.step import PointStep
 from ..filters import DEFAULT_METHOD, METHODS
-from ..products.above_ground import ThenAboveGround
 from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.raster_block import LAYERS
 from ..products.raster_files import RasterFiles
@@ -28,6 +27,7 @@ from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from ..tools.above_ground import ClassifyAboveGround
+from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.declaration import PointTool
 from ..tools.heights import MeasureHeights
 from .options import RasterOutput, TileInput, TileMethod, TileOutput

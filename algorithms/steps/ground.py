@@ -20,9 +20,9 @@ from ..engine.store import BlockPoints, Store
 from ..filters import method_of
 from ..filters.method import Decisions, warn_of_extent, warn_of_little_ground
 from ..filters.stages.outliers import below_ground
+from ..grids.bridge_decks import bridge_decks
 from ..grids.cells import apart
-from ..products.bridge_decks import bridge_decks
-from ..products.high_groups import HighGroups
+from ..grids.high_groups import HighGroups
 from ..survey.selection import Selection
 from .explanation import ExplainedCells, Explanation
 from .surroundings import EVERYWHERE, near, tell_spacing, thinned

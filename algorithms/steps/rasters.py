@@ -22,10 +22,10 @@ from ..engine.store import Marks, Store
 from ..grids.cell_window import CellWindow
 from ..grids.cells import first_of_each
 from ..grids.dense_surface import VERTICES_A_SIDE
+from ..grids.height_above_ground import with_roads
 from ..las.cloud import PointCloud, survey_frame
 from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.fixed_terrain import FixedTerrain, fixed_terrain
-from ..products.height_above_ground import with_roads
 from ..products.raster_block import LAYERS, BlockRasters, RasterStep
 from ..products.raster_files import RasterFiles
 from ..products.raster_grid import (

@@ -18,11 +18,11 @@ from ..engine.blockwise import over_blocks
 from ..engine.memory import Cost, Resources
 from ..engine.step import Allocate, CountedClasses, PointResult, PointStep
 from ..engine.store import BlockPoints, Marks, Store
+from ..grids.height_above_ground import GroundSurface, with_roads
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
-from ..products.height_above_ground import GroundSurface, with_roads
 from ..rasters.sampling import FAR_ABOVE, HeightRaster, HeightSampler
 from ..steps.output import HEIGHT_DIMENSION, height_dimension
 from ..survey.area import Area

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.products.bridge_decks import bridge_decks
+from bare_earth.algorithms.grids.bridge_decks import bridge_decks
 from bare_earth.algorithms.products.confidence import confidence
 from benchmarks.scenes import make
 

@@ -12,13 +12,6 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.grids.local_planes import LocalPlanes
-from bare_earth.algorithms.products.above_ground import (
-    AboveGround,
-    ThenAboveGround,
-    classes_above_ground,
-)
-from bare_earth.algorithms.products.buildings import Buildings
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.runs.entry import classify
 from bare_earth.algorithms.runs.options import TileOutput
@@ -27,6 +20,13 @@ from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.above_ground.buildings import Buildings
+from bare_earth.algorithms.tools.above_ground.classes import (
+    AboveGround,
+    ThenAboveGround,
+    classes_above_ground,
+)
+from bare_earth.algorithms.tools.above_ground.local_planes import LocalPlanes
 from benchmarks import scenes
 from benchmarks.scenes.simple import scatter
 

@@ -10,8 +10,8 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
+from bare_earth.algorithms.grids.bridge_decks import bridge_decks
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.products.bridge_decks import bridge_decks
 from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.scenes.simple import scatter, surveyed

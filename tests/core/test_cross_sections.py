@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.products.bridge_relief import Relief
-from bare_earth.algorithms.products.bridge_sections import Rule, Sections, raised_sections
+from bare_earth.algorithms.grids.bridge_relief import Relief
+from bare_earth.algorithms.grids.bridge_sections import Rule, Sections, raised_sections
 
 RULE = Rule(1.25, 1.0, True)
 LENGTH, BORDER = 40, 12

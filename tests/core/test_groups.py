@@ -10,8 +10,8 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.low_noise import BelowWater, LowGroups, WideLowGroups
 from bare_earth.algorithms.grids.cells import Cells
+from bare_earth.algorithms.grids.high_groups import HighGroups
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.products.high_groups import HighGroups
 from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.runs.one_file import classify_cloud

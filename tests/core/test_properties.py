@@ -18,7 +18,7 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.dense_surface import DenseSurface
-from bare_earth.algorithms.products.height_above_ground import height_above_ground
+from bare_earth.algorithms.grids.height_above_ground import height_above_ground
 from bare_earth.algorithms.runs.one_file import classify_cloud
 
 EXAMPLES = int(os.environ.get("BARE_EARTH_EXAMPLES", "2"))

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.parameters import ParameterSet, parameter, parameter_of
-from ..core.points import Points
-from ..core.progress import SILENT, Progress
-from .bridge_decks import bridge_decks
+from ...core.errors import BareEarthError
+from ...core.parameters import ParameterSet, parameter, parameter_of
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...grids.bridge_decks import bridge_decks
+from ...grids.height_above_ground import height_above_ground
+from ...grids.high_groups import HighGroups
 from .buildings import Buildings
-from .height_above_ground import height_above_ground
-from .high_groups import HighGroups
 
 # Classes of the LAS specification.
 OTHER, LOW_VEGETATION, MEDIUM_VEGETATION, HIGH_VEGETATION = 1, 3, 4, 5

@@ -6,8 +6,8 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..grids.cells import spacing
-from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+from .cells import spacing
+from .dense_surface import VERTICES_A_SIDE, DenseSurface
 
 # Distance of the vertices of the TIN, in mean distances of ground points, and its limits in metres.
 # Where points are dense, more vertices change the heights by only a centimetre or two.

@@ -8,22 +8,22 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.points import Box
-from ..core.progress import Progress
-from ..engine.blocks import Blocks
-from ..engine.blockwise import fill
-from ..engine.memory import Cost, Resources
-from ..engine.step import Allocate, CountedClasses, PointResult, PointStep, with_classes
-from ..engine.store import BlockPoints, Corner, Marks, Store
-from ..las.cloud import PointCloud
-from ..products.above_ground import AboveGround, classes_above_ground
-from ..products.height_above_ground import with_roads
-from ..survey.area import Area
-from ..survey.corrections import NO_CORRECTIONS, Corrections, changed_since
-from ..survey.ground_classes import GroundClasses, GroundCounts
-from ..survey.kept_classes import DECIDED, ROADS, is_one_of
-from ..survey.shapes import outside
-from .declaration import CANOPY, CLOUD, Input, PointTool
+from ...core.points import Box
+from ...core.progress import Progress
+from ...engine.blocks import Blocks
+from ...engine.blockwise import fill
+from ...engine.memory import Cost, Resources
+from ...engine.step import Allocate, CountedClasses, PointResult, PointStep, with_classes
+from ...engine.store import BlockPoints, Corner, Marks, Store
+from ...grids.height_above_ground import with_roads
+from ...las.cloud import PointCloud
+from ...survey.area import Area
+from ...survey.corrections import NO_CORRECTIONS, Corrections, changed_since
+from ...survey.ground_classes import GroundClasses, GroundCounts
+from ...survey.kept_classes import DECIDED, ROADS, is_one_of
+from ...survey.shapes import outside
+from ..declaration import CANOPY, CLOUD, Input, PointTool
+from .classes import AboveGround, classes_above_ground
 
 # The buffer of a block in metres, and the memory that it takes. A face of a roof that reaches
 # farther is large enough without what lies beyond.

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.points import Points
-from ..grids.cells import Cells, spacing
+from .cells import Cells, spacing
 
 # Least side of a cell in metres. Where points are sparse, it is half of their spacing, in steps of
 # so many metres.

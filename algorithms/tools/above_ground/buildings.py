@@ -18,11 +18,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.points import Points
-from ..core.progress import SILENT, Progress
-from ..grids.cells import Cells, spacing
-from ..grids.local_planes import LocalPlanes
-from ..grids.morphology import closing, dilation, erosion, opening
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...grids.cells import Cells, spacing
+from ...grids.morphology import closing, dilation, erosion, opening
+from .local_planes import LocalPlanes
 
 # The highest point of each square of this side, in metres, stands for the roof there. More points
 # would tell more of the noise of the sensor than of the roof.

@@ -15,9 +15,9 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..grids.cells import are_inside, numbered
-from ..grids.morphology import within_square
 from .bridge_relief import BORDER, STEP, STEP_SLOPE, Relief
+from .cells import are_inside, numbered
+from .morphology import within_square
 
 # Directions of cross-sections over a whole turn, and the longest in metres.
 _DIRECTIONS, _LONGEST = 96, 70.0

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.points import Points
-from ..grids.cells import Cells, lower_at, spacing
-from ..grids.morphology import within_square
+from .cells import Cells, lower_at, spacing
+from .morphology import within_square
 
 # Least side of a cell as a multiple of the usual distance between points.
 _SPACINGS = 5.0

@@ -15,9 +15,9 @@ import math
 import numpy as np
 
 from ..core.points import Points
-from ..grids.morphology import within_square
 from .bridge_relief import Relief
 from .bridge_sections import Rule, Sections, raised_sections
+from .morphology import within_square
 
 # At the sides of a deck the ground is lower by at least so many metres, and so many for each metre
 # of distance. This share of the spacing of the points is added to the distance.

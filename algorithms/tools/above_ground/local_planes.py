@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.progress import SILENT, Progress
-from ..core.threads import over_parts
+from ...core.progress import SILENT, Progress
+from ...core.threads import over_parts
 
 # Planes are tried through a point and two of so many nearest neighbours.
 _TRIED = 8
