@@ -13,11 +13,15 @@ _END = re.compile(r"(?<!\b[A-Z])[.!?][\"'`)]*\s+(?=[A-Z`])")
 _MOST_LINES = 3
 
 
+def _file_of(module):
+    return module / "__init__.py" if module.is_dir() else module.with_suffix(".py")
+
+
 def _exported():
     """Return the file and the name there of all that `bare_earth.algorithms` exports."""
     place = ROOT / "algorithms"
     return {
-        (place.joinpath(*node.module.split(".")).with_suffix(".py"), name.name)
+        (_file_of(place.joinpath(*node.module.split("."))), name.name)
         for node in ast.walk(tree_of(place / "__init__.py"))
         if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module != "tools"
         for name in node.names
