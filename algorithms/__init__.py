@@ -36,15 +36,11 @@ if TYPE_CHECKING:
     from .products.checkpoints import CheckRequest as CheckRequest
     from .products.checkpoints import check_files as check  # noqa: F401
     from .products.constraints import Constraints as Constraints
-    from .products.contours import Contours as Contours
-    from .products.contours import write_contours as write_contours
     from .products.quality import QualityOptions as QualityOptions
     from .products.quality import QualityRequest as QualityRequest
     from .products.quality import survey_quality as quality  # noqa: F401
     from .products.raster_files import RasterFiles as RasterFiles
     from .products.raster_grid import RasterTarget as RasterTarget
-    from .products.relief import ReliefPictures as ReliefPictures
-    from .products.relief import write_relief as write_relief
     from .products.surface_model import SurfaceModel as SurfaceModel
     from .products.terrain_model import TerrainModel as TerrainModel
     from .rasters.sampling import HeightRaster as HeightRaster
@@ -69,10 +65,14 @@ if TYPE_CHECKING:
     from .survey.vector_files import read_lines as read_lines
     from .tools.above_ground import ClassifyAboveGround as ClassifyAboveGround
     from .tools.above_ground.classes import AboveGround as AboveGround
+    from .tools.contours import Contours as Contours
+    from .tools.contours import write_contours as write_contours
     from .tools.heights import HeightOutput as HeightOutput
     from .tools.heights import MeasureHeights as MeasureHeights
     from .tools.key_points import FindKeyPoints as FindKeyPoints
     from .tools.key_points import KeyPointMark as KeyPointMark
+    from .tools.relief import ReliefPictures as ReliefPictures
+    from .tools.relief import write_relief as write_relief
     from .tools.water.files import WaterRequest as WaterRequest
     from .tools.water.files import write_water as find_water  # noqa: F401
     from .tools.water.finding import Water as Water
@@ -132,10 +132,10 @@ _MODULES = {
     "CheckOutputs": "products.checkpoint_outputs",
     "CheckRequest": "products.checkpoints",
     "check": "products.checkpoints:check_files",
-    "Contours": "products.contours",
-    "write_contours": "products.contours",
-    "ReliefPictures": "products.relief",
-    "write_relief": "products.relief",
+    "Contours": "tools.contours",
+    "write_contours": "tools.contours",
+    "ReliefPictures": "tools.relief",
+    "write_relief": "tools.relief",
     "SurfaceModel": "products.surface_model",
     "TerrainModel": "products.terrain_model",
     "Water": "tools.water.finding",

@@ -8,7 +8,7 @@ from qgis.core import QgsProcessingProvider
 from qgis.PyQt.QtGui import QIcon
 
 from .. import __version__
-from ..algorithms.products.line_files import FORMATS
+from ..algorithms.survey.feature_files import FORMATS
 from ..algorithms.tools import POINT_TOOLS
 from .processing import ALGORITHMS
 from .processing.models import shipped_models

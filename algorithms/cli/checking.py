@@ -29,8 +29,8 @@ def add_columns(parser: argparse.ArgumentParser) -> None:
 def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..products.accuracy import Accuracy
     from ..products.checkpoints import CheckOptions
-    from ..products.line_files import FORMATS as LAYERS
     from ..survey.checkpoint_files import FORMATS
+    from ..survey.feature_files import FORMATS as LAYERS
     from ..survey.ground_classes import GroundClasses
 
     add_inputs(parser, "a classified file, or ")

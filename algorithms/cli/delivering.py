@@ -29,11 +29,11 @@ def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..delivery.request import DeliveryOptions, DeliveryTerrain, DeliveryWater
     from ..engine.memory import Resources
     from ..products.accuracy import Accuracy
-    from ..products.contours import Contours
     from ..products.surface_model import SurfaceModel
     from ..runs.options import TileInput, TileOutput
     from ..survey.checkpoint_files import FORMATS
     from ..survey.selection import Selection
+    from ..tools.contours import Contours
 
     kinds = " ".join(f"{name}: {each.about}" for name, each in DELIVERIES.items())
     parser.add_argument("delivery", choices=list(DELIVERIES), help=f"what to deliver. {kinds}")

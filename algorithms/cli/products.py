@@ -27,7 +27,7 @@ from .tools import command_of
 
 
 def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.off_terrain import OffTerrain
+    from ..tools.off_terrain import OffTerrain
 
     parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
     parser.add_argument("output", metavar="OUTPUT", type=Path, help="a GeoTIFF (.tif) to write")
@@ -36,7 +36,7 @@ def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str
 
 
 def _remove_objects(options: argparse.Namespace) -> int:
-    from ..products.off_terrain import OffTerrain, remove_objects_file
+    from ..tools.off_terrain import OffTerrain, remove_objects_file
 
     how = OffTerrain.among(chosen(options))
     with Terminal(options.verbose) as progress:
@@ -46,8 +46,8 @@ def _remove_objects(options: argparse.Namespace) -> int:
 
 
 def _add_contours(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.contours import Contours
-    from ..products.line_files import FORMATS
+    from ..survey.feature_files import FORMATS
+    from ..tools.contours import Contours
 
     parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
     parser.add_argument(
@@ -63,7 +63,7 @@ def _add_contours(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
 
 
 def _contours(options: argparse.Namespace) -> int:
-    from ..products.contours import Contours, write_contours
+    from ..tools.contours import Contours, write_contours
 
     how = Contours.among(chosen(options))
     with Terminal(options.verbose) as progress:
@@ -73,7 +73,7 @@ def _contours(options: argparse.Namespace) -> int:
 
 
 def _add_relief(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.relief import KINDS, LOCAL_RELIEF, ReliefPictures
+    from ..tools.relief import KINDS, LOCAL_RELIEF, ReliefPictures
 
     parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
     parser.add_argument("output", metavar="OUTPUT", type=Path, help="a GeoTIFF (.tif) to write")
@@ -85,7 +85,7 @@ def _add_relief(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> No
 
 
 def _relief(options: argparse.Namespace) -> int:
-    from ..products.relief import ReliefPictures, write_relief
+    from ..tools.relief import ReliefPictures, write_relief
 
     how = ReliefPictures.among(chosen(options))
     with Terminal(options.verbose) as progress:
@@ -95,11 +95,11 @@ def _relief(options: argparse.Namespace) -> int:
 
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..products.contours import Contours
     from ..products.surface_model import SurfaceModel
     from ..products.terrain_model import TerrainModel
     from ..runs.options import RasterOutput, TileInput
     from ..survey.ground_classes import GroundClasses
+    from ..tools.contours import Contours
 
     add_inputs(parser)
     add_crs(parser)
@@ -136,7 +136,7 @@ def _terrain(options: argparse.Namespace) -> int:
 
 
 def _add_water(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.line_files import FORMATS
+    from ..survey.feature_files import FORMATS
     from ..survey.ground_classes import GroundClasses
     from ..tools.water.finding import Water
 

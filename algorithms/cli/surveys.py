@@ -56,7 +56,7 @@ def rasters_of(options: argparse.Namespace) -> RasterFiles:
 
 def add_contours(parser: argparse.ArgumentParser) -> None:
     """Add the option for contour lines; their parameters are those of `Contours`."""
-    from ..products.line_files import FORMATS
+    from ..survey.feature_files import FORMATS
 
     parser.add_argument(
         "--contours", metavar="FILE", type=Path,
@@ -73,10 +73,10 @@ def contours_after(
     if they are wanted; without `--dtm`, their terrain model is a temporary file.
     """
     from ..core.files import temporary_folder
-    from ..products.contours import Contours, write_contours
-    from ..products.line_files import check_features
     from ..products.raster_files import virtual_of
     from ..runs.options import RasterOutput
+    from ..survey.feature_files import check_features
+    from ..tools.contours import Contours, write_contours
 
     rasters, how = rasters_of(options), Contours.among(sets)
     rest = [each for each in sets if each is not how]

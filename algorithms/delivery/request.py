@@ -10,7 +10,6 @@ from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..filters import DEFAULT_METHOD, METHODS
 from ..products.accuracy import Accuracy
 from ..products.constraints import NO_CONSTRAINTS, Constraints
-from ..products.contours import Contours
 from ..products.quality import QualityOptions
 from ..products.raster_grid import ANYWHERE, RasterTarget
 from ..products.specifications import SPECIFICATIONS
@@ -24,6 +23,7 @@ from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from ..tools.above_ground.classes import ThenAboveGround
+from ..tools.contours import Contours
 from ..tools.water.finding import Water
 from ..tools.water_classes import WaterClasses
 from .deliveries import DEFAULT_DELIVERY, DELIVERIES, Delivery

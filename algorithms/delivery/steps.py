@@ -18,7 +18,6 @@ from ..products.checkpoint_outputs import CheckOutputs
 from ..products.checkpoint_results import Check
 from ..products.checkpoints import CheckOptions, CheckRequest, check_files
 from ..products.constraints import Constraints
-from ..products.contours import Interval, write_contours
 from ..products.quality import QualityRequest, survey_quality
 from ..products.quality_figures import Quality
 from ..products.raster_files import RasterFiles
@@ -29,6 +28,7 @@ from ..runs.options import TileInput
 from ..runs.requests import PointRequest, TerrainRequest
 from ..survey.files import Survey
 from ..survey.overview import overview_of
+from ..tools.contours import Interval, write_contours
 from ..tools.key_points import FindKeyPoints, KeyPointMark
 from ..tools.water.files import SurveyWater, WaterRequest, WaterSummary
 from ..tools.water_classes import ClassifyWater, WaterPolygons

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..products.checkpoint_results import Check
-from ..products.contours import Interval
 from ..products.hold_out import AGREEMENT
 from ..products.quality_figures import Quality
+from ..tools.contours import Interval
 from ..tools.water.files import WaterSummary
 
 

@@ -15,10 +15,10 @@ from qgis.core import (
 from ...algorithms.core.errors import OutputInUse
 from ...algorithms.core.files import check_output
 from ...algorithms.las.writing import check_cloud
-from ...algorithms.products.line_files import FORMATS as LINE_FORMATS
-from ...algorithms.products.line_files import check_features
 from ...algorithms.rasters.writing import check_raster_output
 from ...algorithms.report.page import check_page
+from ...algorithms.survey.feature_files import FORMATS as LINE_FORMATS
+from ...algorithms.survey.feature_files import check_features
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.vpc import SUFFIX, check_vpc
 from ..styles import loaded

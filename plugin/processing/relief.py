@@ -10,7 +10,7 @@ from qgis.core import (
     QgsProcessingParameterRasterLayer,
 )
 
-from ...algorithms.products.relief import KINDS, ReliefKinds, ReliefPictures, write_reliefs
+from ...algorithms.tools.relief import KINDS, ReliefKinds, ReliefPictures, write_reliefs
 from .. import compat
 from ..i18n import mark
 from ..styles import layers

@@ -10,7 +10,7 @@ from qgis.core import (
     QgsProcessingParameterRasterLayer,
 )
 
-from ...algorithms.products.off_terrain import OffTerrain, remove_objects_file
+from ...algorithms.tools.off_terrain import OffTerrain, remove_objects_file
 from ..i18n import mark
 from ..styles import layers
 from .base import BareEarthAlgorithm, command_line

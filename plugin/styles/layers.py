@@ -18,7 +18,7 @@ from qgis.core import (
 )
 
 from ...algorithms.crs.system import unit_symbol
-from ...algorithms.products.contours import Interval
+from ...algorithms.tools.contours import Interval
 from ..i18n import mark, tr
 from . import clouds, rasters, vectors
 from .loaded import fresh_path, show_fresh_points

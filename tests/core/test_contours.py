@@ -10,10 +10,10 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.grids.isolines import Isolines
-from bare_earth.algorithms.products import contours as contours_module
-from bare_earth.algorithms.products.contours import INDEX, Contours, write_contours
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid
 from bare_earth.algorithms.rasters.writing import write_geotiff
+from bare_earth.algorithms.tools import contours as contours_module
+from bare_earth.algorithms.tools.contours import INDEX, Contours, write_contours
 
 rasterio = pytest.importorskip("rasterio")
 EAST, NORTH = 500_000.0, 5_700_000.0

@@ -7,12 +7,12 @@ from conftest import Heard
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.products.off_terrain import (
+from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.tools.off_terrain import (
     OffTerrain,
     remove_objects,
     remove_objects_file,
 )
-from bare_earth.algorithms.rasters.geotiff import read_raster
 
 rasterio = pytest.importorskip("rasterio")
 

@@ -10,10 +10,10 @@ from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
-from bare_earth.algorithms.products.off_terrain import OffTerrain
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.above_ground.classes import AboveGround
+from bare_earth.algorithms.tools.off_terrain import OffTerrain
 from benchmarks.scenes.simple import village
 
 DOCS = Path(__file__).parents[2] / "docs"

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.products.contours import Contours, Interval
 from bare_earth.algorithms.products.local_relief import local_relief
+from bare_earth.algorithms.tools.contours import Contours, Interval
 
 
 def test_relief_shows_a_mound_and_not_the_slope_it_stands_on():

@@ -24,7 +24,7 @@ FLOORS = {
     "crs": "core",
     "grids": "core",
     "las": "core crs",
-    "survey": "core crs las",
+    "survey": "core crs las rasters",
     "rasters": "core crs",
     "filters": "core grids",
     "report": "core grids",

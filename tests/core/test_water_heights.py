@@ -8,7 +8,7 @@ from rasterio.features import geometry_mask
 from test_checkpoints import write
 from test_water import LEVEL, Scene, lake, river, run
 
-from bare_earth.algorithms.products.contours import Contours, write_contours
+from bare_earth.algorithms.tools.contours import Contours, write_contours
 
 pytest.importorskip("pyogrio")
 WATERS = ("river", "lake")

@@ -146,7 +146,7 @@ def test_a_cancel_leaves_old_files_and_nothing_else(name, registry, inputs, tmp_
 def test_contours_replace_old_ones_or_leave_them(suffix, inputs, tmp_path, monkeypatch):
     from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
     from bare_earth.algorithms.core.progress import Progress
-    from bare_earth.algorithms.products.contours import Contours, write_contours
+    from bare_earth.algorithms.tools.contours import Contours, write_contours
 
     class CancelAtTheEnd(Progress):
         def report(self, fraction):

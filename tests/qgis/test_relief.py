@@ -6,7 +6,7 @@ from osgeo import gdal, osr
 from qgis.core import QgsProject, QgsRasterLayer
 from support import Log
 
-from bare_earth.algorithms.products.relief import KINDS
+from bare_earth.algorithms.tools.relief import KINDS
 from bare_earth.plugin.styles import rasters
 
 gdal.UseExceptions()

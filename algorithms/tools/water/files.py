@@ -15,8 +15,8 @@ from ...core.words import counted
 from ...crs.system import Crs
 from ...las.cloud import PointCloud
 from ...products.constraints import Constraints
-from ...products.line_files import Feature, Layer, check_features, feature_writer, files_beside
 from ...products.survey_ground import SurveyGround
+from ...survey.feature_files import Feature, Layer, check_features, feature_writer, files_beside
 from ...survey.ground_classes import GroundClasses
 from ...survey.kept_classes import NOISE, is_one_of
 from .body import GRADES, WaterBody

@@ -12,8 +12,8 @@ from ...las.cloud import PointCloud, survey_frame
 from ...products.constraints import STATION, Constraints
 from ...products.fixed_terrain import PER_CELL, GivenTerrain
 from ...products.level_water import LevelWater
-from ...products.line_files import Feature
 from ...survey.area import Polygon
+from ...survey.feature_files import Feature
 from ...survey.ground_classes import GroundClasses
 
 # What stands for the grade of certainty of water that was not found.

@@ -17,7 +17,7 @@ from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
 from ..grids.morphology import within_square
 from ..rasters.rows import RowsOfRaster
-from .line_files import Feature, Layer, check_features, feature_writer, files_beside
+from ..survey.feature_files import Feature, Layer, check_features, feature_writer, files_beside
 
 # A map with about so many lines is easy to read.
 _LINES = 20
