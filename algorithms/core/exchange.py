@@ -16,8 +16,8 @@ def exchange(moves: Sequence[tuple[Path, Path]], outdated: Sequence[Path], aside
     none; `aside` is a temporary folder on the same disk, for the old files.
     """
     targets = [*(target for _, target in moves), *outdated]
-    for each in targets:
-        check_free(each)
+    for path in targets:
+        check_free(path)
     done: list[tuple[Path, Path]] = []
     try:
         for number, target in enumerate(targets):

@@ -52,7 +52,7 @@ def split_name(path: Path) -> tuple[str, str]:
     """Return the name of a file without its ending, and the ending, such as ``.copc.laz``, which is
     empty for folders and other kinds of files.
     """
-    ending = next((each for each in _ENDINGS if path.name.lower().endswith(each)), "")
+    ending = next((known for known in _ENDINGS if path.name.lower().endswith(known)), "")
     stem = path.name[: -len(ending) or None]
     return stem, path.name[len(stem) :]
 
@@ -104,8 +104,8 @@ def check_lengths(folder: Path, names: Iterable[str]) -> None:
     folders) would be too long.
     """
     # Windows allows most programs, QGIS among them, 259 characters.
-    there = next((each for each in (folder, *folder.parents) if each.is_dir()), folder)
-    longest = max(len(os.path.abspath(folder / each)) for each in names)
+    there = next((parent for parent in (folder, *folder.parents) if parent.is_dir()), folder)
+    longest = max(len(os.path.abspath(folder / name)) for name in names)
     left = longest - len(os.path.abspath(there)) - MARKS_LENGTH - 2
     ending = "x" * min(max(left, 1), _LONGEST_ENDING)
     try:
@@ -119,17 +119,17 @@ def check_lengths(folder: Path, names: Iterable[str]) -> None:
 
 def check_distinct(outputs: Iterable[Path | None]) -> None:
     """Refuse, before any work is done, outputs of one run of which two are the same file."""
-    wanted = [each for each in outputs if each is not None]
-    for one, other in itertools.combinations(wanted, 2):
-        if is_same_file(one, other):
-            raise BareEarthError(f"Two outputs are the same file, {one}. Give each its own name.")
+    wanted = [path for path in outputs if path is not None]
+    for first, second in itertools.combinations(wanted, 2):
+        if is_same_file(first, second):
+            raise BareEarthError(f"Two outputs are the same file, {first}. Give each its own name.")
 
 
-def is_same_file(one: Path, other: Path) -> bool:
+def is_same_file(first: Path, second: Path) -> bool:
     """Return whether two paths name the same file, which need not exist yet."""
-    if one.exists() and other.exists():
-        return os.path.samefile(one, other)
-    return os.path.normcase(one.resolve()) == os.path.normcase(other.resolve())
+    if first.exists() and second.exists():
+        return os.path.samefile(first, second)
+    return os.path.normcase(first.resolve()) == os.path.normcase(second.resolve())
 
 
 class Outputs(contextlib.ExitStack):
@@ -140,7 +140,7 @@ class Outputs(contextlib.ExitStack):
     def __init__(self) -> None:
         super().__init__()
         # Where the output is made, a file or a folder; its name; names of files that it outdates.
-        self._made: list[tuple[Path, Path, tuple[str, ...]]] = []
+        self._unnamed: list[tuple[Path, Path, tuple[str, ...]]] = []
 
     def file(self, target: Path, outdated: Iterable[str] = ()) -> Path:
         """Return a temporary file beside the target, with its ending and the permissions of an old
@@ -159,7 +159,7 @@ class Outputs(contextlib.ExitStack):
 
     def _add(self, temporary: Path, target: Path, outdated: Iterable[str]) -> Path:
         self.callback(remove_temporary, temporary)
-        self._made.append((temporary, target, tuple(outdated)))
+        self._unnamed.append((temporary, target, tuple(outdated)))
         return temporary
 
     def __exit__(self, kind: Any, error: Any, traceback: Any) -> bool | None:
@@ -169,10 +169,10 @@ class Outputs(contextlib.ExitStack):
             except BaseException as raised:
                 super().__exit__(type(raised), raised, raised.__traceback__)
                 raise
-        elif isinstance(error, OSError) and self._made:
+        elif isinstance(error, OSError) and self._unnamed:
             _, target, _ = next(
-                (each for each in self._made if str(each[0]) in str(error.filename)),
-                self._made[-1],
+                (output for output in self._unnamed if str(output[0]) in str(error.filename)),
+                self._unnamed[-1],
             )
             super().__exit__(kind, error, traceback)
             raise describe_write_error(target, error) from error
@@ -183,15 +183,15 @@ class Outputs(contextlib.ExitStack):
         ones beside the old ones under other names, which the error gives.
         """
         moves = []
-        for temporary, target, _ in self._made:
+        for temporary, target, _ in self._unnamed:
             names = sorted(os.listdir(temporary)) if temporary.is_dir() else None
-            new = [target] if names is None else [target.with_name(each) for each in names]
-            moves += [(temporary / each.name if names else temporary, each) for each in new]
-        outdated = {target.with_name(each) for _, target, names in self._made for each in names}
+            new = [target] if names is None else [target.with_name(name) for name in names]
+            moves += [(temporary / path.name if names else temporary, path) for path in new]
+        outdated = {target.with_name(name) for _, target, names in self._unnamed for name in names}
         outdated -= {target for _, target in moves}
         try:
-            for each in (*(target for _, target in moves), *outdated):
-                check_free(each)
+            for path in (*(target for _, target in moves), *outdated):
+                check_free(path)
             for source, target in moves:
                 with write_errors_told(target):
                     mode = _mode_of(target)
@@ -201,8 +201,8 @@ class Outputs(contextlib.ExitStack):
                     rename(source, target)
         except OutputInUse as error:
             raise OutputInUse(f"{error} {_kept(moves)}") from error
-        for each in outdated:
-            remove(each)
+        for path in outdated:
+            remove(path)
 
 
 def _kept(moves: Iterable[tuple[Path, Path]]) -> str:
@@ -222,7 +222,7 @@ def free_path(path: Path) -> Path:
     stem = path.name[: -len(ending) or None]
     numbers = itertools.chain([""], itertools.count(2))
     names = (path.with_name(f"{stem}-new{number}{ending}") for number in numbers)
-    return next(each for each in names if not os.path.lexists(each))
+    return next(name for name in names if not os.path.lexists(name))
 
 
 @contextlib.contextmanager

@@ -69,7 +69,7 @@ class Declaration:
                 return self.word
             if isinstance(value, (str, bytes)) or not hasattr(value, "__iter__"):
                 raise BareEarthError(f"{self.label} must be a list of numbers, not {value!r}.")
-            return tuple(self._check_number(each) for each in value)
+            return tuple(map(self._check_number, value))
         return self._check_number(value)
 
     def _is_word(self, value: Any) -> bool:
@@ -138,7 +138,7 @@ def parameter_of(declared: type[ParameterSet], name: str, **differently: Any) ->
     """Declare the same field as in another set, with other attributes of its `Declaration` where
     they differ.
     """
-    declaration = next(each for each in declared.declarations() if each.name == name)
+    declaration = next(known for known in declared.declarations() if known.name == name)
     declaration = dataclasses.replace(declaration, **differently)
     return dataclasses.field(default=declaration.default, metadata={_KEY: declaration})
 
@@ -156,7 +156,7 @@ def _kind_of(default: Any) -> str:
     if isinstance(default, float):
         return "number"
     if isinstance(default, tuple):
-        whole = default and all(isinstance(each, int) for each in default)
+        whole = default and all(isinstance(number, int) for number in default)
         return "integers" if whole else "numbers"
     raise TypeError(f"Give the kind of a parameter whose default is {default!r}.")
 
@@ -173,13 +173,13 @@ class ParameterSet:
     def filled(self: _Set, values: Mapping[str, Any]) -> _Set:
         """Return a copy in which empty parameters (None) get the values, given by name."""
         empty = {
-            each: value for each, value in values.items() if getattr(self, each, value) is None
+            name: value for name, value in values.items() if getattr(self, name, value) is None
         }
         return dataclasses.replace(self, **empty)
 
     def in_words(self, *names: str) -> str:
         """Return some parameters in words: their labels, values and units."""
-        declared = {each.name: each for each in self.declarations()}
+        declared = {declaration.name: declaration for declaration in self.declarations()}
         words = []
         for name in names:
             value = getattr(self, name)
@@ -191,7 +191,7 @@ class ParameterSet:
     @classmethod
     def among(cls: type[_Set], sets: Iterable[ParameterSet]) -> _Set:
         """Return the set of this type from a list of sets."""
-        return next(each for each in sets if isinstance(each, cls))
+        return next(found for found in sets if isinstance(found, cls))
 
     @classmethod
     def declarations(cls) -> tuple[Declaration, ...]:

@@ -28,7 +28,9 @@ class Frame:
 
     def moved(self, corner: tuple[float, float]) -> Frame:
         """Return a frame with another origin, given in metres of this one."""
-        east, north = (at + by / self.horizontal_unit for at, by in zip(self.origin, corner))
+        east, north = (
+            start + metres / self.horizontal_unit for start, metres in zip(self.origin, corner)
+        )
         return replace(self, origin=(east, north))
 
 
@@ -87,11 +89,11 @@ class Points(_Columns):
             which = np.flatnonzero(which)  # faster than to use the mask three times
         if isinstance(which, slice) or len(which) < _MANY:
             return Points(self.x[which], self.y[which], self.z[which])
-        return Points(*in_threads(lambda each: each[which], self))
+        return Points(*in_threads(lambda column: column[which], self))
 
-    def and_also(self, others: Points) -> Points:
+    def and_also(self, more: Points) -> Points:
         """Return these points, followed by others."""
-        return Points(*(np.concatenate(pair) for pair in zip(self, others)))
+        return Points(*(np.concatenate(pair) for pair in zip(self, more)))
 
 
 def box_in_words(box: Box) -> str:

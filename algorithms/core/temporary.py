@@ -28,7 +28,7 @@ MARKS_LENGTH = 13
 _FORGOTTEN_SECONDS = 86_400.0
 # The marks of the files that this process writes now, and the name that users know instead; it is
 # empty for folders.
-_held: dict[str, list[str]] = {}
+_written_now: dict[str, list[str]] = {}
 # Errors of Windows for a file that a program has open: access denied, in use.
 IN_USE = (5, 32)
 # Seconds for which a virus scanner or a copying service may have a file open.
@@ -76,35 +76,35 @@ def make_temporary(target: Path, mode: int | None = None) -> Path:
     def make(path: Path) -> None:
         os.close(os.open(path, flags, permissions))
 
-    return _made(target.parent, ending, shown(target.name), make)
+    return _make_marked(target.parent, ending, shown(target.name), make)
 
 
 def make_temporary_folder(beside: Path) -> Path:
     """Make a folder in `beside`, or beside the temporary folder that this is in."""
     # So there are none in each other, whose paths would become too long.
-    for each in reversed((beside, *beside.parents)):
-        if _TEMPORARY.fullmatch(each.name):
-            beside = each.parent
+    for folder in reversed((beside, *beside.parents)):
+        if _TEMPORARY.fullmatch(folder.name):
+            beside = folder.parent
             break
-    return _made(beside, "", "", lambda path: path.mkdir(mode=0o700))
+    return _make_marked(beside, "", "", lambda path: path.mkdir(mode=0o700))
 
 
-def _made(folder: Path, ending: str, name: str, make: Callable[[Path], Any]) -> Path:
+def _make_marked(folder: Path, ending: str, name: str, make: Callable[[Path], Any]) -> Path:
     """Make something under a new temporary name; `name` is what users know instead."""
     # The marks must be registered before it exists, so that no other thread removes it.
     known = [name]
     while True:
         random = _short(secrets.randbelow(36**3), 3)
         marks = f".~{_computer()}{random}{_short(os.getpid())}"
-        if _held.setdefault(marks, known) is not known:
+        if _written_now.setdefault(marks, known) is not known:
             continue
         try:
             make(folder / f"{marks}{ending}")
         except FileExistsError:
-            del _held[marks]
+            del _written_now[marks]
             continue
         except BaseException:
-            del _held[marks]
+            del _written_now[marks]
             raise
         return folder / f"{marks}{ending}"
 
@@ -129,7 +129,7 @@ def remove_temporary(temporary: Path) -> None:
     """Remove a temporary file or folder, if it still exists, and its registration."""
     remove(temporary)
     if marks := _TEMPORARY.match(temporary.name):
-        _held.pop(marks[1], None)
+        _written_now.pop(marks[1], None)
 
 
 def is_temporary(path: Path) -> bool:
@@ -144,7 +144,7 @@ def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> N
     if not folder.is_dir():
         return
     with os.scandir(folder) as entries:
-        found = [(each, _TEMPORARY.fullmatch(each.name)) for each in entries]
+        found = [(entry, _TEMPORARY.fullmatch(entry.name)) for entry in entries]
     for entry, marks in found:
         if marks and (processes is None or int(marks[3], 36) in processes):
             with contextlib.suppress(OSError):
@@ -159,7 +159,7 @@ def _is_left(entry: os.DirEntry[str], marks: re.Match[str]) -> bool:
         age = time.time() - entry.stat(follow_symlinks=False).st_mtime
         return age > _FORGOTTEN_SECONDS
     if process == os.getpid():
-        return marks[1] not in _held
+        return marks[1] not in _written_now
     return not _is_running(process)
 
 
@@ -195,7 +195,7 @@ def shown(path: object) -> str:
 
 
 def _known(found: re.Match[str]) -> str:
-    (name,), separator = _held.get(found[1], [""]), found[4]
+    (name,), separator = _written_now.get(found[1], [""]), found[4]
     if name:
         return name + separator
     # The folder of another process is not known here, nor is it of interest.

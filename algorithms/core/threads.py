@@ -104,7 +104,7 @@ class SharedThreads:
 
     @contextlib.contextmanager
     def lent(self) -> Iterator[None]:
-        """Leave the calling thread's place to others while the block runs, in which it waits."""
+        """Leave the calling thread's place to helpers while the block runs, in which it waits."""
         self._add(1)
         try:
             yield
@@ -173,24 +173,24 @@ class _Shared:
 
     def results(self, progress: Progress) -> list[_Result]:
         """Make the calls and return their results, or raise the first exception."""
-        others: list[threading.Thread] = []
+        helpers: list[threading.Thread] = []
         shared = shared_threads()
         try:
             for number in self._numbers():
-                while len(others) < len(self._items) - number - 1 and shared and shared.take():
-                    one = threading.Thread(
+                while len(helpers) < len(self._items) - number - 1 and shared and shared.take():
+                    helper = threading.Thread(
                         target=shared.help, args=[self._calls()], name="strip", daemon=True
                     )
-                    others.append(one)
-                    one.start()
+                    helpers.append(helper)
+                    helper.start()
                 self._call(number)
                 progress((number + 1) / len(self._items))
         finally:
             self._end()
-            if others and shared:
+            if helpers and shared:
                 with shared.lent():
-                    for each in others:
-                        each.join()
+                    for helper in helpers:
+                        helper.join()
         if self._failures:
             raise self._failures[min(self._failures)]
         return self._results

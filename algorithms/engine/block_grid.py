@@ -28,7 +28,7 @@ _MARGIN = 0.1
 # blocks they are in.
 _MOST_PLACES = 400
 # Bytes that a point takes in memory while it waits for its block.
-_BYTES_HELD = 48
+_BYTES_WAITING = 48
 # Bytes that a point of a file takes while the file is read.
 _BYTES_READ = 40
 # Least number of groups of blocks for each worker, so that no worker is idle for long.
@@ -74,7 +74,7 @@ class BlockGrid:
             part = slice(first, first + _STEP)
             places = cloud.places(part, self.frame)
             # From the same numbers and by the same steps as in `Block.holds`.
-            column, row = (self.blocks.number(each) for each in places)
+            column, row = map(self.blocks.number, places)
             codes[part] = code_of(row, column)
         return codes
 
@@ -90,23 +90,23 @@ def places_of(grid: BlockGrid, tile: LasFile) -> list[BlockIndex]:
     if len(columns) * len(rows) <= _MOST_PLACES:
         return [BlockIndex(column, row) for row, column in itertools.product(rows, columns)]
     row, column = row_and_column(np.unique(grid.codes(read_cloud(tile))))
-    return [BlockIndex(*each) for each in zip(column.tolist(), row.tolist())]
+    return [BlockIndex(*index) for index in zip(column.tolist(), row.tolist())]
 
 
 def sources_of(grid: BlockGrid, survey: Survey, place: BlockIndex) -> list[Path]:
     """Return the files that may have points which a block needs."""
-    return [each.path for each in survey.touching(grid.window([place]))]
+    return [tile.path for tile in survey.touching(grid.window([place]))]
 
 
-def memory_held(grid: BlockGrid, count: float) -> int:
+def memory_of(grid: BlockGrid, count: float) -> int:
     """Return about how many bytes the blocks of `count` points take, if all wait in memory."""
-    return int(_BYTES_HELD * count) + grid.blocks.memory(count)
+    return int(_BYTES_WAITING * count) + grid.blocks.memory(count)
 
 
 def least_memory(grid: BlockGrid, survey: Survey, place: BlockIndex) -> int:
     """Return about how many bytes a block takes if its points wait on disk, read file by file."""
     window = grid.window([place])
-    largest = max((each.count for each in survey.touching(window)), default=0)
+    largest = max((tile.count for tile in survey.touching(window)), default=0)
     return int(_BYTES_READ * largest) + grid.blocks.memory(points_in(survey, window))
 
 
@@ -140,7 +140,7 @@ def grouped(
         if len(wider) < _GROUPS_A_WORKER * workers:
             break
         counts = (points_in(survey, grid.window(group)) for group in wider)
-        if memory_held(grid, max(counts)) > memory:
+        if memory_of(grid, max(counts)) > memory:
             break
         groups, width = wider, 2 * width
     return groups

@@ -48,13 +48,13 @@ class Block(NamedTuple):
     @property
     def box(self) -> Box:
         """Smallest x and y, largest x and y in metres; the largest belong to the next blocks."""
-        west, south = (each * self.side + self.start for each in (self.column, self.row))
+        west, south = (number * self.side + self.start for number in (self.column, self.row))
         return west, south, west + self.side, south + self.side
 
     def holds(self, points: Points, corner: Corner = (0.0, 0.0)) -> np.ndarray:
         """Return which points lie in the block; their coordinates are relative to a corner."""
         holds = np.empty(points.count, dtype=bool)
-        west, south = (each - self.start for each in corner)
+        west, south = (edge - self.start for edge in corner)
         for part in parts_of(points.count, _POINTS_A_PART):
             holds[part] = np.floor((points.x[part] + west) / self.side) == self.column
             holds[part] &= np.floor((points.y[part] + south) / self.side) == self.row
@@ -141,13 +141,13 @@ class Blocks:
         counts = self._counts(block, store)
         todo = [(block, counts)]
         while todo:
-            each, counts = todo.pop(0)
+            part, counts = todo.pop(0)
             if counts.sum() <= self.most_points or len(counts) == 1:
-                yield each
+                yield part
                 continue
             half = len(counts) // 2
             parts = (counts[r : r + half, c : c + half] for r in (0, half) for c in (0, half))
-            todo[:0] = zip(each.quarters(), parts)
+            todo[:0] = zip(part.quarters(), parts)
 
     def _counts(self, block: Block, store: Store) -> np.ndarray:
         """Return the number of points in each of the smallest blocks of a block."""
@@ -157,8 +157,8 @@ class Blocks:
             points = store.read(np.array([leaf])).points
             points = points.take(block.holds(points))
             row, column = (
-                np.floor((each - self.start) / self.leaf_side).astype(np.intp) - number * width
-                for each, number in ((points.y, block.row), (points.x, block.column))
+                np.floor((places - self.start) / self.leaf_side).astype(np.intp) - number * width
+                for places, number in ((points.y, block.row), (points.x, block.column))
             )
             counts += np.bincount(row * width + column, minlength=width**2).reshape(counts.shape)
         return counts
@@ -175,7 +175,7 @@ class Blocks:
         """
         box, corner = self.window(block), self.corner(block)
         leaves = store.leaves.within(box)
-        west, south, east, north = (each - at for each, at in zip(box, corner * 2))
+        west, south, east, north = (side - start for side, start in zip(box, corner * 2))
         is_inside = store.leaves.are_inside(leaves, box)
         part = None if is_inside else (west, south, east, north)
         return store.read(leaves, part, corner, progress, ground_only)

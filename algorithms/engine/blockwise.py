@@ -33,17 +33,17 @@ def over_blocks(
     """Yield the number and the result of each block, in the order in which they finish; `work` gets
     a block, whether it is the only one, and a `Progress`.
     """
-    todo = [each for each in blocks.over(store) if is_wanted is None or is_wanted(each)]
+    todo = [block for block in blocks.over(store) if is_wanted is None or is_wanted(block)]
     if not todo:
         return
-    leaves = [store.leaves.within(blocks.window(each)) for each in todo]
-    counts = [int(store.leaves.counts[each].sum()) for each in leaves]
+    leaves = [store.leaves.within(blocks.window(block)) for block in todo]
+    counts = [int(store.leaves.counts[touched].sum()) for touched in leaves]
     memory = [
-        blocks.memory(count, len(each) * store.leaves.side**2)
-        for count, each in zip(counts, leaves)
+        blocks.memory(count, len(touched) * store.leaves.side**2)
+        for count, touched in zip(counts, leaves)
     ]
     at_once = _at_once(len(todo), max(memory), resources)
-    jobs = [partial(work, each, len(todo) == 1) for each in todo]
+    jobs = [partial(work, block, len(todo) == 1) for block in todo]
     if max(memory) > max(resources.bytes, _MUCH):
         progress.info(
             f"The largest block takes about {max(memory) / GIGABYTE:.2f} GB of memory, more than"

@@ -8,6 +8,7 @@ import functools
 import os
 import threading
 import time
+from collections import Counter
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -97,11 +98,12 @@ class Cluster(Workers):
         memory = self.resources.bytes
         if self.resources.memory is None:
             # Several workers can be on one computer.
-            on_host = {
-                each.host: sum(threads.get(a, 1) for a in facts if facts[a].host == each.host)
-                for each in facts.values()
-            }
-            memory = int(min(_SHARE * each.free / on_host[each.host] for each in facts.values()))
+            on_host: Counter[str] = Counter()
+            for address, worker in facts.items():
+                on_host[worker.host] += threads.get(address, 1)
+            memory = int(
+                min(_SHARE * worker.free / on_host[worker.host] for worker in facts.values())
+            )
         self.share = Resources.of(1, memory)
         self.at_once = self._room()
         # Dask must not take the result of an equal job of an earlier run.
@@ -136,19 +138,19 @@ class Cluster(Workers):
                 f"The scheduler {self._address} has no workers. Start some with 'dask worker"
                 f" {self._address}'."
             )
-        for address, each in facts.items():
-            if isinstance(each, OSError):  # it has just ended
+        for address, found in facts.items():
+            if isinstance(found, OSError):  # it has just ended
                 raise BareEarthError(f"The worker {address} does not answer. Run it again.")
-            if not isinstance(each, _Facts):
+            if not isinstance(found, _Facts):
                 raise BareEarthError(
-                    f"The worker {address} cannot load this package ({each}). {install}"
+                    f"The worker {address} cannot load this package ({found}). {install}"
                 )
-            if each.version != __version__:
+            if found.version != __version__:
                 raise BareEarthError(
-                    f"The worker {address} has version {each.version} of bare-earth, and this"
+                    f"The worker {address} has version {found.version} of bare-earth, and this"
                     f" computer {__version__}. Install the same version on all."
                 )
-            if not each.sees_folder:
+            if not found.sees_folder:
                 raise BareEarthError(
                     f"The worker {address} does not see {folder}. Put inputs and outputs into a"
                     " folder that all computers have under the same name."

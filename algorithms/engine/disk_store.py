@@ -84,7 +84,7 @@ class DiskStore:
         """Add the selected points of the next part."""
         which = np.flatnonzero(marks.selected)
         places = part.places(which, self._frame)
-        found = Sorted.of(*(np.floor((each - self._start) / self._side) for each in places[::-1]))
+        found = Sorted.of(*(np.floor((axis - self._start) / self._side) for axis in places[::-1]))
         which = which[found.order]
         records = np.empty(len(which), dtype=_RECORD)
         for name in ("x", "y", "z"):
@@ -153,7 +153,7 @@ class DiskStore:
             part = self._parts[bisect.bisect_right(starts, run[0]) - 1]
             points = dataclasses.replace(part.cloud, x=x, y=y, z=z).points(slice(None), frame)
             kinds = _KNOWN, _WANTED, _ROAD, _MULTI_RETURN
-            known, wanted, roads, several = (records["flags"] & each > 0 for each in kinds)
+            known, wanted, roads, several = (records["flags"] & bit > 0 for bit in kinds)
             return BlockPoints(points, known, wanted, positions, roads, several)
 
         return list(_joined(*self._runs.of(leaves), starts)), read
@@ -166,17 +166,17 @@ class DiskStore:
         with write_errors_told(self._target):
             for where, some in zip(np.split(positions, cuts), np.split(values, cuts)):
                 first, last = int(where[0]), int(where[-1]) + 1
-                held = _read(self._values, self._kind, first, last).copy()
-                held[where - first] = some
+                stored = _read(self._values, self._kind, first, last).copy()
+                stored[where - first] = some
                 self._values.seek(first * self._kind.itemsize)
-                self._values.write(held.tobytes())
+                self._values.write(stored.tobytes())
             reach_disk(self._values)
 
     def values(self, number: int) -> np.ndarray:
         """Return the values of all points of a part."""
         part = self._parts[number]
         values = np.zeros(part.size, dtype=self._kind)
-        ends = [*(each.start for each in self._parts[number + 1 :]), self._count]
+        ends = [*(later.start for later in self._parts[number + 1 :]), self._count]
         which = _read(self._orders, _INDEX, part.start, ends[0])
         values[which] = _read(self._values, self._kind, part.start, ends[0])
         return values

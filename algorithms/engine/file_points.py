@@ -48,7 +48,7 @@ def fits_in_memory(count: int, resources: Resources, record_length: int = 0) -> 
     return (_BYTES_A_POINT_KEPT + record_length) * count + seen <= resources.bytes
 
 
-def held_by_file(las: LasFile) -> int:
+def memory_of_file(las: LasFile) -> int:
     """Return about how many bytes the points of a file and its records take in memory."""
     return (_BYTES_A_POINT_KEPT + las.record_length) * las.count
 
@@ -120,11 +120,11 @@ class FilePoints:
     @property
     def memory_left(self) -> int:
         """Bytes that may be used for writing, beside what the points take."""
-        held = _BYTES_A_POINT_ON_DISK
+        size = _BYTES_A_POINT_ON_DISK
         if self.is_in_memory:
             records = self.cloud.records
-            held = _BYTES_A_POINT_KEPT + (0 if records is None else records.shape[1])
-        return max(self._given.bytes - held * self.count, 0)
+            size = _BYTES_A_POINT_KEPT + (0 if records is None else records.shape[1])
+        return max(self._given.bytes - size * self.count, 0)
 
     def parts(
         self, progress: Progress = SILENT, is_last: bool = False

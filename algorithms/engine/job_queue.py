@@ -12,7 +12,7 @@ from typing import Any, Collection, Sequence
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..core.temporary import remove
-from .jobs import BlockJob, JobResult, Taken, TileJob
+from .jobs import BlockJob, JobCost, JobResult, TileJob
 from .memory import GIGABYTE
 from .polling import ended
 from .workers import SCHEDULER_GONE, Job, Running, Workers
@@ -42,7 +42,7 @@ class JobQueue:
         self.empty_count = 0  # tiles with nothing to write
         self.failures: dict[Path, str] = {}  # why the other tiles were not written, by their inputs
         self.lost: list[str] = []  # why blocks were not done
-        self.taken: list[Taken] = []  # what the jobs took that were done
+        self.costs: list[JobCost] = []  # of the jobs that were done
         self._workers, self._progress = workers, progress
         # Jobs that were running when a worker died. They are repeated one by one, to find the one
         # that kills its worker. The last one that was repeated:
@@ -64,7 +64,7 @@ class JobQueue:
         self._running: dict[Running, Job] = {}
         # Messages with their files ("" for blocks), by kind, text without numbers, and whether they
         # are about files.
-        self._heard: dict[tuple[str, str, bool], dict[str, str]] = {}
+        self._messages: dict[tuple[str, str, bool], dict[str, str]] = {}
         self._total = max(sum(map(_weight, (*blocks, *tiles))), 1e-9)
         self._finished = 0.0
 
@@ -88,7 +88,7 @@ class JobQueue:
 
     def _run(self) -> None:
         for future in ended(self._start, self._look):
-            running = next((each for each in self._running if each.future is future), None)
+            running = next((run for run in self._running if run.future is future), None)
             if running is not None:  # otherwise it is suspected meanwhile
                 self._end(running)
         self._tell()
@@ -97,14 +97,14 @@ class JobQueue:
     def _look(self) -> None:
         """Check the workers, and report progress."""
         self._workers.check()
-        running = sum(each.progress.fraction * _weight(job) for each, job in self._running.items())
+        running = sum(run.progress.fraction * _weight(job) for run, job in self._running.items())
         self._progress((self._finished + running) / self._total)
 
     def _start(self) -> list[Future[JobResult]]:
         """Start as many jobs as may run at once; return those that are running."""
         while len(self._running) < (1 if self._suspects else self._workers.at_once):
             queues = (self._suspects, self._ready, self._blocks)
-            queue = next((each for each in queues if each), None)
+            queue = next((jobs for jobs in queues if jobs), None)
             if queue is None:
                 break
             try:
@@ -113,7 +113,7 @@ class JobQueue:
                 self._repeated = job if queue is self._suspects else self._repeated
             except BrokenExecutor:  # a worker died between two jobs
                 self._suspect_all()
-        return [each.future for each in self._running]
+        return [run.future for run in self._running]
 
     def _suspect_all(self) -> None:
         """Repeat all running jobs one by one, since one of them may have killed its worker."""
@@ -142,9 +142,9 @@ class JobQueue:
             outcome = JobResult(None, failure=failure)
         self._running.pop(running, None)
         self._finished += _weight(job)
-        if outcome.taken is not None:
-            self.taken.append(outcome.taken)
-        self._hear(job, outcome)
+        if outcome.cost is not None:
+            self.costs.append(outcome.cost)
+        self._keep_messages(job, outcome)
         (self._end_tile if isinstance(job, TileJob) else self._end_blocks)(job, outcome)
 
     def _end_blocks(self, job: BlockJob, outcome: JobResult) -> None:
@@ -203,38 +203,39 @@ class JobQueue:
             if not self._uses[file] and file not in self._missing:
                 remove(file)
 
-    def _hear(self, job: Job, outcome: JobResult) -> None:
+    def _keep_messages(self, job: Job, outcome: JobResult) -> None:
         """Collect the messages of a job; without those that only give counts of a tile."""
         name = job.tile.path.name if isinstance(job, TileJob) else ""
         for kind, text in outcome.messages:
             if not name or kind == "warning":
-                heard = self._heard.setdefault((kind, _without_numbers(text), bool(name)), {})
-                heard.setdefault(f"{name}: {text}" if name else text, name)
+                alike = self._messages.setdefault((kind, _without_numbers(text), bool(name)), {})
+                alike.setdefault(f"{name}: {text}" if name else text, name)
 
     def _tell(self) -> None:
         """Report each message once, with the files whose messages differ only in numbers."""
-        for (kind, _, of_files), heard in self._heard.items():
-            first, *others = heard
+        for (kind, _, of_files), alike in self._messages.items():
+            first, *more_texts = alike
             more = ""
-            if others and of_files:
-                more = (
-                    f" The same, with other numbers: {_listed([heard[each] for each in others])}."
+            if more_texts and of_files:
+                names = _listed([alike[text] for text in more_texts])
+                more = f" The same, with other numbers: {names}."
+            elif more_texts:
+                parts = (
+                    "another part" if len(more_texts) == 1 else f"{len(more_texts):,} other parts"
                 )
-            elif others:
-                parts = "another part" if len(others) == 1 else f"{len(others):,} other parts"
                 more = f" The same, with other numbers, in {parts} of the survey."
             getattr(self._progress, kind)(first + more)
 
     def _tell_of_memory(self) -> None:
         """Report how long the jobs took, and the one that took most memory."""
-        for taken in self.taken:
-            stage = "blocks" if taken.job == "blocks" else "files"
-            self._progress.took(stage, taken.seconds)
-        known = [taken for taken in self.taken if taken.memory is not None]
+        for cost in self.costs:
+            stage = "blocks" if cost.job == "blocks" else "files"
+            self._progress.took(stage, cost.seconds)
+        known = [cost for cost in self.costs if cost.memory is not None]
         if known:
-            most = max(known, key=lambda taken: taken.memory or 0)
+            most = max(known, key=lambda cost: cost.memory or 0)
             self._progress.info(
-                f"{len(self.taken):,} jobs are done. The largest took"
+                f"{len(self.costs):,} jobs are done. The largest took"
                 f" {(most.memory or 0) / GIGABYTE:.2f} GB of memory"
                 f" ({most.planned / GIGABYTE:.2f} GB planned)."
             )

@@ -21,9 +21,9 @@ from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..survey.window import may_touch, read_window
-from .block_grid import BlockGrid, BlockIndex, code, memory_held
+from .block_grid import BlockGrid, BlockIndex, code, memory_of
 from .disk_store import DiskStore
-from .file_points import FilePoints, held_by_file
+from .file_points import FilePoints, memory_of_file
 from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
 from .memory_store import MemoryStore
@@ -34,8 +34,8 @@ from .values import BlockFiles, BlockValues, applied
 
 
 @dataclass(frozen=True)
-class Taken:
-    """What a job took."""
+class JobCost:
+    """The time and memory that a job took."""
 
     job: str  # "blocks" or the name of a file
     seconds: float  # of wall-clock time
@@ -49,7 +49,7 @@ class JobResult(NamedTuple):
     result: Any
     messages: tuple[tuple[str, str], ...] = ()
     failure: str | None = None
-    taken: Taken | None = None  # None if it failed
+    cost: JobCost | None = None  # None if it failed
 
 
 class Share(NamedTuple):
@@ -98,8 +98,7 @@ class BlockJob:
 
     def planned(self, resources: Resources) -> int:
         """Return the bytes of memory that it takes at most, as far as is known before."""
-        held = memory_held(self.grid, self.count)
-        return held if held <= resources.bytes else resources.bytes
+        return min(memory_of(self.grid, self.count), resources.bytes)
 
     def clouds(self, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points of each file that the blocks need, with what was found before."""
@@ -129,7 +128,7 @@ class BlockJob:
     def store(self, share: Share, kind: type = np.uint8) -> Iterator[MemoryStore | DiskStore]:
         """Yield an empty store for the points: on disk if they do not fit into memory."""
         frame, blocks = self.grid.frame, self.grid.blocks
-        if memory_held(self.grid, self.count) <= share.resources.bytes:
+        if memory_of(self.grid, self.count) <= share.resources.bytes:
             yield MemoryStore(frame, blocks, kind)
             return
         with DiskStore(self.files[0], frame, blocks, kind) as store:
@@ -219,7 +218,7 @@ class TileJob:
 
     def planned(self, resources: Resources) -> int:
         """Return the bytes of memory that it takes at most, as far as is known before."""
-        return min(held_by_file(self.tile), resources.bytes)
+        return min(memory_of_file(self.tile), resources.bytes)
 
     def run(self, share: Share, progress: Progress) -> Any:
         """Write the file; return the summary of the step, or None if there is nothing to write."""
@@ -253,13 +252,13 @@ def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> JobRes
     try:
         with share.threads.used():
             result = job.run(share, notes)
-        taken = Taken(
+        cost = JobCost(
             job.title,
             round(time.monotonic() - begun, 3),
             None if memory is None else memory.end(),
             job.planned(share.resources),
         )
-        return JobResult(result, tuple(notes.messages), taken=taken)
+        return JobResult(result, tuple(notes.messages), cost=cost)
     except Cancelled:
         raise
     except BareEarthError as error:

@@ -142,7 +142,7 @@ def free_memory() -> int:
     """Return the bytes of free memory; 4 GB if the system does not tell."""
     free = _FREE.get(sys.platform, _linux_free)()
     limits = [_cgroup_free(), _UNKNOWN if free is None else free]
-    return min(each for each in limits if each is not None)
+    return min(limit for limit in limits if limit is not None)
 
 
 def _linux_free() -> int | None:
@@ -176,7 +176,7 @@ def _cgroup_free() -> int | None:
         return None
     # Of what is used, the system gives up the cache of files that nobody has read lately.
     lines = _lines(_CGROUP / "memory.stat")
-    cached = [int(each.split()[1]) for each in lines if each.startswith("inactive_file ")]
+    cached = [int(line.split()[1]) for line in lines if line.startswith("inactive_file ")]
     return max(int(limit[0]) - int(used[0]) + sum(cached), 0)
 
 

@@ -107,7 +107,7 @@ class MemoryStore:
 
         def sort(piece: slice) -> None:
             places = cloud.places(order[piece], self._frame)
-            result = Sorted.of(*(np.floor((each - self._start) / side) for each in places[::-1]))
+            result = Sorted.of(*(np.floor((axis - self._start) / side) for axis in places[::-1]))
             order[piece] = order[piece][result.order]
             found[piece.start // _SORTED] = result.codes, result.counts
 
@@ -162,7 +162,7 @@ class MemoryStore:
     def _ground_of(self, number: int, which: np.ndarray) -> np.ndarray:
         """Return those of some points of a file that are ground, or are where they lie on it."""
         part = self._parts[number]
-        flags = [each[which] for each in (part.known, part.roads) if each is not None]
+        flags = [mask[which] for mask in (part.known, part.roads) if mask is not None]
         return which[np.logical_or.reduce(flags)] if flags else which[:0]
 
     def _contents(self, number: int, which: np.ndarray, frame: Frame) -> BlockPoints:

@@ -59,7 +59,7 @@ class Plan:
         frame = survey_frame(survey.crs)
         self._grids = [BlockGrid(frame, step.blocks, survey.stated) for step in steps]
         # Taken before any of them is read.
-        self._stamps = {each.path: stamp_of(each.path) for each in survey.tiles}
+        self._stamps = {tile.path: stamp_of(tile.path) for tile in survey.tiles}
         self._places: dict[tuple[int, Path], list[BlockIndex]] = {}
         self._needed: dict[_Wanted, frozenset[_Wanted]] = {}
         self._inputs: dict[_Wanted, frozenset[Path]] = {}
@@ -126,7 +126,7 @@ class Plan:
             for group in groups:
                 wanted = [_Wanted(number, place) for place in group]
                 files = tuple(map(self._file, wanted))
-                sources = tuple(sorted({path for each in wanted for path in self._sources(each)}))
+                sources = tuple(sorted({path for block in wanted for path in self._sources(block)}))
                 needed = set().union(*map(self._needs, wanted))
                 blocks.append(
                     PointJob(
@@ -243,9 +243,11 @@ class Plan:
         wanted, read_from = set(), {}
         for output in outputs.tiles:
             tile = inputs[output.path.name]
-            needed = [each for each in self._wanted(tile) if self._steps[each.step].gives_classes]
+            needed = [
+                block for block in self._wanted(tile) if self._steps[block.step].gives_classes
+            ]
             # Of a file that an earlier run finished there is only the output.
-            if all(self._file(each).exists() for each in needed):
+            if all(self._file(block).exists() for block in needed):
                 read_from[output.path] = tile
                 wanted.update(needed)
         return Results(outputs, read_from, self._block_files(wanted))
@@ -263,7 +265,7 @@ class Results:
         found: tuple[BlockFiles, ...] = (),
     ) -> None:
         self._survey, self._inputs, self.found = survey, inputs, found
-        self.read_from = {each.path: inputs.get(each.path, each).path for each in survey.tiles}
+        self.read_from = {tile.path: inputs.get(tile.path, tile).path for tile in survey.tiles}
         self.finished = frozenset(self.read_from) - inputs.keys()
 
     def parts(

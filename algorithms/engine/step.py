@@ -181,7 +181,7 @@ def _plain(value: Any) -> Any:
         is_set = isinstance(value, ParameterSet)
         return {"set": type(value).__name__, **plain} if is_set else plain
     if isinstance(value, (tuple, list)):
-        return [_plain(each) for each in value]
+        return [_plain(element) for element in value]
     if isinstance(value, np.ndarray):
         return hashlib.sha256(value.tobytes()).hexdigest()
     return str(value) if isinstance(value, Path) else value

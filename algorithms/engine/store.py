@@ -70,14 +70,14 @@ class BlockPoints(NamedTuple):
     def put(self, start: int, some: BlockPoints) -> None:
         """Overwrite points from index `start` on with other points."""
         where = slice(start, start + some.points.count)
-        for mine, others in zip((*self.points, *self[1:]), (*some.points, *some[1:])):
-            mine[where] = others
+        for mine, theirs in zip((*self.points, *self[1:]), (*some.points, *some[1:])):
+            mine[where] = theirs
 
     def take(self, which: np.ndarray | slice) -> BlockPoints:
         """Return the points that a mask or a slice selects."""
         if isinstance(which, np.ndarray) and which.dtype == bool:
             which = np.flatnonzero(which)  # faster than to use the mask six times
-        return BlockPoints(self.points.take(which), *(each[which] for each in self[1:]))
+        return BlockPoints(self.points.take(which), *(flags[which] for flags in self[1:]))
 
     def within(self, box: Box) -> BlockPoints:
         """Return the points in a box, without those on its largest x and y."""

@@ -85,7 +85,7 @@ class Threads(Workers):
         progress = JobProgress(self._stop)
         share = Share(self.share, self._threads, is_alone=self.at_once == 1)
         future = self._pool.submit(attempt, job, share, progress)
-        self._futures = [each for each in self._futures if not each.done()] + [future]
+        self._futures = [running for running in self._futures if not running.done()] + [future]
         return Running(future, progress)
 
     def stop(self) -> None:

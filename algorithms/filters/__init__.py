@@ -8,7 +8,7 @@ from .method import Method
 
 # The most accurate one.
 DEFAULT_METHOD = "tin-densification"
-METHODS = {each.METHOD.name: each.METHOD for each in (tin, grid_minimum, slope)}
+METHODS = {module.METHOD.name: module.METHOD for module in (tin, grid_minimum, slope)}
 
 
 def method_of(parameters: ParameterSet) -> Method:

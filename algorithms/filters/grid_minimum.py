@@ -143,7 +143,7 @@ class GridMinimum(ParameterSet):
         if heights is None:
             return
         if not heights or any(low > high for high, low in zip(heights, heights[1:])):
-            given = ", ".join(f"{each:g}" for each in heights) or "nothing"
+            given = ", ".join(f"{height:g}" for height in heights) or "nothing"
             raise BareEarthError(
                 f"Height thresholds must be a list from the largest to the smallest, not {given}."
             )

@@ -117,7 +117,7 @@ class Method(NamedTuple):
         """Return the width in metres of the largest expected object, a usual one if the user gave
         none, and the parameter's name.
         """
-        labels = {each.name: each.label for each in parameters.declarations()}
+        labels = {declaration.name: declaration.label for declaration in parameters.declarations()}
         size = self.largest_object(parameters)
         if vars(parameters)["preset"] == "automatic" and size == self.largest_object(
             self.parameters()

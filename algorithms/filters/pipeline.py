@@ -168,8 +168,8 @@ def _warn_of_outliers(count: int, left: np.ndarray, progress: Progress) -> None:
     """Warn if many of the lowest points, so many in all, are taken for low outliers, which are NaN
     in `left`.
     """
-    taken = count - np.count_nonzero(np.isfinite(left))
-    if count >= _LEAST_CELLS and taken > _MOST_OUTLIERS * count:
+    outliers = count - np.count_nonzero(np.isfinite(left))
+    if count >= _LEAST_CELLS and outliers > _MOST_OUTLIERS * count:
         progress.warning(
             f"More than {100 * _MOST_OUTLIERS:g} % of the lowest points are taken for low outliers."
             " If they are noise, put them into class 7 to be sure that they take no part. If they"

@@ -21,7 +21,7 @@ from ..core.temporary import remove, remove_leftovers
 from ..crs.measurable import require_measurable
 from ..engine.blocks import Blocks
 from ..engine.job_queue import JobQueue
-from ..engine.jobs import Taken
+from ..engine.jobs import JobCost
 from ..engine.manifest import folders_of, remove_record
 from ..engine.plan import Plan
 from ..engine.step import PointStep, located
@@ -50,7 +50,7 @@ class SurveySummary:
     failures: dict[str, str]  # why other files could not be done, by their paths
     vpc: str  # the virtual point cloud of the finished files
     tiles: tuple[Any, ...] = field(default=(), repr=False)  # their summaries
-    jobs: tuple[Taken, ...] = field(default=(), repr=False)
+    jobs: tuple[JobCost, ...] = field(default=(), repr=False)
 
     @property
     def class_counts(self) -> dict[int, int]:
@@ -150,7 +150,7 @@ class _SurveyRun:
         # Summaries of the finished files, sorted by their names.
         self._done: list[Any] = []
         self._kept_count = self._empty_count = 0
-        self._jobs: list[Taken] = []
+        self._jobs: list[JobCost] = []
 
     def open(self, sources: Sequence[Path], progress: Progress) -> None:
         """Open the inputs, and refuse now what would fail at the end."""
@@ -202,7 +202,7 @@ class _SurveyRun:
         queue.work()
         self._done, self._kept_count = sorted([*plan.kept, *queue.done]), len(plan.kept)
         self._empty_count = plan.empty_count + queue.empty_count
-        self._jobs = queue.taken
+        self._jobs = queue.costs
         for path, reason in {**plan.failures, **queue.failures}.items():
             self._failures[path.name] = path, reason
         if self._done or self._empty_count:

@@ -40,22 +40,22 @@ def pits_of(points):
 def test_pits_in_a_rough_canopy_are_ground():
     points, ground = seen_through_gaps(rough=12.0, density=1.5)
     pits, cells = pits_of(points)
-    spared = pits & UnderCanopy().spared(pits, points, cells)
+    stays = pits & UnderCanopy().of_ground(pits, points, cells)
     of_ground = cells.holding(ground)
-    assert (pits & of_ground).sum() > 10 and spared[pits & of_ground].mean() > 0.8
+    assert (pits & of_ground).sum() > 10 and stays[pits & of_ground].mean() > 0.8
 
 
 def test_pits_in_an_even_surface_are_outliers_however_deep():
     points, _ = seen_through_gaps(rough=0.1)
     pits, cells = pits_of(points)
     assert pits.sum() > 50
-    assert not UnderCanopy().spared(pits, points, cells).any()
+    assert not UnderCanopy().of_ground(pits, points, cells).any()
 
 
 def test_nothing_is_spared_where_there_is_no_pit():
     points, _ = seen_through_gaps(rough=0.1)
     cells = Cells.over(points, 1.0)
-    assert not UnderCanopy().spared(np.zeros(cells.shape, dtype=bool), points, cells).any()
+    assert not UnderCanopy().of_ground(np.zeros(cells.shape, dtype=bool), points, cells).any()
 
 
 @pytest.mark.parametrize("slope", [0.1, 2.0])

@@ -111,7 +111,7 @@ class HeightSteps:
             level = (count > 0) & (np.abs(rises) <= allowed * count)
             kept[cells[level]] = True
             cells = cells[~level]
-            trend = Rises(*(each[~level] for each in trend))
+            trend = Rises(*(values[~level] for values in trend))
         return self._unframed(kept.reshape(self._inside.shape))
 
     def _unframed(self, grid: np.ndarray) -> np.ndarray:
@@ -155,17 +155,17 @@ class HeightSteps:
         if end <= start:
             return
         rise = self._heights[start + step.offset : end + step.offset] - self._heights[start:end]
-        north, east, steepest, roughness = (each[: end - start] for each in trend)
+        north, east, steepest, roughness = (values[: end - start] for values in trend)
         if step.row:
             rise -= np.float32(step.row) * north
         if step.column:
             rise -= np.float32(step.column) * east
-        for each, factor in zip(steps, roughness_factors):
+        for signs, factor in zip(steps, roughness_factors):
             allowed = steepest + np.float32(factor) * roughness
             allowed *= np.float32(np.hypot(step.row, step.column))
             allowed += np.float32(threshold)
             higher = (rise > allowed).view(np.int8)
-            np.subtract(higher, (rise < -allowed).view(np.int8), out=each.sign[start:end])
+            np.subtract(higher, (rise < -allowed).view(np.int8), out=signs.sign[start:end])
 
     def _trend_of_rows(self, first: int, last: int) -> Rises:
         """Return the trend at each cell of some rows with their frame, where it is 0."""
@@ -174,11 +174,11 @@ class HeightSteps:
         rises = self._trend.of_rows(inner.start, min(inner.stop, rows))
         above = inner.start + self._step - first
         framed = []
-        for each in rises:
+        for rise in rises:
             grid = np.zeros((last - first, self._inside.shape[1]), dtype=np.float32)
             height = min(inner.stop, rows) - inner.start
             if height > 0:
-                grid[above : above + height, self._step : -self._step] = each
+                grid[above : above + height, self._step : -self._step] = rise
             framed.append(grid.ravel())
         return Rises(*framed)
 
@@ -198,21 +198,21 @@ class HeightSteps:
 
     def _rims(self, steps: list[_Steps]) -> np.ndarray:
         rim = np.zeros(self._inside.size, dtype=bool)
-        for each in steps:
-            rim[: -each.offset] |= each.sign < 0
-            rim[each.offset :] |= each.sign > 0
+        for step in steps:
+            rim[: -step.offset] |= step.sign < 0
+            rim[step.offset :] |= step.sign > 0
         return rim.reshape(self._inside.shape) & self._inside
 
     def _join(self, regions: np.ndarray, cells: np.ndarray, steps: list[_Steps]) -> None:
         """Let cells without a region join the region of the neighbour that is nearest in height."""
         least = np.full(len(cells), np.inf, dtype=np.float32)
         joined = np.zeros(len(cells), dtype=regions.dtype)
-        for each in steps:
+        for step in steps:
             for backward in (False, True):
-                neighbour = cells - each.offset if backward else cells + each.offset
-                level = each.sign[neighbour if backward else cells] == 0
+                neighbour = cells - step.offset if backward else cells + step.offset
+                level = step.sign[neighbour if backward else cells] == 0
                 which = np.flatnonzero(level & (regions[neighbour] > 0))
-                rise = np.abs(self._rise(cells[which], each, backward))
+                rise = np.abs(self._rise(cells[which], step, backward))
                 better = rise < least[which]
                 which = which[better]
                 least[which] = rise[better]
@@ -221,14 +221,14 @@ class HeightSteps:
 
     def _border(self, regions: np.ndarray, count: int, steps: list[_Steps]) -> Border:
         parts = []
-        for each in steps:
-            cells = np.flatnonzero(regions[: -each.offset] != regions[each.offset :])
-            sign = each.sign[cells]
+        for step in steps:
+            cells = np.flatnonzero(regions[: -step.offset] != regions[step.offset :])
+            sign = step.sign[cells]
             rise = np.zeros(len(cells), dtype=np.float32)
             stepped = np.flatnonzero(sign)
-            rise[stepped] = self._rise(cells[stepped], each)
-            parts.append((regions[cells], regions[cells + each.offset], sign, rise))
-        return Border(count, *(np.concatenate(each) for each in zip(*parts)))
+            rise[stepped] = self._rise(cells[stepped], step)
+            parts.append((regions[cells], regions[cells + step.offset], sign, rise))
+        return Border(count, *(np.concatenate(values) for values in zip(*parts)))
 
 
 class _Steps(NamedTuple):

@@ -85,8 +85,8 @@ class LowGroups(PointRule):
         as_low = around.known & (misfit < -0.5 * depth[:, None])
         as_low &= around.distance > _BESIDE_GROUP * self.width
         deep = depth > np.maximum(self.depth, self.deviations * deviation)
-        others, level = (np.count_nonzero(which, axis=1) for which in (as_low, on_plane))
-        alone = others <= self.most_beside * level
+        low, level = (np.count_nonzero(which, axis=1) for which in (as_low, on_plane))
+        alone = low <= self.most_beside * level
         is_enclosed = around.sides_with(on_plane) >= self.sides
         for number in np.flatnonzero(deep & alone & is_enclosed):
             east, north, height = plane[number].tolist()
@@ -116,11 +116,11 @@ class LowGroups(PointRule):
             last = min(column + reach, cells.columns - 1)
             lines = np.arange(max(row - reach, 0), min(row + reach, cells.rows - 1) + 1)
             ends = lines[:, None] * cells.columns + (first, last + 1)
-            some = np.concatenate([which[slice(*each)] for each in np.searchsorted(index, ends)])
+            some = np.concatenate([which[start:end] for start, end in np.searchsorted(index, ends)])
             beside = points.take(some)
-            held = group.holds(beside, self.width)
-            if self.is_group(group, beside, held):
-                members[some[held]] = True
+            inside = group.holds(beside, self.width)
+            if self.is_group(group, beside, inside):
+                members[some[inside]] = True
         return members
 
     def is_group(self, group: Group, points: Points, members: np.ndarray) -> bool:
@@ -259,7 +259,7 @@ class BelowWater(PointRule):
         )
         which = cells.points_in(np.isfinite(far))
         z, index = points.z[which], cells.index[which]
-        below, wider = (z < each.ravel().take(index) for each in (near, far))
+        below, wider = (z < lowest.ravel().take(index) for lowest in (near, far))
         counts = np.bincount(index[wider], minlength=far.size).reshape(far.shape)
         found = np.zeros(points.count, dtype=bool)
         found[which] = below & (density(counts) < self.most).ravel().take(index)

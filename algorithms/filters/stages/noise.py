@@ -56,7 +56,7 @@ def noise_of_squares(
     rises = _rises(points, cells, surface, slopes)
     sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
     squares = CellBlocks.over(cells, _SQUARE * cells.size)
-    sums = np.array([squares.total(each.reshape(cells.shape)).ravel() for each in sums])
+    sums = np.array([squares.total(values.reshape(cells.shape)).ravel() for values in sums])
     return round(_noise(sums, _SQUARE_PERCENTILE), 2)
 
 
@@ -90,7 +90,7 @@ def _rises(
     noise of the ground, part by part.
     """
     # Rises are multiples of a power of two, so that their sums are exact in any order.
-    height, to_north, to_east = (each.ravel() for each in (surface, *slopes))
+    height, to_north, to_east = (values.ravel() for values in (surface, *slopes))
 
     def near(part: slice) -> tuple[np.ndarray, np.ndarray]:
         cell = cells.index[part]
@@ -107,7 +107,7 @@ def _rises(
             near(slice(start, min(start + _POINTS_A_PART, part.stop)))
             for start in range(part.start, part.stop, _POINTS_A_PART)
         ]
-        cell, rise = (np.concatenate(each) for each in zip(*pieces))
+        cell, rise = (np.concatenate(values) for values in zip(*pieces))
         return cell, rise
 
     return in_threads(joined, parts_of(points.count, _POINTS_A_SUM))
@@ -122,16 +122,16 @@ def _sums(
     sums, lock = np.zeros((powers + 1, level.size)), threading.Lock()
 
     def add(part: tuple[np.ndarray, np.ndarray]) -> None:
-        at, value = part
-        near = np.flatnonzero(np.abs(value - level.take(at)) <= most)
+        cell, value = part
+        near = np.flatnonzero(np.abs(value - level.take(cell)) <= most)
         if not len(near):
             return
-        at, value = at.take(near), value.take(near).astype(np.float64)
-        first = int(at.min())
-        at = (at - first).astype(np.intp)
-        found = [np.bincount(at), np.bincount(at, value)]
+        cell, value = cell.take(near), value.take(near).astype(np.float64)
+        first = int(cell.min())
+        cell = (cell - first).astype(np.intp)
+        found = [np.bincount(cell), np.bincount(cell, value)]
         if powers > 1:
-            found.append(np.bincount(at, value * value))
+            found.append(np.bincount(cell, value * value))
         with lock:
             sums[:, first : first + len(found[0])] += found
 

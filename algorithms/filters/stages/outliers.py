@@ -57,7 +57,7 @@ class Corroborated(Rule):
     least: int = 4
     least_share: float = 0.15
 
-    def spared(
+    def of_ground(
         self,
         grid: HeightGrid,
         pits: np.ndarray,
@@ -122,7 +122,7 @@ class UnderCanopy(Rule):
     # The plane is fitted without the points so many metres round the pit, which may belong to it.
     pit: float = 2.0
 
-    def spared(
+    def of_ground(
         self, pits: np.ndarray, points: Points, cells: Cells, lowest: np.ndarray | None = None
     ) -> np.ndarray:
         """Return the pits that are ground; `lowest` is the lowest point of each cell, if known."""
@@ -165,9 +165,9 @@ class NarrowPits(GridRule):
         depth = depth_of_pits(heights)
         pits = depth > self.slope * heights.size
         if self.corroborated:
-            pits &= ~self.corroborated.spared(heights, pits, depth)
+            pits &= ~self.corroborated.of_ground(heights, pits, depth)
         if self.under_canopy:
-            pits &= ~self.under_canopy.spared(pits, points, cells, lowest)
+            pits &= ~self.under_canopy.of_ground(pits, points, cells, lowest)
         return pits
 
 
@@ -205,7 +205,7 @@ class IsolatedLowPoints(GridRule):
         pits = np.zeros(depth.shape, dtype=bool)
         pits.ravel()[cell] = gap >= self.gap * depth.ravel()[cell]
         if self.corroborated:
-            pits &= ~self.corroborated.spared(heights, pits, depth, even)
+            pits &= ~self.corroborated.of_ground(heights, pits, depth, even)
         grid.remove(pits)
 
 
@@ -254,7 +254,7 @@ class DenseOutliers(PointRule):
             depth = depth_of_pits(grid)
             pits = depth > self.depth
             if self.corroborated:
-                pits &= ~self.corroborated.spared(grid, pits, depth)
+                pits &= ~self.corroborated.of_ground(grid, pits, depth)
             if not pits.any():
                 break
             # The lower half of the pit.

@@ -53,7 +53,7 @@ class Border(NamedTuple):
         pairs = ~(removed[self.first] | removed[self.second])
         known = pairs & (self.first > 0) & (self.second > 0)
         stepped = np.flatnonzero(known & (self.sign != 0))
-        of_steps = Border(self.regions, *(each[stepped] for each in self[1:]))
+        of_steps = Border(self.regions, *(values[stepped] for values in self[1:]))
         down, up = of_steps.sign == -sign, of_steps.sign == sign
         drops = of_steps._total(down, up)
         height = of_steps._total(down, up, np.abs(of_steps.rise)) / np.maximum(drops, 1)
@@ -166,11 +166,11 @@ def raised_regions(
     at least one is raised.
     """
     # If gaps are judged, a cell without a point is no evidence of a gentle border.
-    one, other, sign = steps
+    cell, neighbour, sign = steps
     seen = grid.heights.known.ravel() if judges_gaps else np.ones(raised.size, dtype=bool)
     up = raised.ravel()
-    inside = (sign == 0) & up[one] & up[other]
-    region, count = _numbered(up, one[inside], other[inside])
+    inside = (sign == 0) & up[cell] & up[neighbour]
+    region, count = _numbered(up, cell[inside], neighbour[inside])
     cells = np.flatnonzero(up)
     number, size = region[cells], grid.cells.size
     area = np.bincount(number, minlength=count) * size**2
@@ -205,7 +205,7 @@ def even_cells(filled: np.ndarray) -> np.ndarray:
     return even
 
 
-def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, int]:
+def _numbered(up: np.ndarray, cell: np.ndarray, neighbour: np.ndarray) -> tuple[np.ndarray, int]:
     """Return the region of each cell, -1 where none is raised, and their number, from pairs of
     raised cells without a step.
     """
@@ -215,8 +215,8 @@ def _numbered(up: np.ndarray, one: np.ndarray, other: np.ndarray) -> tuple[np.nd
     cells = np.flatnonzero(up)
     region = np.full(up.size, -1, dtype=np.int64)
     region[cells] = np.arange(len(cells))
-    pairs = region[one], region[other]
-    graph = coo_matrix((np.ones(len(one), dtype=bool), pairs), shape=(len(cells),) * 2)
+    pairs = region[cell], region[neighbour]
+    graph = coo_matrix((np.ones(len(cell), dtype=bool), pairs), shape=(len(cells),) * 2)
     count, region[cells] = connected_components(graph, directed=False)
     return region, count
 
@@ -227,9 +227,9 @@ def _borders(
     """Return, for each of two directions, the pairs of regions with level steps, drops and rises
     between them.
     """
-    one, other, sign = steps
+    cell, neighbour, sign = steps
     borders = []
-    for from_, to, drop in ((one, other, -1), (other, one, 1)):
+    for from_, to, drop in ((cell, neighbour, -1), (neighbour, cell, 1)):
         differ = up[from_] & (region[from_] != region[to])
         kinds = (sign == 0) & seen[from_], sign == drop, sign == -drop
         pairs = []

@@ -88,10 +88,10 @@ class Seeds(PointRule):
             ground, is_open = self._judged(grid)
             kind[grid.lowest] = np.where(ground, _GROUND, np.where(is_open, _OPEN, _OBJECT))
         either = np.flatnonzero(kinds[0] | kinds[1])
-        one, other = kinds[:, either]
-        ground = (one == _GROUND) & ((other == _GROUND) | (other == _HIDDEN))
-        ground |= (other == _GROUND) & (one == _HIDDEN)
-        is_open = ~ground & ((one >= _OPEN) | (other >= _OPEN))
+        first, second = kinds[:, either]
+        ground = (first == _GROUND) & ((second == _GROUND) | (second == _HIDDEN))
+        ground |= (second == _GROUND) & (first == _HIDDEN)
+        is_open = ~ground & ((first >= _OPEN) | (second >= _OPEN))
         return either[ground], either[is_open]
 
 

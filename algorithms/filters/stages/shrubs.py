@@ -81,7 +81,9 @@ class Shrubs(PointRule):
         lowest = seeds.take(blocks.lowest_points(seeds))
         sides = Sides(lowest, _REACH * width, _APART * width)
         rise, east, north, misfit = (found[inside] for found in sides.planes(middles))
-        x, y, z = ((of[doubtful] - at[inside])[:, None] for of, at in zip(seeds, middles))
+        x, y, z = (
+            (seed[doubtful] - middle[inside])[:, None] for seed, middle in zip(seeds, middles)
+        )
         rises = rise + z - east * x - north * y - self.misfit * misfit
         above = np.fmin.reduce(rises, axis=1)
         wrong = np.zeros(seeds.count, dtype=bool)

@@ -39,32 +39,32 @@ class OnSlope(Rule):
     # three steps of half a metre can be the side of a machine.
     narrowest: float = 1.0
 
-    def spared(
-        self, grid: HeightGrid, filled: np.ndarray, one: np.ndarray, axis: int
+    def on_slope(
+        self, grid: HeightGrid, filled: np.ndarray, cells: np.ndarray, axis: int
     ) -> np.ndarray:
-        """Return which steps, from cells `one` of the flattened grid north (axis 0) or east (1),
+        """Return which steps, from `cells` of the flattened grid north (axis 0) or east (1),
         are part of a slope.
         """
         known, size, first = grid.known, grid.size, grid.origin
-        on, beside_gap = self._among_alike(filled, known, one, axis, size, self.alike)
+        on, beside_gap = self._among_alike(filled, known, cells, axis, size, self.alike)
         left = np.flatnonzero(beside_gap & ~on)
         if size >= self.wide or not len(left):
             return on
-        number, within = zip(*(divmod(each, self.block) for each in first))
+        number, within = zip(*(divmod(number, self.block) for number in first))
         blocks = CellBlocks(self.block * size, self.block, within, number)
         lowest = blocks.lowest(np.where(known, filled, np.nan))
         is_known = np.isfinite(lowest)
         lowest = np.where(is_known, lowest, blocks.lowest(filled))
-        cell = np.divmod(one[left], filled.shape[1])
-        row, column = ((each + lead) // self.block for each, lead in zip(cell, within))
+        cell = np.divmod(cells[left], filled.shape[1])
+        row, column = ((number + lead) // self.block for number, lead in zip(cell, within))
         block = row * lowest.shape[1] + column
         at_end = (cell[axis] + within[axis]) % self.block == self.block - 1
         # A step within a block is part of the step to the block or of the step from it.
         before = np.where(
             at_end | ((row, column)[axis] == 0), 0, lowest.shape[1] if axis == 0 else 1
         )
-        for each in (block, block - before):
-            alike = self._among_alike(lowest, is_known, each, axis, blocks.size, self.alike_across)
+        for start in (block, block - before):
+            alike = self._among_alike(lowest, is_known, start, axis, blocks.size, self.alike_across)
             on[left] |= alike[0]
         return on
 
@@ -72,7 +72,7 @@ class OnSlope(Rule):
         self,
         filled: np.ndarray,
         known: np.ndarray,
-        one: np.ndarray,
+        cells: np.ndarray,
         axis: int,
         size: float,
         least: float,
@@ -81,13 +81,13 @@ class OnSlope(Rule):
         cell without a point.
         """
         offset = filled.shape[1] if axis == 0 else 1
-        place, count = np.divmod(one, filled.shape[1])[axis], filled.shape[axis]
+        place, count = np.divmod(cells, filled.shape[1])[axis], filled.shape[axis]
         across = np.stack(
-            [one + offset * (np.clip(place + k, 0, count - 1) - place) for k in range(-2, 4)]
+            [cells + offset * (np.clip(place + k, 0, count - 1) - place) for k in range(-2, 4)]
         )
         empty = ~known.ravel()[across]
         rises = np.diff(filled.ravel()[across], axis=0)  # the third is the step itself
-        on = np.zeros(len(one), dtype=bool)
+        on = np.zeros(len(cells), dtype=bool)
         for first in range(3):
             three, gaps = rises[first : first + 3], empty[first : first + 4]
             one_way = (three > 0).all(axis=0) | (three < 0).all(axis=0)
@@ -173,8 +173,8 @@ class GentleRegions(GridRule):
             # roof.
             raised &= grid.surveyed
         sides = [self._steps(grid, raised, smooth, axis, step) for axis in (0, 1)]
-        one, other, sign = (np.concatenate(parts) for parts in zip(*sides))
-        return raised_regions(grid, raised, (one, other, sign), self.judges_gaps)
+        cell, neighbour, sign = (np.concatenate(parts) for parts in zip(*sides))
+        return raised_regions(grid, raised, (cell, neighbour, sign), self.judges_gaps)
 
     def _steps(
         self, grid: GridState, raised: np.ndarray, smooth: np.ndarray, axis: int, step: float
@@ -189,17 +189,17 @@ class GentleRegions(GridRule):
         np.logical_or(raised[ahead], raised[behind], out=matters[behind])
         if self.judges_gaps:
             matters[behind] &= grid.surveyed[ahead] & grid.surveyed[behind]
-        one = np.flatnonzero(matters)
-        other = one + (filled.shape[1] if axis == 0 else 1)
-        rise = filled.ravel()[other] - filled.ravel()[one]
-        usual = slope_at(smooth, axis, one, size) * size
+        cell = np.flatnonzero(matters)
+        neighbour = cell + (filled.shape[1] if axis == 0 else 1)
+        rise = filled.ravel()[neighbour] - filled.ravel()[cell]
+        usual = slope_at(smooth, axis, cell, size) * size
         allowed = step + np.abs(usual)
         rise -= usual
         sign = (rise > allowed).astype(np.int8) - (rise < -allowed).astype(np.int8)
         if self.on_slope and size >= self.on_slope.narrowest:
             stepped = np.flatnonzero(sign)
-            sign[stepped[self.on_slope.spared(grid.heights, filled, one[stepped], axis)]] = 0
-        return one, other, sign
+            sign[stepped[self.on_slope.on_slope(grid.heights, filled, cell[stepped], axis)]] = 0
+        return cell, neighbour, sign
 
     def _joined(self, regions: RaisedRegions, landforms: np.ndarray) -> np.ndarray:
         """Return which regions pass into the ground, or into others that do."""
