@@ -30,15 +30,11 @@ if TYPE_CHECKING:
     from .filters.tin import TinDensification as TinDensification
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
     from .products.accuracy import Accuracy as Accuracy
-    from .products.assessment import assess_files as assess  # noqa: F401
     from .products.checkpoint_outputs import CheckOutputs as CheckOutputs
     from .products.checkpoints import CheckOptions as CheckOptions
     from .products.checkpoints import CheckRequest as CheckRequest
     from .products.checkpoints import check_files as check  # noqa: F401
     from .products.constraints import Constraints as Constraints
-    from .products.quality import QualityOptions as QualityOptions
-    from .products.quality import QualityRequest as QualityRequest
-    from .products.quality import survey_quality as quality  # noqa: F401
     from .products.raster_files import RasterFiles as RasterFiles
     from .products.raster_grid import RasterTarget as RasterTarget
     from .products.surface_model import SurfaceModel as SurfaceModel
@@ -65,12 +61,16 @@ if TYPE_CHECKING:
     from .survey.vector_files import read_lines as read_lines
     from .tools.above_ground import ClassifyAboveGround as ClassifyAboveGround
     from .tools.above_ground.classes import AboveGround as AboveGround
+    from .tools.assess import assess_files as assess  # noqa: F401
     from .tools.contours import Contours as Contours
     from .tools.contours import write_contours as write_contours
     from .tools.heights import HeightOutput as HeightOutput
     from .tools.heights import MeasureHeights as MeasureHeights
     from .tools.key_points import FindKeyPoints as FindKeyPoints
     from .tools.key_points import KeyPointMark as KeyPointMark
+    from .tools.quality.measuring import QualityOptions as QualityOptions
+    from .tools.quality.measuring import QualityRequest as QualityRequest
+    from .tools.quality.measuring import survey_quality as quality  # noqa: F401
     from .tools.relief import ReliefPictures as ReliefPictures
     from .tools.relief import write_relief as write_relief
     from .tools.water.files import WaterRequest as WaterRequest
@@ -109,9 +109,9 @@ _MODULES = {
     "TileInput": "runs.options",
     "TileOutput": "runs.options",
     "Output": "steps.output",
-    "QualityOptions": "products.quality",
-    "QualityRequest": "products.quality",
-    "quality": "products.quality:survey_quality",
+    "QualityOptions": "tools.quality.measuring",
+    "QualityRequest": "tools.quality.measuring",
+    "quality": "tools.quality.measuring:survey_quality",
     "RasterFiles": "products.raster_files",
     "RasterTarget": "products.raster_grid",
     "ClassifyRequest": "runs.requests",
@@ -126,7 +126,7 @@ _MODULES = {
     "TinDensification": "filters.tin",
     "ModelKeyPoints": "grids.model_key_points",
     "AboveGround": "tools.above_ground.classes",
-    "assess": "products.assessment:assess_files",
+    "assess": "tools.assess:assess_files",
     "Accuracy": "products.accuracy",
     "CheckOptions": "products.checkpoints",
     "CheckOutputs": "products.checkpoint_outputs",

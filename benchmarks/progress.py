@@ -22,12 +22,12 @@ from bare_earth.algorithms import FindKeyPoints, MeasureHeights, heights, key_po
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.products.assessment import AssessmentOptions, assess_files
 from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.runs.terrain_maps import MapFiles, MapRequest, make_maps
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.steps.rasters import RasterFiles
+from bare_earth.algorithms.tools.assess import AssessmentOptions, assess_files
 
 _RASTERS = ("dtm", "dsm", "chm", "hillshade", "confidence")
 

@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 from typing import Sequence
 
-from bare_earth.algorithms.products.assessment import AssessmentOptions, assess_files
+from bare_earth.algorithms.tools.assess import AssessmentOptions, assess_files
 
 from .jobs import JOBS, write_job
 from .picture import draw

@@ -10,7 +10,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import Any, Mapping, NamedTuple
 
-from ..products.specifications import SPECIFICATIONS
+from ..tools.quality.specifications import SPECIFICATIONS
 
 # Name of the raster of the terrain with buildings, which is not among `RASTERS`.
 WITH_BUILDINGS = "terrain_with_buildings"

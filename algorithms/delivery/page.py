@@ -11,8 +11,6 @@ from ..core.parameters import ParameterSet, shown_value
 from ..filters import method_of
 from ..las.class_names import named_class
 from ..products.accuracy import Figures
-from ..products.quality_figures import FAIL
-from ..products.quality_rasters import QUALITY_RASTERS
 from ..products.raster_files import RASTERS
 from ..report.page import (
     Html,
@@ -28,6 +26,8 @@ from ..report.page import (
 )
 from ..report.units import Units
 from ..survey.files import Survey
+from ..tools.quality.figures import FAIL
+from ..tools.quality.rasters import QUALITY_RASTERS
 from .deliveries import WITH_BUILDINGS
 from .pictures import picture_of
 from .request import DeliveryRequest

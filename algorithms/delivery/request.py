@@ -10,9 +10,7 @@ from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..filters import DEFAULT_METHOD, METHODS
 from ..products.accuracy import Accuracy
 from ..products.constraints import NO_CONSTRAINTS, Constraints
-from ..products.quality import QualityOptions
 from ..products.raster_grid import ANYWHERE, RasterTarget
-from ..products.specifications import SPECIFICATIONS
 from ..products.surface_model import SurfaceModel
 from ..products.terrain_model import MapTerrain
 from ..runs.requests import ClassifyRequest, Request
@@ -24,6 +22,8 @@ from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.contours import Contours
+from ..tools.quality.measuring import QualityOptions
+from ..tools.quality.specifications import SPECIFICATIONS
 from ..tools.water.finding import Water
 from ..tools.water_classes import WaterClasses
 from .deliveries import DEFAULT_DELIVERY, DELIVERIES, Delivery

@@ -18,8 +18,6 @@ from ..products.checkpoint_outputs import CheckOutputs
 from ..products.checkpoint_results import Check
 from ..products.checkpoints import CheckOptions, CheckRequest, check_files
 from ..products.constraints import Constraints
-from ..products.quality import QualityRequest, survey_quality
-from ..products.quality_figures import Quality
 from ..products.raster_files import RasterFiles
 from ..products.surface_model import SurfaceModel
 from ..runs.entry import classify, terrain, write
@@ -30,6 +28,8 @@ from ..survey.files import Survey
 from ..survey.overview import overview_of
 from ..tools.contours import Interval, write_contours
 from ..tools.key_points import FindKeyPoints, KeyPointMark
+from ..tools.quality.figures import Quality
+from ..tools.quality.measuring import QualityRequest, survey_quality
 from ..tools.water.files import SurveyWater, WaterRequest, WaterSummary
 from ..tools.water_classes import ClassifyWater, WaterPolygons
 from .deliveries import WITH_BUILDINGS

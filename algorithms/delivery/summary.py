@@ -7,8 +7,8 @@ from typing import Any
 
 from ..products.checkpoint_results import Check
 from ..products.hold_out import AGREEMENT
-from ..products.quality_figures import Quality
 from ..tools.contours import Interval
+from ..tools.quality.figures import Quality
 from ..tools.water.files import WaterSummary
 
 

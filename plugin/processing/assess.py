@@ -7,7 +7,7 @@ from pathlib import Path
 from qgis.core import QgsProcessingParameterFileDestination as File
 from qgis.core import QgsProcessingParameterRasterDestination as Raster
 
-from ...algorithms.products.assessment import AssessmentOptions, assess_files
+from ...algorithms.tools.assess import AssessmentOptions, assess_files
 from ..i18n import tr
 from .base import BareEarthAlgorithm, command_line
 from .inputs import PointCloudInput, add_crs, name_of, source_path

@@ -7,9 +7,9 @@ from pathlib import Path
 from qgis.core import QgsProcessingParameterFileDestination as File
 from qgis.core import QgsProcessingParameterFolderDestination as Folder
 
-from ...algorithms.products.quality import QualityOptions, QualityRequest, survey_quality
-from ...algorithms.products.quality_rasters import raster_paths
 from ...algorithms.survey.ground_classes import GroundClasses
+from ...algorithms.tools.quality.measuring import QualityOptions, QualityRequest, survey_quality
+from ...algorithms.tools.quality.rasters import raster_paths
 from .. import compat
 from ..i18n import mark, tr
 from ..styles import layers

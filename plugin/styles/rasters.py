@@ -23,8 +23,8 @@ from qgis.core import (
 from qgis.PyQt.QtGui import QColor, QPainter
 
 from ...algorithms.crs.system import unit_size
-from ...algorithms.products.quality_figures import LIMITS
 from ...algorithms.steps.explanation import rules_in
+from ...algorithms.tools.quality.figures import LIMITS
 from .. import compat
 from ..i18n import mark, tr
 from . import clouds, ramps

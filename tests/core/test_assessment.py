@@ -14,10 +14,10 @@ import pytest
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.products import report
-from bare_earth.algorithms.products.assessment import assess_files
-from bare_earth.algorithms.products.comparison import AssessmentOptions, Comparison, compare
 from bare_earth.algorithms.report.pictures import png, rgb
+from bare_earth.algorithms.tools import report
+from bare_earth.algorithms.tools.assess import assess_files
+from bare_earth.algorithms.tools.comparison import AssessmentOptions, Comparison, compare
 
 
 def test_the_four_figures_of_a_known_confusion():

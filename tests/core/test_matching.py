@@ -11,8 +11,8 @@ from runs import CancelAt
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las.writing import write_classified
-from bare_earth.algorithms.products import matching
-from bare_earth.algorithms.products.assessment import assess_files
+from bare_earth.algorithms.survey import common_points
+from bare_earth.algorithms.tools.assess import assess_files
 
 COUNT = 5000
 
@@ -133,7 +133,7 @@ def test_the_same_points_in_another_order_are_read_with_messages_once(tmp_path):
 
 
 def test_strips_make_no_difference(tmp_path, expected, monkeypatch):
-    monkeypatch.setattr(matching, "_STRIP", 100)
+    monkeypatch.setattr(common_points, "_STRIP", 100)
     found = write(tmp_path / "found.las", MIXED, FOUND)
     truth = write(tmp_path / "truth.las", slice(None), TRUTH)
     assert figures(assess_files(found, truth)) == expected

@@ -10,10 +10,14 @@ from runs import CancelAt
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las.reading import read_parts
-from bare_earth.algorithms.products import quality_cells, quality_planes, quality_rasters
-from bare_earth.algorithms.products.quality import QualityOptions, QualityRequest, survey_quality
-from bare_earth.algorithms.products.quality_rasters import QUALITY_RASTERS
 from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.tools.quality import cells, planes, rasters
+from bare_earth.algorithms.tools.quality.measuring import (
+    QualityOptions,
+    QualityRequest,
+    survey_quality,
+)
+from bare_earth.algorithms.tools.quality.rasters import QUALITY_RASTERS
 
 pyproj = pytest.importorskip("pyproj")
 EAST, NORTH, SIZE = 500_000.0, 5_600_000.0, 100.0
@@ -286,12 +290,12 @@ def test_planes_of_few_cells_are_those_of_many(monkeypatch):
     random = np.random.default_rng(2)
     number = random.poisson(0.4, (40, 60)).astype(float)
     x, y = random.uniform(-0.5, 0.5, (2, *number.shape)) * (number > 0)
-    sums = quality_planes.Sums(number, x, y, random.normal(90, 1, number.shape) * (number > 0))
+    sums = planes.Sums(number, x, y, random.normal(90, 1, number.shape) * (number > 0))
     wanted = random.uniform(size=number.shape) < 0.3
-    monkeypatch.setattr(quality_planes, "_FEW", 0.0)
-    dense = quality_planes.planes(sums, 1.0, wanted)
-    monkeypatch.setattr(quality_planes, "_FEW", 1.1)
-    for one, many in zip(quality_planes.planes(sums, 1.0, wanted), dense):
+    monkeypatch.setattr(planes, "_FEW", 0.0)
+    dense = planes.planes(sums, 1.0, wanted)
+    monkeypatch.setattr(planes, "_FEW", 1.1)
+    for one, many in zip(planes.planes(sums, 1.0, wanted), dense):
         np.testing.assert_allclose(one, many, atol=1e-9)
 
 
@@ -368,9 +372,9 @@ def test_many_files_equal_one(one_and_many, tmp_path):
 def test_pieces_and_cells_on_disk_change_nothing(one_and_many, tmp_path, monkeypatch):
     one, _ = one_and_many
     measured(one, folder=tmp_path / "whole")
-    monkeypatch.setattr(quality_cells, "_ROWS_TOGETHER", 2_200)
-    monkeypatch.setattr(quality_cells, "_MOST_IN_MEMORY", 100)
-    monkeypatch.setattr(quality_rasters, "_TOGETHER", 1_000)
+    monkeypatch.setattr(cells, "_ROWS_TOGETHER", 2_200)
+    monkeypatch.setattr(cells, "_MOST_IN_MEMORY", 100)
+    monkeypatch.setattr(rasters, "_TOGETHER", 1_000)
     measured(one, folder=tmp_path / "pieces")
     for name in QUALITY_RASTERS:
         a, b = (
@@ -380,7 +384,7 @@ def test_pieces_and_cells_on_disk_change_nothing(one_and_many, tmp_path, monkeyp
 
 
 def test_too_many_cells_are_refused(one_and_many, monkeypatch):
-    monkeypatch.setattr(quality_cells, "MOST_CELLS", 1_000)
+    monkeypatch.setattr(cells, "MOST_CELLS", 1_000)
     with pytest.raises(BareEarthError, match="Choose a larger cell size"):
         measured(one_and_many[0])
 

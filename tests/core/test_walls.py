@@ -31,7 +31,7 @@ FLOORS = {
     "products": "core crs grids las survey rasters filters report",
     "engine": "core crs las survey",
     "steps": "core crs grids las survey rasters filters products engine",
-    "tools": "core crs grids las survey rasters products engine steps",
+    "tools": "core crs grids las survey rasters report products engine steps",
     "runs": "core crs grids las survey rasters filters products engine steps tools",
     "trial": "core crs grids las survey rasters filters report products engine steps tools runs",
     "delivery": "core crs grids las survey rasters filters report products engine steps tools runs",

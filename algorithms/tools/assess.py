@@ -15,8 +15,8 @@ from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import check_raster_output, write_geotiff
 from ..report.page import check_page
 from ..report.units import Units
+from ..survey.common_points import match_files
 from .comparison import GROUND, Assessment, AssessmentOptions, Comparison, compare
-from .matching import match_files
 from .report import write_report
 
 

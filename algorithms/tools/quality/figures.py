@@ -8,12 +8,12 @@ from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.words import counted
-from ..las.class_names import named_class
-from ..survey.files import Survey
-from ..survey.point_counts import by_class
-from .quality_cells import FLAGGED, PULSE, ROUGH, WET, Counts, QualityCells, twice
-from .quality_rasters import QUALITY_RASTERS, differences, overlap, rows_of, strip_differences
+from ...core.words import counted
+from ...las.class_names import named_class
+from ...survey.files import Survey
+from ...survey.point_counts import by_class
+from .cells import FLAGGED, PULSE, ROUGH, WET, Counts, QualityCells, twice
+from .rasters import QUALITY_RASTERS, differences, overlap, rows_of, strip_differences
 from .specifications import Specification
 
 PASS, FAIL, LOOK = "pass", "fail", "look"

@@ -8,21 +8,21 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Iterable
 
-from ..core.errors import BareEarthError
-from ..core.files import Outputs, new_folder
-from ..core.parameters import ParameterSet, parameter
-from ..core.progress import SILENT, Progress
-from ..las.cloud import survey_frame
-from ..las.crs_records import WKT_RECORD
-from ..las.reading import read_parts
-from ..report.page import check_page
-from ..survey.files import Survey, open_survey
-from ..survey.ground_classes import GroundClasses
-from ..survey.repeated_points import RepeatedPoints
-from .quality_cells import QualityCells, Sizes, Store
-from .quality_figures import Extent, Quality, figures_of, lines_of, totals_of
-from .quality_page import quality_html
-from .quality_rasters import check_rasters, write_rasters
+from ...core.errors import BareEarthError
+from ...core.files import Outputs, new_folder
+from ...core.parameters import ParameterSet, parameter
+from ...core.progress import SILENT, Progress
+from ...las.cloud import survey_frame
+from ...las.crs_records import WKT_RECORD
+from ...las.reading import read_parts
+from ...report.page import check_page
+from ...survey.files import Survey, open_survey
+from ...survey.ground_classes import GroundClasses
+from ...survey.repeated_points import RepeatedPoints
+from .cells import QualityCells, Sizes, Store
+from .figures import Extent, Quality, figures_of, lines_of, totals_of
+from .page import quality_html
+from .rasters import check_rasters, write_rasters
 from .specifications import SPECIFICATIONS
 
 # Side of the cells in which first returns are looked for, if no specification says it.

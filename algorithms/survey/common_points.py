@@ -14,7 +14,7 @@ from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.reading import read_cloud
-from ..survey.window import read_window
+from .window import read_window
 
 # Points are compared in strips from west to east with about so many points, to bound memory.
 _STRIP = 1 << 22

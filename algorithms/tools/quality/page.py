@@ -7,13 +7,13 @@ from typing import Iterator
 
 import numpy as np
 
-from ..report.page import Html, element, keys, map_of, maps, page, paragraph, section, table
-from ..report.pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
-from ..report.units import Units
-from ..survey.files import Survey
-from .quality_cells import QualityCells
-from .quality_figures import FAIL, LIMITS, LOOK, PASS, Extent, Quality
-from .quality_rasters import QUALITY_RASTERS, rows_of
+from ...report.page import Html, element, keys, map_of, maps, page, paragraph, section, table
+from ...report.pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
+from ...report.units import Units
+from ...survey.files import Survey
+from .cells import QualityCells
+from .figures import FAIL, LIMITS, LOOK, PASS, Extent, Quality
+from .rasters import QUALITY_RASTERS, rows_of
 from .specifications import Specification
 
 # Longest side of a map in pixels, and most rows of the table of files.

@@ -8,14 +8,14 @@ from typing import Callable, Iterator, NamedTuple
 
 import numpy as np
 
-from ..core.files import Outputs
-from ..core.points import Frame
-from ..core.progress import SILENT, Progress
-from ..grids.cell_window import CellWindow
-from ..rasters.geotiff import NODATA, RasterGrid
-from ..rasters.writing import Rows, check_raster_output, raster_file, write_geotiff
-from .quality_cells import STRIPS, QualityCells, twice
-from .quality_planes import plane_of
+from ...core.files import Outputs
+from ...core.points import Frame
+from ...core.progress import SILENT, Progress
+from ...grids.cell_window import CellWindow
+from ...rasters.geotiff import NODATA, RasterGrid
+from ...rasters.writing import Rows, check_raster_output, raster_file, write_geotiff
+from .cells import STRIPS, QualityCells, twice
+from .planes import plane_of
 
 # Value of bytes without data, and least number of points of a strip in a cell that is compared.
 NO_BYTE, _LEAST_POINTS = 255, 3

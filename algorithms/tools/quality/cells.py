@@ -14,16 +14,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.points import Frame
-from ..core.progress import SILENT, Progress
-from ..grids.cell_window import CellWindow
-from ..las.cloud import PointCloud
-from ..survey.ground_classes import GroundClasses
-from ..survey.kept_classes import overlapping
-from ..survey.repeated_points import RepeatedPoints
-from .quality_planes import WINDOWS, Sums, planes
-from .raster_grid import MOST_CELLS
+from ...core.errors import BareEarthError
+from ...core.points import Frame
+from ...core.progress import SILENT, Progress
+from ...grids.cell_window import CellWindow
+from ...las.cloud import PointCloud
+from ...products.raster_grid import MOST_CELLS
+from ...survey.ground_classes import GroundClasses
+from ...survey.kept_classes import overlapping
+from ...survey.repeated_points import RepeatedPoints
+from .planes import WINDOWS, Sums, planes
 
 NOISE, WATER = (7, 18), 9
 # Bits of cells: a first return that counts as a pulse; water; a first return with the flag of

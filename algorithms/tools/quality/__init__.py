@@ -1,0 +1,1 @@
+"""Quality: measures a classified survey, and compares it with a specification."""
