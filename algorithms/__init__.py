@@ -29,11 +29,6 @@ if TYPE_CHECKING:
     from .filters.slope import SlopeFilter as SlopeFilter
     from .filters.tin import TinDensification as TinDensification
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
-    from .products.accuracy import Accuracy as Accuracy
-    from .products.checkpoint_outputs import CheckOutputs as CheckOutputs
-    from .products.checkpoints import CheckOptions as CheckOptions
-    from .products.checkpoints import CheckRequest as CheckRequest
-    from .products.checkpoints import check_files as check  # noqa: F401
     from .products.constraints import Constraints as Constraints
     from .products.raster_files import RasterFiles as RasterFiles
     from .products.raster_grid import RasterTarget as RasterTarget
@@ -51,8 +46,6 @@ if TYPE_CHECKING:
     from .runs.requests import TerrainRequest as TerrainRequest
     from .steps.output import Output as Output
     from .survey.area import Area as Area
-    from .survey.checkpoint_files import Checkpoints as Checkpoints
-    from .survey.checkpoint_files import read_checkpoints as read_checkpoints
     from .survey.corrections import Corrections as Corrections
     from .survey.ground_classes import GroundClasses as GroundClasses
     from .survey.selection import Selection as Selection
@@ -62,6 +55,13 @@ if TYPE_CHECKING:
     from .tools.above_ground import ClassifyAboveGround as ClassifyAboveGround
     from .tools.above_ground.classes import AboveGround as AboveGround
     from .tools.assess import assess_files as assess  # noqa: F401
+    from .tools.check.accuracy import Accuracy as Accuracy
+    from .tools.check.checking import CheckOptions as CheckOptions
+    from .tools.check.checking import CheckRequest as CheckRequest
+    from .tools.check.checking import check_files as check  # noqa: F401
+    from .tools.check.checkpoints import Checkpoints as Checkpoints
+    from .tools.check.checkpoints import read_checkpoints as read_checkpoints
+    from .tools.check.outputs import CheckOutputs as CheckOutputs
     from .tools.contours import Contours as Contours
     from .tools.contours import write_contours as write_contours
     from .tools.heights import HeightOutput as HeightOutput
@@ -127,11 +127,11 @@ _MODULES = {
     "ModelKeyPoints": "grids.model_key_points",
     "AboveGround": "tools.above_ground.classes",
     "assess": "tools.assess:assess_files",
-    "Accuracy": "products.accuracy",
-    "CheckOptions": "products.checkpoints",
-    "CheckOutputs": "products.checkpoint_outputs",
-    "CheckRequest": "products.checkpoints",
-    "check": "products.checkpoints:check_files",
+    "Accuracy": "tools.check.accuracy",
+    "CheckOptions": "tools.check.checking",
+    "CheckOutputs": "tools.check.outputs",
+    "CheckRequest": "tools.check.checking",
+    "check": "tools.check.checking:check_files",
     "Contours": "tools.contours",
     "write_contours": "tools.contours",
     "ReliefPictures": "tools.relief",
@@ -146,8 +146,8 @@ _MODULES = {
     "find_water": "tools.water.files:write_water",
     "HeightRaster": "rasters.sampling",
     "Area": "survey.area",
-    "Checkpoints": "survey.checkpoint_files",
-    "read_checkpoints": "survey.checkpoint_files",
+    "Checkpoints": "tools.check.checkpoints",
+    "read_checkpoints": "tools.check.checkpoints",
     "Corrections": "survey.corrections",
     "GroundClasses": "survey.ground_classes",
     "Selection": "survey.selection",

@@ -27,11 +27,11 @@ def add_columns(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..products.accuracy import Accuracy
-    from ..products.checkpoints import CheckOptions
-    from ..survey.checkpoint_files import FORMATS
     from ..survey.feature_files import FORMATS as LAYERS
     from ..survey.ground_classes import GroundClasses
+    from ..tools.check.accuracy import Accuracy
+    from ..tools.check.checking import CheckOptions
+    from ..tools.check.checkpoints import FORMATS
 
     add_inputs(parser, "a classified file, or ")
     add_crs(parser)
@@ -69,9 +69,9 @@ def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Non
 
 
 def _check(options: argparse.Namespace) -> int:
-    from ..products.checkpoint_outputs import CheckOutputs
-    from ..products.checkpoints import CheckOptions, CheckRequest, check_files
-    from ..survey.checkpoint_files import read_checkpoints
+    from ..tools.check.checking import CheckOptions, CheckRequest, check_files
+    from ..tools.check.checkpoints import read_checkpoints
+    from ..tools.check.outputs import CheckOutputs
 
     sets = chosen(options)
     if options.checkpoints is None and CheckOptions.among(sets).hold_out is None:

@@ -28,11 +28,11 @@ def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..delivery.deliveries import DELIVERIES
     from ..delivery.request import DeliveryOptions, DeliveryTerrain, DeliveryWater
     from ..engine.memory import Resources
-    from ..products.accuracy import Accuracy
     from ..products.surface_model import SurfaceModel
     from ..runs.options import TileInput, TileOutput
-    from ..survey.checkpoint_files import FORMATS
     from ..survey.selection import Selection
+    from ..tools.check.accuracy import Accuracy
+    from ..tools.check.checkpoints import FORMATS
     from ..tools.contours import Contours
 
     kinds = " ".join(f"{name}: {each.about}" for name, each in DELIVERIES.items())
@@ -73,9 +73,9 @@ def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
 def _deliver(options: argparse.Namespace) -> int:
     from ..delivery.delivering import deliver
     from ..delivery.request import DeliveryRequest
-    from ..survey.checkpoint_files import read_checkpoints
     from ..survey.corrections import NO_CORRECTIONS
     from ..survey.vector_files import read_corrections
+    from ..tools.check.checkpoints import read_checkpoints
 
     corrections = options.corrections and read_corrections(options.corrections)
     points = options.checkpoints and read_checkpoints(

@@ -8,7 +8,6 @@ from typing import Any, TypeVar
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..filters import DEFAULT_METHOD, METHODS
-from ..products.accuracy import Accuracy
 from ..products.constraints import NO_CONSTRAINTS, Constraints
 from ..products.raster_grid import ANYWHERE, RasterTarget
 from ..products.surface_model import SurfaceModel
@@ -16,11 +15,12 @@ from ..products.terrain_model import MapTerrain
 from ..runs.requests import ClassifyRequest, Request
 from ..steps.output import Output
 from ..survey.area import Area
-from ..survey.checkpoint_files import Checkpoints
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from ..tools.above_ground.classes import ThenAboveGround
+from ..tools.check.accuracy import Accuracy
+from ..tools.check.checkpoints import Checkpoints
 from ..tools.contours import Contours
 from ..tools.quality.measuring import QualityOptions
 from ..tools.quality.specifications import SPECIFICATIONS

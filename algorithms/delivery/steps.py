@@ -14,9 +14,6 @@ from ..core.progress import Progress
 from ..core.temporary import patiently, remove
 from ..engine.manifest import folders_of
 from ..engine.workers import Workers
-from ..products.checkpoint_outputs import CheckOutputs
-from ..products.checkpoint_results import Check
-from ..products.checkpoints import CheckOptions, CheckRequest, check_files
 from ..products.constraints import Constraints
 from ..products.raster_files import RasterFiles
 from ..products.surface_model import SurfaceModel
@@ -26,6 +23,9 @@ from ..runs.options import TileInput
 from ..runs.requests import PointRequest, TerrainRequest
 from ..survey.files import Survey
 from ..survey.overview import overview_of
+from ..tools.check.checking import CheckOptions, CheckRequest, check_files
+from ..tools.check.outputs import CheckOutputs
+from ..tools.check.results import Check
 from ..tools.contours import Interval, write_contours
 from ..tools.key_points import FindKeyPoints, KeyPointMark
 from ..tools.quality.figures import Quality

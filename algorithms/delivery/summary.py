@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..products.checkpoint_results import Check
-from ..products.hold_out import AGREEMENT
+from ..tools.check.hold_out import AGREEMENT
+from ..tools.check.results import Check
 from ..tools.contours import Interval
 from ..tools.quality.figures import Quality
 from ..tools.water.files import WaterSummary

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...algorithms.products.accuracy import Accuracy
-from ...algorithms.products.checkpoint_outputs import CheckOutputs
-from ...algorithms.products.checkpoints import CheckOptions, CheckRequest, check_files
 from ...algorithms.survey.ground_classes import GroundClasses
+from ...algorithms.tools.check.accuracy import Accuracy
+from ...algorithms.tools.check.checking import CheckOptions, CheckRequest, check_files
+from ...algorithms.tools.check.outputs import CheckOutputs
 from ..styles import layers
 from . import checkpoints as fields
 from .base import command_line

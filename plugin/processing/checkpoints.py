@@ -21,9 +21,9 @@ from qgis.core import (
     QgsProcessingParameterVectorDestination,
 )
 
-from ...algorithms.survey.checkpoint_files import Checkpoints, read_checkpoints
-from ...algorithms.survey.point_tables import SUFFIXES
-from ...algorithms.survey.surveyed_points import Record, SurveyedPoints
+from ...algorithms.tools.check.checkpoints import Checkpoints, read_checkpoints
+from ...algorithms.tools.check.surveyed_points import Record, SurveyedPoints
+from ...algorithms.tools.check.tables import SUFFIXES
 from .. import compat
 from ..i18n import mark, tr
 from .feedback import FeedbackProgress, Refusal

@@ -21,8 +21,8 @@ from ...algorithms.delivery.request import (
     DeliveryTerrain,
     DeliveryWater,
 )
-from ...algorithms.products.accuracy import Accuracy
 from ...algorithms.runs.options import TileOutput
+from ...algorithms.tools.check.accuracy import Accuracy
 from .. import compat
 from ..i18n import mark
 from ..styles import layers

@@ -18,7 +18,7 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QColor
 
-from ...algorithms.products.checkpoint_results import COLOURS, NOT_COUNTED, limits_of
+from ...algorithms.tools.check.results import COLOURS, NOT_COUNTED, limits_of
 from ...algorithms.tools.contours import INDEX, Interval
 from .. import compat
 from ..i18n import tr

@@ -14,12 +14,12 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.products import survey_ground
-from bare_earth.algorithms.products.accuracy import Accuracy, Figures, statement
-from bare_earth.algorithms.products.checkpoint_outputs import CheckOutputs
-from bare_earth.algorithms.products.checkpoints import CheckOptions, CheckRequest, check_files
-from bare_earth.algorithms.products.land_covers import LandCovers
-from bare_earth.algorithms.survey.checkpoint_files import Checkpoints, read_checkpoints
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
+from bare_earth.algorithms.tools.check.accuracy import Accuracy, Figures, statement
+from bare_earth.algorithms.tools.check.checking import CheckOptions, CheckRequest, check_files
+from bare_earth.algorithms.tools.check.checkpoints import Checkpoints, read_checkpoints
+from bare_earth.algorithms.tools.check.land_covers import LandCovers
+from bare_earth.algorithms.tools.check.outputs import CheckOutputs
 
 pyproj = pytest.importorskip("pyproj")
 EAST, NORTH, SIZE = 500_000.0, 5_600_000.0, 100.0
@@ -216,7 +216,7 @@ def test_held_out_points_of_single_returns_and_of_a_terrain_with_gaps_say_so(tmp
 
 
 def test_more_held_out_points_than_are_measured(survey, monkeypatch):
-    from bare_earth.algorithms.products import hold_out
+    from bare_earth.algorithms.tools.check import hold_out
 
     monkeypatch.setattr(hold_out, "MOST", 50)
     found = check([survey], None, CheckOptions(hold_out=0.3)).hold_out

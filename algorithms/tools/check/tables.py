@@ -8,8 +8,8 @@ import re
 from pathlib import Path
 from typing import Any, NamedTuple, Sequence
 
-from ..core.errors import BareEarthError
-from ..las.sources import open_source
+from ...core.errors import BareEarthError
+from ...las.sources import open_source
 from .column_names import ColumnName, columns_of
 
 # Endings of tables; other files are vector files.

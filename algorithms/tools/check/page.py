@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..report.drawings import STYLE, Mark, histogram, map_of_places
-from ..report.page import Html, element, keys, page, paragraph, section, table
-from ..survey.files import Survey
+from ...report.drawings import STYLE, Mark, histogram, map_of_places
+from ...report.page import Html, element, keys, page, paragraph, section, table
+from ...survey.files import Survey
 from .accuracy import Figures
-from .checkpoint_results import COLOURS, COUNTED, NOT_COUNTED, REASONS, Check, Residuals, limits_of
+from .results import COLOURS, COUNTED, NOT_COUNTED, REASONS, Check, Residuals, limits_of
 
 _BARS = 15
 _MOST_ROWS = 1000

@@ -9,15 +9,15 @@ from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
-from ..core.errors import BareEarthError, printable
-from ..core.files import Outputs, check_distinct, check_output
-from ..core.progress import SILENT, Progress
-from ..report.page import check_page
-from ..survey.checkpoint_files import Checkpoints
-from ..survey.feature_files import Feature, Layer, check_features, feature_writer, files_beside
-from ..survey.files import Survey
-from .checkpoint_page import checkpoint_html
-from .checkpoint_results import Check, Residuals
+from ...core.errors import BareEarthError, printable
+from ...core.files import Outputs, check_distinct, check_output
+from ...core.progress import SILENT, Progress
+from ...report.page import check_page
+from ...survey.feature_files import Feature, Layer, check_features, feature_writer, files_beside
+from ...survey.files import Survey
+from .checkpoints import Checkpoints
+from .page import checkpoint_html
+from .results import Check, Residuals
 
 # Fields of the layer. Heights are in the unit of the points, errors in metres.
 FIELDS: dict[str, type] = {

@@ -12,21 +12,21 @@ from typing import Any, Iterable
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.parameters import ParameterSet, parameter
-from ..core.progress import SILENT, Progress
-from ..rasters.sampling import FAR_BELOW, HeightRaster, HeightSampler
-from ..report.units import round_length
-from ..survey.checkpoint_files import Checkpoints
-from ..survey.files import Survey
-from ..survey.ground_classes import GroundClasses
+from ...core.errors import BareEarthError
+from ...core.parameters import ParameterSet, parameter
+from ...core.progress import SILENT, Progress
+from ...products.survey_ground import SurveyGround
+from ...rasters.sampling import FAR_BELOW, HeightRaster, HeightSampler
+from ...report.units import round_length
+from ...survey.files import Survey
+from ...survey.ground_classes import GroundClasses
 from .accuracy import Accuracy, Figures, statement
-from .checkpoint_outputs import CheckOutputs
-from .checkpoint_results import COUNTED, NOT_STATED, REASONS, Check, Residuals, listed
+from .checkpoints import Checkpoints
 from .height_offsets import offset_in_words
 from .hold_out import HoldOut, hold_out
 from .land_covers import CONTROL, VVA, LandCovers, kinds_of
-from .survey_ground import SurveyGround
+from .outputs import CheckOutputs
+from .results import COUNTED, NOT_STATED, REASONS, Check, Residuals, listed
 
 # How many of the largest errors are named.
 _LARGEST = 5

@@ -11,9 +11,9 @@ import re
 from collections import Counter
 from typing import NamedTuple, Sequence
 
-from ..core.progress import Progress
-from ..survey.checkpoint_files import Checkpoints
-from ..survey.column_names import parts_of, words_of
+from ...core.progress import Progress
+from .checkpoints import Checkpoints
+from .column_names import parts_of, words_of
 
 NVA, VVA, CONTROL, UNKNOWN = "NVA", "VVA", "control", ""
 

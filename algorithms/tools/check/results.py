@@ -7,8 +7,8 @@ from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 
-from ..survey.checkpoint_files import Checkpoints
 from .accuracy import NEEDED, Figures
+from .checkpoints import Checkpoints
 from .hold_out import AGREEMENT, HoldOut
 from .land_covers import CONTROL, NVA, VVA
 

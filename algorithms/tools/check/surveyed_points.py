@@ -8,9 +8,9 @@ from typing import Any, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
-from ..core.errors import BareEarthError
+from ...core.errors import BareEarthError
 from .column_names import ColumnName, columns_of, parts_of
-from .point_tables import number_of
+from .tables import number_of
 
 # Heights that stand for none.
 _NODATA = (-9999.0, -999.0, -32768.0, -32767.0)

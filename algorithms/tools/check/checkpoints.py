@@ -8,16 +8,16 @@ from typing import Mapping, Sequence
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.points import Box
-from ..core.progress import SILENT, Progress
-from ..crs.stated import stated_wkt
-from ..crs.unit_names import FOOT, US_FOOT
+from ...core.errors import BareEarthError
+from ...core.points import Box
+from ...core.progress import SILENT, Progress
+from ...crs.stated import stated_wkt
+from ...crs.unit_names import FOOT, US_FOOT
+from ...survey.shapes import Geometry, Place, Shapes, located
+from ...survey.vector_files import read_points
 from .column_names import columns_in
-from .point_tables import SUFFIXES, places_without_names, read_table
-from .shapes import Geometry, Place, Shapes, located
 from .surveyed_points import OtherHeights, Record, SurveyedPoints
-from .vector_files import read_points
+from .tables import SUFFIXES, places_without_names, read_table
 
 # For the help of options.
 FORMATS = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..crs.unit_names import FOOT
+from ...crs.unit_names import FOOT
 
 # An offset that is told is larger than this, in metres, and than so many times its spread.
 _LEAST = 1.0

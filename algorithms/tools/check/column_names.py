@@ -7,8 +7,8 @@ import unicodedata
 from pathlib import Path
 from typing import Mapping, NamedTuple, Sequence
 
-from ..core.errors import BareEarthError
-from ..crs.unit_names import FOOT, UNITS, US_FOOT
+from ...core.errors import BareEarthError
+from ...crs.unit_names import FOOT, UNITS, US_FOOT
 
 _LETTERS = str.maketrans({"ø": "o", "Ø": "O", "ł": "l", "Ł": "L", "ß": "ss", "æ": "a"})
 _PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")

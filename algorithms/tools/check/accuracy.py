@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.parameters import ParameterSet, parameter
+from ...core.parameters import ParameterSet, parameter
 
 # Fewest checkpoints for a test by the standard.
 NEEDED = 30
