@@ -29,11 +29,7 @@ if TYPE_CHECKING:
     from .filters.slope import SlopeFilter as SlopeFilter
     from .filters.tin import TinDensification as TinDensification
     from .grids.model_key_points import ModelKeyPoints as ModelKeyPoints
-    from .products.constraints import Constraints as Constraints
-    from .products.raster_files import RasterFiles as RasterFiles
-    from .products.raster_grid import RasterTarget as RasterTarget
-    from .products.surface_model import SurfaceModel as SurfaceModel
-    from .products.terrain_model import TerrainModel as TerrainModel
+    from .rasters.cell_grid import RasterTarget as RasterTarget
     from .rasters.sampling import HeightRaster as HeightRaster
     from .runs.entry import PointFunction
     from .runs.entry import classify as classify
@@ -71,6 +67,10 @@ if TYPE_CHECKING:
     from .tools.quality.measuring import QualityOptions as QualityOptions
     from .tools.quality.measuring import QualityRequest as QualityRequest
     from .tools.quality.measuring import survey_quality as quality  # noqa: F401
+    from .tools.rasters.constraints import Constraints as Constraints
+    from .tools.rasters.rows import RasterFiles as RasterFiles
+    from .tools.rasters.surface_model import SurfaceModel as SurfaceModel
+    from .tools.rasters.terrain_model import TerrainModel as TerrainModel
     from .tools.relief import ReliefPictures as ReliefPictures
     from .tools.relief import write_relief as write_relief
     from .tools.water.files import WaterRequest as WaterRequest
@@ -93,7 +93,7 @@ _MODULES = {
     "Cancelled": "core.errors",
     "Progress": "core.progress",
     "__version__": "core.version",
-    "Constraints": "products.constraints",
+    "Constraints": "tools.rasters.constraints",
     "deliver": "delivery.delivering",
     "DeliveryOptions": "delivery.request",
     "DeliveryRequest": "delivery.request",
@@ -112,8 +112,8 @@ _MODULES = {
     "QualityOptions": "tools.quality.measuring",
     "QualityRequest": "tools.quality.measuring",
     "quality": "tools.quality.measuring:survey_quality",
-    "RasterFiles": "products.raster_files",
-    "RasterTarget": "products.raster_grid",
+    "RasterFiles": "tools.rasters.rows",
+    "RasterTarget": "rasters.cell_grid",
     "ClassifyRequest": "runs.requests",
     "PointRequest": "runs.requests",
     "TerrainRequest": "runs.requests",
@@ -136,8 +136,8 @@ _MODULES = {
     "write_contours": "tools.contours",
     "ReliefPictures": "tools.relief",
     "write_relief": "tools.relief",
-    "SurfaceModel": "products.surface_model",
-    "TerrainModel": "products.terrain_model",
+    "SurfaceModel": "tools.rasters.surface_model",
+    "TerrainModel": "tools.rasters.terrain_model",
     "Water": "tools.water.finding",
     "ClassifyWater": "tools.water_classes",
     "WaterClasses": "tools.water_classes",

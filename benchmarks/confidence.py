@@ -18,11 +18,7 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.cells import Cells
-from bare_earth.algorithms.grids.dense_surface import DenseSurface
-from bare_earth.algorithms.grids.gradient import steepness
-from bare_earth.algorithms.grids.surface import Surface
-from bare_earth.algorithms.las.cloud import PointCloud
-from bare_earth.algorithms.products.confidence import (
+from bare_earth.algorithms.grids.confidence import (
     CELL,
     RISE_SHARE,
     TOLERANCE,
@@ -30,6 +26,10 @@ from bare_earth.algorithms.products.confidence import (
     evidence,
     probability,
 )
+from bare_earth.algorithms.grids.dense_surface import DenseSurface
+from bare_earth.algorithms.grids.gradient import steepness
+from bare_earth.algorithms.grids.surface import Surface
+from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
 

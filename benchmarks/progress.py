@@ -26,8 +26,8 @@ from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.runs.terrain_maps import MapFiles, MapRequest, make_maps
 from bare_earth.algorithms.steps.output import Output
-from bare_earth.algorithms.steps.rasters import RasterFiles
 from bare_earth.algorithms.tools.assess import AssessmentOptions, assess_files
+from bare_earth.algorithms.tools.rasters.step import RasterFiles
 
 _RASTERS = ("dtm", "dsm", "chm", "hillshade", "confidence")
 

@@ -31,13 +31,13 @@ if TYPE_CHECKING:
 
 def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..products.surface_model import SurfaceModel
-    from ..products.terrain_model import TerrainModel
     from ..runs.options import RasterOutput, TileInput, TileOutput
     from ..steps.output import Output
     from ..survey.selection import Selection
     from ..tools.above_ground.classes import ThenAboveGround
     from ..tools.contours import Contours
+    from ..tools.rasters.surface_model import SurfaceModel
+    from ..tools.rasters.terrain_model import TerrainModel
 
     add_inputs(parser)
     add_crs(parser, KEPT)

@@ -28,12 +28,12 @@ def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..delivery.deliveries import DELIVERIES
     from ..delivery.request import DeliveryOptions, DeliveryTerrain, DeliveryWater
     from ..engine.memory import Resources
-    from ..products.surface_model import SurfaceModel
     from ..runs.options import TileInput, TileOutput
     from ..survey.selection import Selection
     from ..tools.check.accuracy import Accuracy
     from ..tools.check.checkpoints import FORMATS
     from ..tools.contours import Contours
+    from ..tools.rasters.surface_model import SurfaceModel
 
     kinds = " ".join(f"{name}: {each.about}" for name, each in DELIVERIES.items())
     parser.add_argument("delivery", choices=list(DELIVERIES), help=f"what to deliver. {kinds}")

@@ -95,11 +95,11 @@ def _relief(options: argparse.Namespace) -> int:
 
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..products.surface_model import SurfaceModel
-    from ..products.terrain_model import TerrainModel
     from ..runs.options import RasterOutput, TileInput
     from ..survey.ground_classes import GroundClasses
     from ..tools.contours import Contours
+    from ..tools.rasters.surface_model import SurfaceModel
+    from ..tools.rasters.terrain_model import TerrainModel
 
     add_inputs(parser)
     add_crs(parser)

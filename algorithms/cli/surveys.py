@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from ..core.parameters import ParameterSet
     from ..engine.memory import Resources
     from ..engine.workers import Workers
-    from ..products.constraints import Constraints
-    from ..products.raster_files import RasterFiles
-    from ..products.raster_grid import RasterTarget
+    from ..rasters.cell_grid import RasterTarget
     from ..runs.many_files import SurveySummary
     from ..survey.area import Area
+    from ..tools.rasters.constraints import Constraints
+    from ..tools.rasters.rows import RasterFiles
 
 
 _CONSTRAINTS = {
@@ -38,7 +38,7 @@ AUTOMATIC = "automatic"
 
 def add_rasters(parser: argparse.ArgumentParser) -> None:
     """Add the options for rasters."""
-    from ..products.raster_files import RASTERS
+    from ..tools.rasters.rows import RASTERS
 
     for name, each in RASTERS.items():
         parser.add_argument(
@@ -49,7 +49,7 @@ def add_rasters(parser: argparse.ArgumentParser) -> None:
 
 def rasters_of(options: argparse.Namespace) -> RasterFiles:
     """Return the rasters of the options."""
-    from ..products.raster_files import RASTERS, RasterFiles
+    from ..tools.rasters.rows import RASTERS, RasterFiles
 
     return RasterFiles(**{name: getattr(options, name) for name in RASTERS})
 
@@ -73,10 +73,10 @@ def contours_after(
     if they are wanted; without `--dtm`, their terrain model is a temporary file.
     """
     from ..core.files import temporary_folder
-    from ..products.raster_files import virtual_of
     from ..runs.options import RasterOutput
     from ..survey.feature_files import check_features
     from ..tools.contours import Contours, write_contours
+    from ..tools.rasters.rows import virtual_of
 
     rasters, how = rasters_of(options), Contours.among(sets)
     rest = [each for each in sets if each is not how]
@@ -109,7 +109,7 @@ def add_raster_target(parser: argparse.ArgumentParser) -> None:
 
 def raster_target_of(options: argparse.Namespace) -> RasterTarget:
     """Return the grid and the extent of the rasters."""
-    from ..products.raster_grid import RasterTarget
+    from ..rasters.cell_grid import RasterTarget
 
     extent = options.raster_extent
     try:
@@ -179,8 +179,8 @@ def constraints_of(options: argparse.Namespace, finds_water: bool = False) -> Co
     """Return the lines and polygons of the options; `UsageError` if water is to be found by a
     command that cannot (`finds_water`).
     """
-    from ..products.constraints import Constraints
     from ..survey.vector_files import read_boundary, read_lines
+    from ..tools.rasters.constraints import Constraints
 
     if water_is_automatic(options) and not finds_water:
         raise UsageError(

@@ -10,7 +10,6 @@ from urllib.parse import quote
 from ..core.parameters import ParameterSet, shown_value
 from ..filters import method_of
 from ..las.class_names import named_class
-from ..products.raster_files import RASTERS
 from ..report.page import (
     Html,
     element,
@@ -28,6 +27,7 @@ from ..survey.files import Survey
 from ..tools.check.accuracy import Figures
 from ..tools.quality.figures import FAIL
 from ..tools.quality.rasters import QUALITY_RASTERS
+from ..tools.rasters.rows import RASTERS
 from .deliveries import WITH_BUILDINGS
 from .pictures import picture_of
 from .request import DeliveryRequest

@@ -8,10 +8,7 @@ from typing import Any, TypeVar
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..filters import DEFAULT_METHOD, METHODS
-from ..products.constraints import NO_CONSTRAINTS, Constraints
-from ..products.raster_grid import ANYWHERE, RasterTarget
-from ..products.surface_model import SurfaceModel
-from ..products.terrain_model import MapTerrain
+from ..rasters.cell_grid import ANYWHERE, RasterTarget
 from ..runs.requests import ClassifyRequest, Request
 from ..steps.output import Output
 from ..survey.area import Area
@@ -24,6 +21,9 @@ from ..tools.check.checkpoints import Checkpoints
 from ..tools.contours import Contours
 from ..tools.quality.measuring import QualityOptions
 from ..tools.quality.specifications import SPECIFICATIONS
+from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
+from ..tools.rasters.surface_model import SurfaceModel
+from ..tools.rasters.terrain_model import MapTerrain
 from ..tools.water.finding import Water
 from ..tools.water_classes import WaterClasses
 from .deliveries import DEFAULT_DELIVERY, DELIVERIES, Delivery

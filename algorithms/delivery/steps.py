@@ -14,9 +14,6 @@ from ..core.progress import Progress
 from ..core.temporary import patiently, remove
 from ..engine.manifest import folders_of
 from ..engine.workers import Workers
-from ..products.constraints import Constraints
-from ..products.raster_files import RasterFiles
-from ..products.surface_model import SurfaceModel
 from ..runs.entry import classify, terrain, write
 from ..runs.one_file import Summary
 from ..runs.options import TileInput
@@ -30,6 +27,9 @@ from ..tools.contours import Interval, write_contours
 from ..tools.key_points import FindKeyPoints, KeyPointMark
 from ..tools.quality.figures import Quality
 from ..tools.quality.measuring import QualityRequest, survey_quality
+from ..tools.rasters.constraints import Constraints
+from ..tools.rasters.rows import RasterFiles
+from ..tools.rasters.surface_model import SurfaceModel
 from ..tools.water.files import SurveyWater, WaterRequest, WaterSummary
 from ..tools.water_classes import ClassifyWater, WaterPolygons
 from .deliveries import WITH_BUILDINGS

@@ -9,11 +9,11 @@ from typing import Iterable
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..grids.dense_surface import VERTICES_A_SIDE
-from ..products.fixed_terrain import parts_of
 from ..runs.requests import TerrainRequest
 from ..survey.feature_files import Feature, feature_writer
 from ..survey.files import open_survey
 from ..survey.shapes import Place
+from ..tools.rasters.fixed_terrain import parts_of
 from ..tools.water.files import SurveyWater, write_features
 from ..tools.water.given import GivenWater
 from .request import DeliveryRequest

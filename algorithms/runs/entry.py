@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, Iterable, Protocol, Union
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
-from ..steps.raster_output import RasterSize
 from ..survey.files import is_one_file
 from ..tools import POINT_TOOLS, point_tool
+from ..tools.rasters.output import RasterSize
 from .one_file import classify_file, rasters_of_file, write_points
 from .requests import ClassifyRequest, PointRequest, TerrainRequest
 

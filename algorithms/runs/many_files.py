@@ -28,12 +28,12 @@ from ..engine.step import PointStep, located
 from ..engine.unpacking import Unpacking
 from ..engine.workers import Threads, Workers
 from ..las.unpacked import has_room
-from ..steps.raster_output import RasterSize
-from ..steps.rasters import MakeRasters
 from ..survey.files import Survey, open_survey
 from ..survey.shapes import Place
 from ..survey.vpc import write_vpc
-from .raster_jobs import make_rasters
+from ..tools.rasters.jobs import make_rasters
+from ..tools.rasters.output import RasterSize
+from ..tools.rasters.step import MakeRasters
 from .requests import ClassifyRequest, RunOptions, TerrainRequest
 from .survey_checks import check_rasters, check_stems, check_survey, targets_of
 

@@ -30,11 +30,11 @@ from ..las.opening import open_las
 from ..las.writing import check_cloud
 from ..rasters.writing import check_raster_output, raster_file
 from ..steps.labelling import LabelGround
-from ..steps.raster_output import RasterSize, write_rasters
-from ..steps.rasters import MakeRasters
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
+from ..tools.rasters.output import RasterSize, write_rasters
+from ..tools.rasters.step import MakeRasters
 from .requests import ClassifyRequest, PointRequest, RunOptions, TerrainRequest
 
 # Shares of the progress bar: of reading, of each step, and of writing.

@@ -12,16 +12,10 @@ from ..crs.stated import stated_wkt
 from ..engine.memory import Resources
 from ..engine.step import PointStep
 from ..filters import DEFAULT_METHOD, METHODS
-from ..products.constraints import NO_CONSTRAINTS, Constraints
-from ..products.raster_block import LAYERS
-from ..products.raster_files import RasterFiles
-from ..products.raster_grid import ANYWHERE, RasterTarget
-from ..products.surface_model import Gaps, SurfaceModel
-from ..products.terrain_model import TerrainModel
+from ..rasters.cell_grid import ANYWHERE, RasterTarget
 from ..steps.explanation import Explanation
 from ..steps.labelling import LabelGround
 from ..steps.output import Output
-from ..steps.rasters import MakeRasters
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
@@ -30,6 +24,12 @@ from ..tools.above_ground import ClassifyAboveGround
 from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.declaration import PointTool
 from ..tools.heights import MeasureHeights
+from ..tools.rasters.block import LAYERS
+from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
+from ..tools.rasters.rows import RasterFiles
+from ..tools.rasters.step import MakeRasters
+from ..tools.rasters.surface_model import Gaps, SurfaceModel
+from ..tools.rasters.terrain_model import TerrainModel
 from .options import RasterOutput, TileInput, TileMethod, TileOutput
 
 _Request = TypeVar("_Request", bound="Request")

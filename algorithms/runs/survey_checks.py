@@ -11,10 +11,10 @@ from ..core.files import check_free, check_lengths, check_output, split_name
 from ..crs.measurable import require_measurable
 from ..engine.manifest import names_beside
 from ..las.writing import check_writable
-from ..products.raster_files import RasterFiles
-from ..steps.rasters import MakeRasters
 from ..survey.files import Survey
 from ..survey.vpc import check_vpc
+from ..tools.rasters.rows import RasterFiles
+from ..tools.rasters.step import MakeRasters
 
 
 def check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Path]) -> None:

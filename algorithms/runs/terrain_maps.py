@@ -10,13 +10,13 @@ from typing import NamedTuple, Sequence
 from ..core.files import Outputs, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..las.writing import check_cloud
-from ..products.raster_files import RasterFiles
-from ..products.terrain_model import MapTerrain
 from ..rasters.writing import raster_file
 from ..steps.output import Output
 from ..survey.feature_files import check_features, files_beside
 from ..survey.files import is_one_file
 from ..tools.contours import Contours, Interval, write_contours
+from ..tools.rasters.rows import RasterFiles
+from ..tools.rasters.terrain_model import MapTerrain
 from .entry import classify
 from .one_file import Summary
 from .options import TileOutput

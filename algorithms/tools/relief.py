@@ -13,10 +13,10 @@ from ..core.files import Outputs, new_folder
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.progress import SILENT, Progress
 from ..core.threads import available_cpus, may_use
-from ..products.relief_rasters import RELIEF, ReliefRaster
-from ..products.terrain_model import MapTerrain, TerrainModel
 from ..rasters.geotiff import NO_CELLS, NODATA, Raster, read_raster
 from ..rasters.writing import Rows, check_raster_output, raster_file, write_geotiff
+from .rasters.relief_rasters import RELIEF, ReliefRaster
+from .rasters.terrain_model import MapTerrain, TerrainModel
 
 # Cells that are worked on at a time.
 _CELLS = 4_000_000

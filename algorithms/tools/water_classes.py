@@ -105,7 +105,7 @@ def found_water(
     sources: Sequence[Path], ground: GroundClasses, crs: str | None, progress: Progress
 ) -> WaterPolygons:
     """Return the water that is found in classified files, with the default values."""
-    from ..tools.water.files import SurveyWater, WaterRequest
+    from .water.files import SurveyWater, WaterRequest
 
     found = SurveyWater.of(sources, WaterRequest(ground=ground, crs=crs), progress)
     progress.info(f"Water: {found.summary.text}.")

@@ -9,8 +9,8 @@ import numpy as np
 
 from ..core.points import Points
 from ..grids.cells import are_inside
+from ..grids.confidence import confidence
 from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
-from ..products.confidence import confidence
 from ..report.units import Units
 
 # Greatest number of cells along the longer side of the terrain, and the sides in metres that cells

@@ -13,7 +13,7 @@ from qgis.core import (
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
-from ...algorithms.products.raster_grid import ANYWHERE, RasterTarget
+from ...algorithms.rasters.cell_grid import ANYWHERE, RasterTarget
 from ...algorithms.steps.output import Output
 from ...algorithms.survey.area import Area, Polygon
 from .. import compat

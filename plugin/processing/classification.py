@@ -10,11 +10,11 @@ from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
 from ...algorithms.filters import METHODS
-from ...algorithms.products.surface_model import Gaps
-from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.steps.output import Output
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.above_ground.classes import ThenAboveGround
+from ...algorithms.tools.rasters.surface_model import Gaps
+from ...algorithms.tools.rasters.terrain_model import TerrainModel
 from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified

@@ -71,7 +71,7 @@ def show_class_raster(
     if not (context.layersToLoadOnCompletion() or progress.is_of_dialog):
         return
     # Imported here, since it needs packages that QGIS may lack when it starts.
-    from ...algorithms.products.class_raster import write_class_raster
+    from ...algorithms.tools.rasters.class_raster import write_class_raster
 
     path, (cell_size, in_units) = _place_of_raster(cloud), cells
     try:

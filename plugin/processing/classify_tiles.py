@@ -1,12 +1,12 @@
 """Ground classification of many files as one survey, in the toolbox."""
 
 from ...algorithms.engine import memory
-from ...algorithms.products.surface_model import Gaps
-from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.runs import options
 from ...algorithms.steps import output
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.above_ground.classes import ThenAboveGround
+from ...algorithms.tools.rasters.surface_model import Gaps
+from ...algorithms.tools.rasters.terrain_model import TerrainModel
 from ..i18n import mark
 from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line

@@ -7,12 +7,12 @@ from typing import Any, Iterator, Mapping, Sequence
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
-from ...algorithms.products.surface_model import SurfaceModel
-from ...algorithms.products.terrain_model import MapTerrain, TerrainModel
 from ...algorithms.runs.options import TileMethod
 from ...algorithms.survey.kept_classes import GROUND
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.contours import Contours
+from ...algorithms.tools.rasters.surface_model import SurfaceModel
+from ...algorithms.tools.rasters.terrain_model import MapTerrain, TerrainModel
 from .area import NOTHING_GIVEN
 from .base import command_line
 

@@ -11,7 +11,7 @@ from qgis.core import (
 )
 
 from ...algorithms.core.progress import Progress
-from ...algorithms.products.constraints import Constraints
+from ...algorithms.tools.rasters.constraints import Constraints
 from .. import compat
 from .inputs import CloudCrs, layer_shapes
 

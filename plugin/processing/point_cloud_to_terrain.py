@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from ...algorithms.delivery.request import DeliveryChoice, DeliveryTerrain
 from ...algorithms.engine.memory import Resources
-from ...algorithms.products.surface_model import SurfaceModel
 from ...algorithms.runs.options import TileMethod
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.contours import Contours
+from ...algorithms.tools.rasters.surface_model import SurfaceModel
 from . import delivery, outputs
 from .area import MAPPED, add_area, add_limits, limits_of
 from .base import BareEarthAlgorithm

@@ -11,7 +11,7 @@ from qgis.core import (
     QgsProcessingParameterRasterLayer,
 )
 
-from ...algorithms.products.raster_grid import RasterTarget
+from ...algorithms.rasters.cell_grid import RasterTarget
 from .. import compat
 from ..i18n import mark
 from .inputs import CloudCrs, box_of, raster_of

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ...algorithms.engine.memory import Resources
-from ...algorithms.products.surface_model import SurfaceModel
-from ...algorithms.products.terrain_model import TerrainModel
 from ...algorithms.runs.options import RasterOutput
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
+from ...algorithms.tools.rasters.surface_model import SurfaceModel
+from ...algorithms.tools.rasters.terrain_model import TerrainModel
 from ..i18n import mark
 from .area import OF_RASTERS, add_area, area_of, area_options, given_options
 from .base import command_line

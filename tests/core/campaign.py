@@ -43,11 +43,11 @@ from bare_earth.algorithms.las.reading import inspect, read_cloud
 from bare_earth.algorithms.las.writing import write_changed, write_classified
 from bare_earth.algorithms.runs.entry import terrain
 from bare_earth.algorithms.runs.requests import TerrainRequest
-from bare_earth.algorithms.steps.rasters import RasterFiles
 from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from bare_earth.algorithms.survey.window import read_window
+from bare_earth.algorithms.tools.rasters.step import RasterFiles
 
 # Of how many sound ones a whole run is made: that takes longest.
 RUNS = 0.1

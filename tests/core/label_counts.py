@@ -13,7 +13,7 @@ import numpy as np
 
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.bridge_decks import bridge_decks
-from bare_earth.algorithms.products.confidence import confidence
+from bare_earth.algorithms.grids.confidence import confidence
 from benchmarks.scenes import make
 
 AGREED = Path(__file__).with_name("label_counts.json")

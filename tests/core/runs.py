@@ -26,16 +26,16 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_store import MemoryStore
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
-from bare_earth.algorithms.products.surface_model import SurfaceModel
-from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.runs import many_files
 from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.options import RasterOutput, TileInput, TileOutput
 from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.steps.output import Output
-from bare_earth.algorithms.steps.rasters import RasterFiles
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.rasters.step import RasterFiles
+from bare_earth.algorithms.tools.rasters.surface_model import SurfaceModel
+from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 
 
 class CancelAt(Progress):

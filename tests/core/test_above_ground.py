@@ -12,7 +12,6 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.runs.entry import classify
 from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.runs.requests import ClassifyRequest
@@ -27,6 +26,7 @@ from bare_earth.algorithms.tools.above_ground.classes import (
     classes_above_ground,
 )
 from bare_earth.algorithms.tools.above_ground.local_planes import LocalPlanes
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from benchmarks import scenes
 from benchmarks.scenes.simple import scatter
 

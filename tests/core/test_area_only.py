@@ -11,7 +11,6 @@ from surveys import bytes_of, cut, finished, points_of, strip, write
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.runs.entry import classify
 from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.runs.requests import ClassifyRequest
@@ -19,6 +18,7 @@ from bare_earth.algorithms.steps.output import HEIGHT_DIMENSION, Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.vpc import read_vpc
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 EAST, NORTH = 500_000.0, 5_700_000.0
 # It crosses several of the files, and leaves out the last ones.

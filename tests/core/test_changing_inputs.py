@@ -22,7 +22,7 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.runs.entry import terrain
 from bare_earth.algorithms.runs.requests import TerrainRequest
-from bare_earth.algorithms.steps.rasters import RasterFiles
+from bare_earth.algorithms.tools.rasters.step import RasterFiles
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="open files are locked there")
 METHOD = SlopeFilter(preset="whitebox")

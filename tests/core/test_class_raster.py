@@ -4,9 +4,13 @@ import laspy
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.products.class_raster import NO_CLASS, ClassCells, write_class_raster
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.survey.vpc import write_vpc
+from bare_earth.algorithms.tools.rasters.class_raster import (
+    NO_CLASS,
+    ClassCells,
+    write_class_raster,
+)
 
 pytest.importorskip("rasterio")
 

@@ -14,7 +14,6 @@ from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.runs import entry as runs
 from bare_earth.algorithms.runs.one_file import Summary
 from bare_earth.algorithms.steps.explanation import (
@@ -24,6 +23,7 @@ from bare_earth.algorithms.steps.explanation import (
     rules_in,
 )
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 from benchmarks.scenes.simple import village
 
 EAST, NORTH = 500_000.0, 5_700_000.0

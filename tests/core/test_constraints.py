@@ -16,11 +16,11 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.lines import NearPlaces, along, inside_grid
-from bare_earth.algorithms.products.constraints import Constraints
 from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
-from bare_earth.algorithms.steps.rasters import RasterFiles
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
+from bare_earth.algorithms.tools.rasters.constraints import Constraints
+from bare_earth.algorithms.tools.rasters.step import RasterFiles
 from benchmarks.scenes.simple import scatter
 
 rasterio = pytest.importorskip("rasterio")

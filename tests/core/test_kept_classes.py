@@ -8,14 +8,14 @@ from realdata import real
 from runs import said
 
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.products.raster_files import RasterFiles
-from bare_earth.algorithms.products.surface_model import SurfaceModel
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
+from bare_earth.algorithms.tools.rasters.surface_model import SurfaceModel
 
 SIDE, ROAD, BRIDGE = 120, 11, 5.0
 # The border of two blocks, at 500,000 m, runs through the scenes.

@@ -23,12 +23,12 @@ from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import copc, copc_octree, copc_points, reading
 from bare_earth.algorithms.las.reading import inspect
 from bare_earth.algorithms.las.writing import write_classified
-from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.steps import labelling
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.heights import HeightOutput
+from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 # The least that can be given: 8,000 points do not fit.

@@ -14,13 +14,13 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.products import relief_rasters
-from bare_earth.algorithms.products.raster_files import RasterFiles
-from bare_earth.algorithms.products.surface_model import SurfaceModel, canopy_height
-from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.tools.heights import HeightOutput
 from bare_earth.algorithms.tools.key_points import KeyPointMark
+from bare_earth.algorithms.tools.rasters import relief_rasters
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
+from bare_earth.algorithms.tools.rasters.surface_model import SurfaceModel, canopy_height
+from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 
 FEET_WKT = (
     'PROJCS["feet",GEOGCS["g",DATUM["d",SPHEROID["s",6378137,298.257]],PRIMEM["Greenwich",0],'

@@ -9,10 +9,10 @@ from surveys import cut, strip, write
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.engine import blocks as blocks_module
-from bare_earth.algorithms.products.raster_grid import RasterTarget
+from bare_earth.algorithms.rasters.cell_grid import RasterTarget
 from bare_earth.algorithms.runs.entry import terrain
 from bare_earth.algorithms.runs.requests import TerrainRequest
-from bare_earth.algorithms.steps.rasters import RasterFiles
+from bare_earth.algorithms.tools.rasters.step import RasterFiles
 
 rasterio = pytest.importorskip("rasterio")
 pytest.importorskip("pyproj")

@@ -20,14 +20,14 @@ from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin, hull_corners
 from bare_earth.algorithms.las.cloud import survey_frame
-from bare_earth.algorithms.products.raster_block import LAYERS
-from bare_earth.algorithms.products.raster_files import RASTERS, RasterFiles
-from bare_earth.algorithms.products.surface_model import SurfaceModel
-from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.runs.options import TileOutput
-from bare_earth.algorithms.runs.raster_jobs import RasterJob
-from bare_earth.algorithms.steps.raster_output import write_rasters
-from bare_earth.algorithms.steps.rasters import MakeRasters
+from bare_earth.algorithms.tools.rasters.block import LAYERS
+from bare_earth.algorithms.tools.rasters.jobs import RasterJob
+from bare_earth.algorithms.tools.rasters.output import write_rasters
+from bare_earth.algorithms.tools.rasters.rows import RASTERS, RasterFiles
+from bare_earth.algorithms.tools.rasters.step import MakeRasters
+from bare_earth.algorithms.tools.rasters.surface_model import SurfaceModel
+from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 
 rasterio = pytest.importorskip("rasterio")
 

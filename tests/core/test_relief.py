@@ -14,12 +14,12 @@ from bare_earth.algorithms.grids import horizons
 from bare_earth.algorithms.grids.hillshade import hillshade, slope
 from bare_earth.algorithms.grids.horizons import openness, sky_view, sky_view_and_openness
 from bare_earth.algorithms.grids.local_dominance import local_dominance
+from bare_earth.algorithms.grids.local_relief import multi_scale_relief
 from bare_earth.algorithms.grids.relief_pictures import archaeological_topography, red_relief
-from bare_earth.algorithms.products import mosaic
-from bare_earth.algorithms.products.local_relief import multi_scale_relief
-from bare_earth.algorithms.products.relief_rasters import RELIEF
-from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.tools import relief as relief_module
+from bare_earth.algorithms.tools.rasters import mosaic
+from bare_earth.algorithms.tools.rasters.relief_rasters import RELIEF
+from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 from bare_earth.algorithms.tools.relief import KINDS, ReliefPictures, write_relief
 
 METRES = 1.0, 1.0

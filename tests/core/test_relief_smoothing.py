@@ -9,12 +9,12 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.grids.hillshade import hillshade
 from bare_earth.algorithms.grids.local_trend import local_trend
 from bare_earth.algorithms.grids.relief_smoothing import smoothing_reach, without_noise
-from bare_earth.algorithms.products import mosaic
-from bare_earth.algorithms.products.raster_files import RasterFiles
-from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.runs.entry import terrain
 from bare_earth.algorithms.runs.requests import TerrainRequest
 from bare_earth.algorithms.tools import relief as relief_module
+from bare_earth.algorithms.tools.rasters import mosaic
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
+from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 from bare_earth.algorithms.tools.relief import ReliefPictures, write_relief
 
 rasterio = pytest.importorskip("rasterio")

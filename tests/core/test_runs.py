@@ -20,7 +20,6 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
-from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.runs import entry as runs_module
 from bare_earth.algorithms.runs.many_files import write_files
 from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
@@ -28,6 +27,7 @@ from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools import point_tool
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 SLOPE = SlopeFilter(preset="whitebox")
 

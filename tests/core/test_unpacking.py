@@ -24,9 +24,9 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.records import needed, read_records
-from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.window import read_window
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 FAST = SlopeFilter(preset="whitebox")
 COUNT = 400

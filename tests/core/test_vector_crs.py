@@ -14,12 +14,12 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.products.constraints import Constraints
-from bare_earth.algorithms.products.raster_files import RasterFiles
 from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_corrections, read_lines
+from bare_earth.algorithms.tools.rasters.constraints import Constraints
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 pyproj = pytest.importorskip("pyproj")
 rasterio = pytest.importorskip("rasterio")

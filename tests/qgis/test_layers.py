@@ -163,7 +163,7 @@ def test_what_ends_after_the_outputs_does_not_say_that_there_are_none(
     why, parameters, algorithm, context, log, monkeypatch
 ):
     from bare_earth.algorithms.core.errors import BareEarthError
-    from bare_earth.algorithms.products import class_raster
+    from bare_earth.algorithms.tools.rasters import class_raster
 
     parts = class_raster.read_parts
 

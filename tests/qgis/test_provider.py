@@ -17,11 +17,11 @@ from qgis.PyQt.QtGui import QIcon
 from support import ALGORITHM, ROOT
 
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.products.surface_model import Gaps
-from bare_earth.algorithms.products.terrain_model import TerrainModel
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.above_ground.classes import ThenAboveGround
+from bare_earth.algorithms.tools.rasters.surface_model import Gaps
+from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 from bare_earth.plugin.processing.classification import ClassificationAlgorithm
 
 SHARED_PARAMETERS = [

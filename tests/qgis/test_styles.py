@@ -28,8 +28,8 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import NOT_GROUND
-from bare_earth.algorithms.products.raster_files import RASTERS
 from bare_earth.algorithms.steps.explanation import described
+from bare_earth.algorithms.tools.rasters.rows import RASTERS
 from bare_earth.plugin.styles import clouds, rasters, rules
 
 MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply

@@ -19,7 +19,7 @@ from ...core.points import Frame
 from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
 from ...las.cloud import PointCloud
-from ...products.raster_grid import MOST_CELLS
+from ...rasters.cell_grid import MOST_CELLS
 from ...survey.ground_classes import GroundClasses
 from ...survey.kept_classes import overlapping
 from ...survey.repeated_points import RepeatedPoints

@@ -14,11 +14,11 @@ from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...crs.system import Crs
 from ...las.cloud import PointCloud
-from ...products.constraints import Constraints
 from ...products.survey_ground import SurveyGround
 from ...survey.feature_files import Feature, Layer, check_features, feature_writer, files_beside
 from ...survey.ground_classes import GroundClasses
 from ...survey.kept_classes import NOISE, is_one_of
+from ..rasters.constraints import Constraints
 from .body import GRADES, WaterBody
 from .bridges import decks_without_water
 from .finding import Water, find_water

@@ -16,7 +16,7 @@ import numpy as np
 from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
 from ...grids.morphology import closing, dilation, erosion
-from ...products.constraints import STATION
+from ..rasters.constraints import STATION
 from .body import WaterBody, divided, rings_of
 from .bridges import below_decks, beside_decks
 from .extent import surveyed

@@ -9,12 +9,12 @@ import numpy as np
 from ...crs.system import Crs
 from ...grids.lines import along
 from ...las.cloud import PointCloud, survey_frame
-from ...products.constraints import STATION, Constraints
-from ...products.fixed_terrain import PER_CELL, GivenTerrain
-from ...products.level_water import LevelWater
 from ...survey.area import Polygon
 from ...survey.feature_files import Feature
 from ...survey.ground_classes import GroundClasses
+from ..rasters.constraints import STATION, Constraints
+from ..rasters.fixed_terrain import PER_CELL, GivenTerrain
+from ..rasters.level_water import LevelWater
 
 # What stands for the grade of certainty of water that was not found.
 _GRADE = "given"

@@ -9,27 +9,27 @@ from typing import Mapping, Sequence
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.files import Outputs, new_folder
-from ..core.points import Box, Frame, box_in_words
-from ..core.progress import SILENT, Progress
-from ..grids.cell_window import CellWindow
-from ..products.level_water import WaterCells
-from ..products.mosaic import Mosaic, gathered_strips
-from ..products.outlines import Held, Outlines, mosaics_of
-from ..products.raster_block import BlockRasters
-from ..products.raster_files import RASTERS, Raster, folder_of, virtual_of
-from ..products.raster_grid import (
+from ...core.errors import BareEarthError
+from ...core.files import Outputs, new_folder
+from ...core.points import Box, Frame, box_in_words
+from ...core.progress import SILENT, Progress
+from ...grids.cell_window import CellWindow
+from ...rasters.cell_grid import (
     MOST_CELLS,
     CellGrid,
     box_of,
     no_points,
 )
-from ..rasters.geotiff import RasterGrid
-from ..rasters.virtual import write_virtual
-from ..rasters.writing import Band, Rows, raster_file, write_geotiff
-from ..survey.area import Area
-from .rasters import MakeRasters
+from ...rasters.geotiff import RasterGrid
+from ...rasters.virtual import write_virtual
+from ...rasters.writing import Band, Rows, raster_file, write_geotiff
+from ...survey.area import Area
+from .block import BlockRasters
+from .level_water import WaterCells
+from .mosaic import Mosaic, gathered_strips
+from .outlines import Held, Outlines, mosaics_of
+from .rows import RASTERS, Raster, folder_of, virtual_of
+from .step import MakeRasters
 
 # In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
 # because of a few points with stray coordinates.

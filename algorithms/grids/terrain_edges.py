@@ -7,11 +7,11 @@ import math
 import numpy as np
 
 from ..core.points import Points
-from ..grids.cell_window import CellWindow
-from ..grids.cells import are_inside, spacing
-from ..grids.lines import NearPlaces
-from ..grids.morphology import within_square
-from ..grids.tin import Tin
+from .cell_window import CellWindow
+from .cells import are_inside, spacing
+from .lines import NearPlaces
+from .morphology import within_square
+from .tin import Tin
 
 # Up to so many cells from a line, or so many distances between ground points, the terrain is the
 # TIN of all points. They are not thinned, so that two lines close together stay separate.

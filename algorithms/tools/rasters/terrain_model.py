@@ -7,11 +7,41 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.parameters import ParameterSet, parameter, parameter_of
-from .local_relief import LocalRelief
+from ...core.parameters import ParameterSet, parameter, parameter_of
 
 # The largest number that rounds to one of 32 bits.
 _LARGEST = 3.4028235e38
+
+
+@dataclass(frozen=True)
+class LocalRelief(ParameterSet):
+    """The size of the features that pictures of the relief show, and their smoothing."""
+
+    relief_radius: float = parameter(
+        10.0,
+        label="Radius of the relief",
+        unit="m",
+        minimum=0.1,
+        maximum=1000.0,
+        advanced=True,
+        help="Local relief, openness, sky view and the like compare a place with its surroundings"
+        " up to this distance. Choose about the width of the features that you want to see; larger"
+        " landforms disappear.",
+    )
+    relief_smoothing: str = parameter(
+        "automatic",
+        label="Smoothing of pictures of the relief",
+        choices={"automatic": "Automatic", "none": "None"},
+        advanced=True,
+        help="Automatic: for the pictures, heights are smoothed as much as they are noisy, so that"
+        " low plants in a forest do not speckle them. Banks, ditches and walls stay sharp, and so"
+        " does open ground. The terrain model does not change.",
+    )
+
+    @property
+    def smooths(self) -> bool:
+        """Whether heights are smoothed for pictures."""
+        return self.relief_smoothing == "automatic"
 
 
 @dataclass(frozen=True)

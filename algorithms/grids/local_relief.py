@@ -7,46 +7,12 @@ first step of Hesse (2010), LiDAR-derived Local Relief Models, Archaeological Pr
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from ..core.parameters import ParameterSet, parameter
-from ..grids.local_trend import local_trend, reach_of
+from .local_trend import local_trend, reach_of
 
 # The scales of the multi-scale relief, in radii.
 _SCALES = (0.5, 1.0, 2.0, 4.0)
-
-
-@dataclass(frozen=True)
-class LocalRelief(ParameterSet):
-    """The size of the features that pictures of the relief show, and their smoothing."""
-
-    relief_radius: float = parameter(
-        10.0,
-        label="Radius of the relief",
-        unit="m",
-        minimum=0.1,
-        maximum=1000.0,
-        advanced=True,
-        help="Local relief, openness, sky view and the like compare a place with its surroundings"
-        " up to this distance. Choose about the width of the features that you want to see; larger"
-        " landforms disappear.",
-    )
-    relief_smoothing: str = parameter(
-        "automatic",
-        label="Smoothing of pictures of the relief",
-        choices={"automatic": "Automatic", "none": "None"},
-        advanced=True,
-        help="Automatic: for the pictures, heights are smoothed as much as they are noisy, so that"
-        " low plants in a forest do not speckle them. Banks, ditches and walls stay sharp, and so"
-        " does open ground. The terrain model does not change.",
-    )
-
-    @property
-    def smooths(self) -> bool:
-        """Whether heights are smoothed for pictures."""
-        return self.relief_smoothing == "automatic"
 
 
 def local_relief(

@@ -7,15 +7,15 @@ from typing import Callable, Iterator, Sequence
 
 import numpy as np
 
-from ..core.points import Points
-from ..core.progress import SILENT, Progress
-from ..grids.cell_window import CellWindow
-from ..grids.morphology import within_square
-from ..grids.outline import Outline
-from ..grids.surface import CellLattice, Surface
-from ..survey.area import Area
+from ...core.points import Points
+from ...core.progress import SILENT, Progress
+from ...grids.cell_window import CellWindow
+from ...grids.morphology import within_square
+from ...grids.outline import Outline
+from ...grids.surface import CellLattice, Surface
+from ...survey.area import Area
+from .block import HELD, TOP, BlockRasters
 from .level_water import NO_WATER_CELLS, WaterCells
-from .raster_block import HELD, TOP, BlockRasters
 
 # Cells that are joined at a time.
 _CELLS_A_STRIP = 4_000_000

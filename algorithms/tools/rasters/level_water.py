@@ -8,12 +8,12 @@ from typing import Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.points import Box
-from ..grids.cell_window import CellWindow
-from ..grids.lines import NearestHeights, near_rings
-from ..grids.outline import Outline
-from ..grids.tin import Tin
-from ..survey.area import Area
+from ...core.points import Box
+from ...grids.cell_window import CellWindow
+from ...grids.lines import NearestHeights, near_rings
+from ...grids.outline import Outline
+from ...grids.tin import Tin
+from ...survey.area import Area
 
 # A place within so many metres of the shore lies in the water: the border belongs to it.
 _ON_SHORE = 1e-3

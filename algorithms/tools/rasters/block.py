@@ -8,16 +8,16 @@ from typing import Callable, Mapping, NamedTuple
 
 import numpy as np
 
-from ..core.points import Box, Points
-from ..core.progress import SILENT, Progress
-from ..core.threads import parts_of
-from ..grids.cell_window import CellWindow
-from ..grids.cells import are_inside, first_of_each
-from ..grids.dense_surface import VERTICES_A_SIDE, DenseSurface
-from ..grids.high_groups import HighGroups
-from ..grids.morphology import within_square
-from .confidence import confidence
-from .terrain_edges import follow_edges
+from ...core.points import Box, Points
+from ...core.progress import SILENT, Progress
+from ...core.threads import parts_of
+from ...grids.cell_window import CellWindow
+from ...grids.cells import are_inside, first_of_each
+from ...grids.confidence import confidence
+from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+from ...grids.high_groups import HighGroups
+from ...grids.morphology import within_square
+from ...grids.terrain_edges import follow_edges
 
 # Longest edge of the triangles in a block, in metres and in cells. Triangles across wider gaps need
 # points from farther away than a block sees, so they are made when all blocks are done.

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.parameters import ParameterSet, parameter, parameter_of
-from ..grids.morphology import median_of_nine
+from ...core.parameters import ParameterSet, parameter, parameter_of
+from ...grids.morphology import median_of_nine
 
 # Pits lie deeper than this below the mean of their eight neighbours, in metres. They are filled in
 # so many passes, since those of several cells are filled from their borders.

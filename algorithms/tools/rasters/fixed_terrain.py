@@ -8,15 +8,15 @@ from typing import Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.points import Frame, Points
-from ..core.progress import SILENT, Progress
-from ..grids.lines import NearestHeights, NearPlaces, along, falling, inside_grid, squares
-from ..las.cloud import PointCloud
-from ..las.lasfile import LasFile
-from ..las.reading import read_parts
-from ..survey.area import Area, Polygon
-from ..survey.ground_classes import GroundClasses, GroundCounts
-from ..survey.kept_classes import IGNORED_GROUND
+from ...core.points import Frame, Points
+from ...core.progress import SILENT, Progress
+from ...grids.lines import NearestHeights, NearPlaces, along, falling, inside_grid, squares
+from ...las.cloud import PointCloud
+from ...las.lasfile import LasFile
+from ...las.reading import read_parts
+from ...survey.area import Area, Polygon
+from ...survey.ground_classes import GroundClasses, GroundCounts
+from ...survey.kept_classes import IGNORED_GROUND
 from .constraints import NEAR, STATION, Constraints
 from .given_heights import without_wrong_heights
 from .level_water import LevelWater

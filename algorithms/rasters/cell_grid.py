@@ -13,10 +13,8 @@ from ..crs.matching import described, is_same_map
 from ..crs.stated import HOW
 from ..crs.system import Crs, crs_of_wkt, unit_symbol
 from ..grids.cell_window import CellWindow
-from ..rasters.geotiff import RasterGrid
-from ..rasters.given_grid import GivenGrid, read_grid
-from ..survey.area import Area
-from .terrain_model import TerrainModel
+from .geotiff import RasterGrid
+from .given_grid import GivenGrid, read_grid
 
 MOST_CELLS = 4_000_000_000
 # A corner of a given raster so near a multiple of the cell size, as a share of it, is one.
@@ -86,19 +84,19 @@ class CellGrid:
 
 def cell_grid(
     target: RasterTarget,
-    model: TerrainModel,
+    usual: CellGrid,
     crs: Crs,
     box: Box | None = None,
     progress: Progress = SILENT,
 ) -> CellGrid:
     """Return the cells of the rasters of a run on points with an extent, as far as known, in units
-    of the CRS; the model has the cell size if no raster gives it.
+    of the CRS; `usual` has their size if no raster gives it.
     """
     # An error says if the raster is unsuitable, or the rasters would hold no point or too many
     # cells.
     unit = crs.horizontal_unit
     if target.like is None:
-        cells = CellGrid(model.cell_metres(unit), model.cell_in_units(unit))
+        cells = usual
     else:
         given = read_grid(target.like)
         cells = _on_grid(given, unit)
@@ -180,6 +178,6 @@ def _check(cells: CellGrid, window: CellWindow, box: Box | None, crs: Crs) -> No
             f"The rasters would have {grid.columns:,} x {grid.rows:,} cells of {cells.size:g}"
             f" {unit_symbol(crs.horizontal_unit)}. Choose a larger cell size, or a smaller extent."
         )
-    covered = box_of(grid)
-    if box is not None and not Area(covered).may_touch(box):
+    west, south, east, north = covered = box_of(grid)
+    if box is not None and (west > box[2] or east < box[0] or south > box[3] or north < box[1]):
         raise no_points(covered, box)

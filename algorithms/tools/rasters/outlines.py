@@ -13,14 +13,14 @@ from typing import Sequence
 
 import numpy as np
 
-from ..core.progress import SILENT, Progress
-from ..grids.cell_window import CellWindow
-from ..grids.cells import are_inside, usual_count
-from ..grids.morphology import closing, within_square
-from ..grids.outline import MOST_CELLS, Discs, Outline, with_gaps_inside
+from ...core.progress import SILENT, Progress
+from ...grids.cell_window import CellWindow
+from ...grids.cells import are_inside, usual_count
+from ...grids.morphology import closing, within_square
+from ...grids.outline import MOST_CELLS, Discs, Outline, with_gaps_inside
+from .block import ANY, HELD, QUARTERS, BlockRasters, RasterStep
 from .level_water import NO_WATER_CELLS, WaterCells
 from .mosaic import Mosaic
-from .raster_block import ANY, HELD, QUARTERS, BlockRasters, RasterStep
 
 # Radius of the discs in usual distances between points. These are not less than a cell.
 _SPACINGS = 4.0

@@ -12,9 +12,9 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ..core.points import Points
-from ..grids.cells import Cells
-from ..grids.gradient import steepness
-from ..grids.inpaint import inpaint
+from .cells import Cells
+from .gradient import steepness
+from .inpaint import inpaint
 
 # Side of the cells in metres. All values below were fitted with it.
 CELL = 1.0

@@ -7,11 +7,11 @@ from functools import cached_property
 
 import numpy as np
 
-from ..core.progress import SILENT, Progress
-from ..grids.lines import along
-from ..las.cloud import PointCloud
-from ..survey.area import Area, Polygon
-from ..survey.shapes import Geometry, Place, located
+from ...core.progress import SILENT, Progress
+from ...grids.lines import along
+from ...las.cloud import PointCloud
+from ...survey.area import Area, Polygon
+from ...survey.shapes import Geometry, Place, located
 
 # Ground points up to so many metres from a line or border give its height.
 NEAR = 10.0

@@ -9,36 +9,36 @@ from typing import Callable, Iterable
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.points import Box, Frame
-from ..core.progress import SILENT, Progress
-from ..core.words import counted
-from ..crs.system import Crs
-from ..engine.blocks import Block, Blocks
-from ..engine.blockwise import over_blocks
-from ..engine.memory import Cost, Resources
-from ..engine.step import Step
-from ..engine.store import Marks, Store
-from ..grids.cell_window import CellWindow
-from ..grids.cells import first_of_each
-from ..grids.dense_surface import VERTICES_A_SIDE
-from ..grids.height_above_ground import with_roads
-from ..las.cloud import PointCloud, survey_frame
-from ..products.constraints import NO_CONSTRAINTS, Constraints
-from ..products.fixed_terrain import FixedTerrain, fixed_terrain
-from ..products.raster_block import LAYERS, BlockRasters, RasterStep
-from ..products.raster_files import RasterFiles
-from ..products.raster_grid import (
+from ...core.errors import BareEarthError
+from ...core.points import Box, Frame
+from ...core.progress import SILENT, Progress
+from ...core.words import counted
+from ...crs.system import Crs
+from ...engine.blocks import Block, Blocks
+from ...engine.blockwise import over_blocks
+from ...engine.memory import Cost, Resources
+from ...engine.step import Step
+from ...engine.store import Marks, Store
+from ...grids.cell_window import CellWindow
+from ...grids.cells import first_of_each
+from ...grids.dense_surface import VERTICES_A_SIDE
+from ...grids.height_above_ground import with_roads
+from ...las.cloud import PointCloud, survey_frame
+from ...rasters.cell_grid import (
     ANYWHERE,
     CellGrid,
     RasterTarget,
     cell_grid,
 )
-from ..products.surface_model import SurfaceModel
-from ..products.terrain_model import TerrainModel
-from ..survey.area import Area
-from ..survey.ground_classes import GroundClasses, GroundCounts
-from ..survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
+from ...survey.area import Area
+from ...survey.ground_classes import GroundClasses, GroundCounts
+from ...survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
+from .block import LAYERS, BlockRasters, RasterStep
+from .constraints import NO_CONSTRAINTS, Constraints
+from .fixed_terrain import FixedTerrain, fixed_terrain
+from .rows import RasterFiles
+from .surface_model import SurfaceModel
+from .terrain_model import TerrainModel
 
 # Points are thinned unless there are so many times as many cells.
 _MOST_THINNED = 10
@@ -95,7 +95,9 @@ class MakeRasters(Step):
 
     def placed(self, crs: Crs, box: Box | None = None, progress: Progress = SILENT) -> MakeRasters:
         """Return the step for points in a CRS; see `cell_grid`."""
-        return replace(self, cells=cell_grid(self.target, self.model, crs, box, progress))
+        unit = crs.horizontal_unit
+        usual = CellGrid(self.model.cell_metres(unit), self.model.cell_in_units(unit))
+        return replace(self, cells=cell_grid(self.target, usual, crs, box, progress))
 
     @property
     def of_block(self) -> RasterStep:

@@ -10,11 +10,11 @@ from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..core.errors import BareEarthError, Cancelled
-from ..core.files import Outputs, replacing, split_name
-from ..core.progress import SILENT, Progress
-from ..core.temporary import remove
-from ..engine.block_grid import (
+from ...core.errors import BareEarthError, Cancelled
+from ...core.files import Outputs, replacing, split_name
+from ...core.progress import SILENT, Progress
+from ...core.temporary import remove
+from ...engine.block_grid import (
     BlockGrid,
     BlockIndex,
     grouped,
@@ -23,19 +23,19 @@ from ..engine.block_grid import (
     points_in,
     sources_of,
 )
-from ..engine.blocks import Block
-from ..engine.job_queue import JobQueue
-from ..engine.jobs import BlockJob, Share
-from ..engine.manifest import block_file, stamp_of
-from ..engine.plan import Results
-from ..engine.unpacking import Unpacking
-from ..engine.workers import Workers
-from ..grids.cell_window import CellWindow
-from ..las.cloud import survey_frame
-from ..products.raster_block import BlockRasters
-from ..steps.raster_output import AROUND_AREA, RasterSize, no_point_in, write_rasters
-from ..steps.rasters import MakeRasters
-from ..survey.files import Survey
+from ...engine.blocks import Block
+from ...engine.job_queue import JobQueue
+from ...engine.jobs import BlockJob, Share
+from ...engine.manifest import block_file, stamp_of
+from ...engine.plan import Results
+from ...engine.unpacking import Unpacking
+from ...engine.workers import Workers
+from ...grids.cell_window import CellWindow
+from ...las.cloud import survey_frame
+from ...survey.files import Survey
+from .block import BlockRasters
+from .output import AROUND_AREA, RasterSize, no_point_in, write_rasters
+from .step import MakeRasters
 
 
 @dataclass(frozen=True, eq=False)

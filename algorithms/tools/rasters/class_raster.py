@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.progress import SILENT, Progress
-from ..las.cloud import PointCloud, survey_frame
-from ..las.reading import read_parts
-from ..rasters.geotiff import RasterGrid
-from ..rasters.writing import write_geotiff
-from ..survey.files import Survey, open_survey
-from ..survey.kept_classes import GROUND
+from ...core.progress import SILENT, Progress
+from ...las.cloud import PointCloud, survey_frame
+from ...las.reading import read_parts
+from ...rasters.geotiff import RasterGrid
+from ...rasters.writing import write_geotiff
+from ...survey.files import Survey, open_survey
+from ...survey.kept_classes import GROUND
 
 NO_CLASS = 255
 # More cells are not needed to look at.

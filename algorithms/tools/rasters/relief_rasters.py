@@ -6,12 +6,12 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..grids.hillshade import hillshade, multidirectional_hillshade, slope
-from ..grids.horizons import Cells, horizon_reach, openness, sky_view
-from ..grids.local_dominance import dominance_reach, local_dominance
-from ..grids.relief_pictures import VAT_RADII, archaeological_topography, red_relief
-from ..grids.relief_smoothing import smoothing_reach, without_noise
-from .local_relief import local_relief, multi_scale_reach, multi_scale_relief, relief_reach
+from ...grids.hillshade import hillshade, multidirectional_hillshade, slope
+from ...grids.horizons import Cells, horizon_reach, openness, sky_view
+from ...grids.local_dominance import dominance_reach, local_dominance
+from ...grids.local_relief import local_relief, multi_scale_reach, multi_scale_relief, relief_reach
+from ...grids.relief_pictures import VAT_RADII, archaeological_topography, red_relief
+from ...grids.relief_smoothing import smoothing_reach, without_noise
 from .terrain_model import TerrainModel
 
 

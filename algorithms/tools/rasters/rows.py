@@ -8,10 +8,10 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.files import check_distinct, check_output
-from ..rasters.geotiff import RasterGrid
-from ..rasters.writing import check_raster_output
+from ...core.errors import BareEarthError
+from ...core.files import check_distinct, check_output
+from ...rasters.geotiff import RasterGrid
+from ...rasters.writing import check_raster_output
 from .relief_rasters import RELIEF, ReliefRaster
 from .surface_model import PIT_PASSES, canopy_height, without_pits
 from .terrain_model import TerrainModel

@@ -6,8 +6,8 @@ from typing import NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.progress import Progress
-from ..grids.lines import NearestHeights
+from ...core.progress import Progress
+from ...grids.lines import NearestHeights
 
 # Heights that stand for none, in any unit; and the largest that can be, in metres.
 _NODATA = (-9999.0, -99999.0, -999999.0, -999.0, -32768.0, -32767.0)
