@@ -24,7 +24,7 @@ import numpy as np
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.tools.comparison import AssessmentOptions, compare
+from bare_earth.algorithms.tools.assess import AssessmentOptions, compare
 
 from . import ablation_page as page
 from . import cache, data, work

@@ -11,7 +11,7 @@ from bare_earth.algorithms.grids.cells import Cells, spacing
 from bare_earth.algorithms.grids.hillshade import hillshade
 from bare_earth.algorithms.grids.inpaint import inpaint
 from bare_earth.algorithms.las.cloud import PointCloud
-from bare_earth.algorithms.tools.comparison import Assessment
+from bare_earth.algorithms.tools.assess import Assessment
 
 from .generated import SceneScore, TrueModel
 from .measure import GROUND, ReferenceModel

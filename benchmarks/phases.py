@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bare_earth.algorithms.las.cloud import PointCloud
-from bare_earth.algorithms.tools.comparison import Assessment
+from bare_earth.algorithms.tools.assess import Assessment
 
 # Metres by which the points are moved to the east and the north: as they came, then spread evenly
 # over a cell of 1 m (the R2 sequence of Roberts 2018, in whole centimetres).

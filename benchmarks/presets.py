@@ -10,7 +10,7 @@ import argparse
 from typing import Iterator, NamedTuple, Sequence
 
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.tools.comparison import AssessmentOptions, compare
+from bare_earth.algorithms.tools.assess import AssessmentOptions, compare
 
 from . import data, measure
 

@@ -14,7 +14,7 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.tools.comparison import AssessmentOptions, compare
+from bare_earth.algorithms.tools.assess import AssessmentOptions, compare
 
 from . import data
 from .measure import Filter, mean

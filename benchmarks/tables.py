@@ -6,7 +6,7 @@ import math
 from typing import Any, Sequence
 
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.tools.comparison import Assessment
+from bare_earth.algorithms.tools.assess import Assessment
 
 from . import data
 from .generated import SceneScores, worst_kinds

@@ -31,7 +31,7 @@ def _info(options: argparse.Namespace) -> int:
 
 
 def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..tools.comparison import AssessmentOptions
+    from ..tools.assess import AssessmentOptions
 
     parser.add_argument("classified", metavar="CLASSIFIED", type=Path, help="the file to check")
     parser.add_argument(
@@ -51,8 +51,7 @@ def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> No
 
 
 def _assess(options: argparse.Namespace) -> int:
-    from ..tools.assess import assess_files
-    from ..tools.comparison import AssessmentOptions
+    from ..tools.assess import AssessmentOptions, assess_files
 
     what = AssessmentOptions.among(chosen(options))
     with Terminal(options.verbose) as progress:

@@ -5,7 +5,6 @@ import re
 import struct
 import zlib
 from html.parser import HTMLParser
-from pathlib import Path
 
 import laspy
 import numpy as np
@@ -14,10 +13,9 @@ import pytest
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.report.pictures import png, rgb
-from bare_earth.algorithms.tools import report
-from bare_earth.algorithms.tools.assess import assess_files
-from bare_earth.algorithms.tools.comparison import AssessmentOptions, Comparison, compare
+from bare_earth.algorithms.report.pictures import Relief, png, rgb
+from bare_earth.algorithms.tools import assess
+from bare_earth.algorithms.tools.assess import AssessmentOptions, assess_files, compare
 
 
 def test_the_four_figures_of_a_known_confusion():
@@ -137,8 +135,8 @@ def test_the_picture_shows_the_errors_where_they_are(files, tmp_path):
     assert 30 < pixels.shape[0] == pixels.shape[1] <= 41
     # North is up: type I below on the left, type II above on the right, nothing elsewhere.
     part = pixels.shape[0] // 10
-    assert (pixels[-part:, :part] == rgb(report.TYPE_1)).all()
-    assert (pixels[:part, -part:] == rgb(report.TYPE_2)).all()
+    assert (pixels[-part:, :part] == rgb(assess.TYPE_1)).all()
+    assert (pixels[:part, -part:] == rgb(assess.TYPE_2)).all()
     coloured = np.ptp(pixels, axis=2) > 0
     assert coloured[-2 * part :, : 2 * part].sum() + coloured[: 2 * part, -2 * part :].sum() == (
         coloured.sum()
@@ -198,19 +196,17 @@ def test_a_report_that_cannot_be_written_is_refused_at_once(files, tmp_path, nam
 
 
 @pytest.mark.parametrize("count", [1, 2])
-def test_a_picture_of_hardly_any_points(count):
-    points = Points(np.arange(count) * 5.0, np.zeros(count), np.zeros(count))
-    wrong, options = np.ones(count, bool), AssessmentOptions()
-    picture = report.draw_errors(points, Comparison(wrong, wrong, ~wrong))
-    assert picture.pixels.size and picture.cell_size > 0
-    found = compare(wrong, np.ones(count, np.uint8))
-    assert "<img" in report.report_html(found, picture, options, (Path("a.las"), Path("b.las")))
+def test_a_report_of_hardly_any_points(tmp_path, count):
+    names = ("found.las", FOUND), ("truth.las", TRUTH)
+    files = [write(tmp_path / name, classes, np.arange(count)) for name, classes in names]
+    assess_files(*files, report=tmp_path / "report.html")
+    assert picture_of((tmp_path / "report.html").read_text(encoding="utf-8")).size
 
 
 def test_a_large_survey_has_a_picture_of_bounded_size():
     x = np.linspace(0.0, 50_000.0, 3_000_000)
     wrong = np.zeros(len(x), bool)
-    picture = report.draw_errors(Points(x, x / 7, x), Comparison(~wrong, wrong, wrong))
+    picture = Relief.of(Points(x, x / 7, x)).marked(wrong, wrong, (assess.TYPE_1, assess.TYPE_2))
     assert max(picture.pixels.shape) <= 901
 
 

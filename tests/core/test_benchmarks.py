@@ -11,7 +11,7 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.tools.comparison import compare
+from bare_earth.algorithms.tools.assess import compare
 from benchmarks import (
     accuracy,
     cache,

@@ -16,7 +16,7 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.runs.one_file import classify_cloud
-from bare_earth.algorithms.tools.comparison import compare
+from bare_earth.algorithms.tools.assess import compare
 from benchmarks import data
 from benchmarks.scenes import make as make_scene
 from benchmarks.scenes.simple import error, scatter, surveyed, village
