@@ -8,7 +8,6 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.points import Box
 from ..core.progress import Progress
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
@@ -22,7 +21,7 @@ _STRIP = 1 << 22
 _LEAST_SHARE = 0.01
 # Times are used if so large a share of the points at the same places has equal ones.
 _TRUSTED = 0.5
-# Every place that coordinates can have, as a finite box.
+# Every place that coordinates can have, as a finite box: west, south, east, north.
 _EVERYWHERE = (-1e300, -1e300, 1e300, 1e300)
 
 
@@ -56,7 +55,7 @@ def match_files(one: Path, other: Path, progress: Progress, crs: str | None = No
         # The messages of reading were given.
         left = progress.part(0.4, 1.0).quiet()
     clouds = _read(files, left)
-    orders = _pairs(*clouds, left.part(0.6, 1.0))
+    orders = _pairs(clouds, left.part(0.6, 1.0))
     count = len(orders[0])
     if count < _LEAST_SHARE * min(file.count for file in files) or not count:
         raise BareEarthError(
@@ -86,101 +85,72 @@ def _read(files: tuple[LasFile, LasFile], progress: Progress) -> tuple[PointClou
     small, large = sorted(range(2), key=lambda number: files[number].count)
     has_times = all(file.has_gps_times for file in files)
     first = read_window(files[small], _EVERYWHERE, progress.part(0.0, 0.3), times=has_times)
-    box = _extent(first, max(files[large].scale))
+    scale, offset = np.array(first.scale[:2]), np.array(first.offset[:2])
+    more = max(*files[large].scale, *first.scale[:2])
+    west, south = (first.lowest * scale + offset - more).tolist()
+    east, north = (first.highest * scale + offset + more).tolist()
+    box = west, south, east, north
     second = read_window(files[large], box, progress.part(0.3, 0.6), times=has_times)
     return (first, second) if small == 0 else (second, first)
 
 
-def _extent(cloud: PointCloud, step: float) -> Box:
-    """Return smallest x and y, largest x and y of the points, and a little more."""
-    (west, south), (east, north) = (
-        [value * scale + offset for value, scale, offset in zip(each, cloud.scale, cloud.offset)]
-        for each in (cloud.lowest, cloud.highest)
-    )
-    more = max(step, *cloud.scale[:2])
-    return west - more, south - more, east + more, north + more
-
-
-def _pairs(one: PointCloud, other: PointCloud, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
+def _pairs(
+    clouds: tuple[PointCloud, PointCloud], progress: Progress
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the indices of the common points of two clouds, in the order of the first one."""
-    clouds = one, other
-    steps = [max(pair) for pair in zip(one.scale, other.scale)]
-    columns = [_integers(cloud, 0, one, steps) for cloud in clouds]
+    origin, scales = clouds[0].offset, zip(*(cloud.scale for cloud in clouds))
+    steps = [max(pair) for pair in scales]
+
+    def integers(cloud: PointCloud, axis: int, which: np.ndarray | slice) -> np.ndarray:
+        """Return coordinates of points in whole steps from the origin."""
+        metres = (cloud.x, cloud.y, cloud.z)[axis][which] * cloud.scale[axis]
+        start = cloud.offset[axis] - origin[axis]
+        return np.rint((metres + start) / steps[axis]).astype(np.int64)
+
+    columns = [integers(cloud, 0, slice(None)) for cloud in clouds]
+    most = max(columns, key=len)
+    count = max(-(-len(most) // _STRIP), 1)
+    inner = np.quantile(most[:: max(len(most) // 100_000, 1)], np.arange(1, count) / count)
+    edges = [-np.inf, *inner.tolist(), np.inf]
     times = [cloud.gps_time for cloud in clouds if cloud.gps_time is not None]
-    has_times = len(times) == len(clouds)
-    timed, untimed, edges = [], [], _edges(columns)
-    for number, (west, east) in enumerate(zip(edges, edges[1:])):
+    timed, untimed = [], []
+    for number, (west, east) in enumerate(zip(edges, edges[1:]), start=1):
         strips = [np.flatnonzero((x >= west) & (x < east)) for x in columns]
-        keys = [_keys(cloud, strip, one, steps) for cloud, strip in zip(clouds, strips)]
-        untimed.append(_of_strips(strips, _equal(*keys)))
-        if has_times:
+        keys = [
+            [*(integers(cloud, axis, strip) for axis in range(3)), cloud.return_number[strip]]
+            for cloud, strip in zip(clouds, strips)
+        ]
+        untimed.append(_equal(strips, keys))
+        if len(times) == 2:
             for key, time, strip in zip(keys, times, strips):
                 key.append(time[strip].view(np.int64))
-            timed.append(_of_strips(strips, _equal(*keys)))
-        progress((number + 1) / (len(edges) - 1))
+            timed.append(_equal(strips, keys))
+        progress(number / count)
     # Where times were changed, few points have the same.
-    use_times = _count(timed) >= _TRUSTED * _count(untimed)
-    first, second = map(np.concatenate, zip(*(timed if has_times and use_times else untimed)))
+    with_times, without = (sum(len(first) for first, _ in pairs) for pairs in (timed, untimed))
+    use_times = timed and with_times >= _TRUSTED * without
+    first, second = map(np.concatenate, zip(*(timed if use_times else untimed)))
     order = np.argsort(first, kind="stable")
     return first[order], second[order]
 
 
-def _keys(
-    cloud: PointCloud, which: np.ndarray, origin: PointCloud, steps: Sequence[float]
-) -> list[np.ndarray]:
-    """Return what the same points have in common, without times; int64 columns."""
-    places = [_integers(cloud, axis, origin, steps, which) for axis in range(3)]
-    return [*places, cloud.return_number[which].astype(np.int64)]
-
-
-def _of_strips(strips: Sequence[np.ndarray], pairs: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """Return rows of strips as indices of the clouds."""
-    return [strip[pair] for strip, pair in zip(strips, pairs)]
-
-
-def _count(pairs: Sequence[Sequence[np.ndarray]]) -> int:
-    return sum(len(first) for first, _ in pairs)
-
-
-def _integers(
-    cloud: PointCloud,
-    axis: int,
-    origin: PointCloud,
-    steps: Sequence[float],
-    which: np.ndarray | slice = slice(None),
-) -> np.ndarray:
-    """Return coordinates of points in whole steps from the offset of a cloud; int64."""
-    values = (cloud.x, cloud.y, cloud.z)[axis][which]
-    start = cloud.offset[axis] - origin.offset[axis]
-    return np.rint((values * cloud.scale[axis] + start) / steps[axis]).astype(np.int64)
-
-
-def _edges(columns: Sequence[np.ndarray]) -> np.ndarray:
-    """Return limits of strips, given the x of both clouds; the strips hold all points."""
-    most = max(columns, key=len)
-    count = max(-(-len(most) // _STRIP), 1)
-    inner = np.sort(most[:: max(len(most) // 100_000, 1)])
-    inner = inner[np.arange(1, count, dtype=np.int64) * len(inner) // count]
-    ends = np.iinfo(np.int64)
-    return np.unique([ends.min, *inner.tolist(), ends.max])
-
-
-def _equal(one: Sequence[np.ndarray], other: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the rows of two tables, given as columns of int64, that are equal, int64 (k,) each;
+def _equal(
+    numbers: Sequence[np.ndarray], keys: Sequence[Sequence[np.ndarray]]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the numbers of the rows of two tables, given as columns, that are equal, (k,) each;
     several equal rows are paired in order, and none is used twice.
     """
-    first_count = len(one[0])
-    columns = [np.concatenate(pair) for pair in zip(one, other)]
+    columns = [np.concatenate(pair) for pair in zip(*keys)]
     if not len(columns[0]):
-        return np.empty(0, np.int64), np.empty(0, np.int64)
+        return numbers[0], numbers[1]
     # Stable, so that equal rows are in order, those of the first table before the others.
     order = np.lexsort(columns[::-1])
     is_new = np.ones(len(order), dtype=bool)
-    is_new[1:] = np.any([each[order][1:] != each[order][:-1] for each in columns], axis=0)
-    group, is_first = np.cumsum(is_new) - 1, order < first_count
+    is_new[1:] = np.any([column[order][1:] != column[order][:-1] for column in columns], axis=0)
+    group, is_first = np.cumsum(is_new) - 1, order < len(numbers[0])
     counts = [np.bincount(group[side], minlength=group[-1] + 1) for side in (is_first, ~is_first)]
-    pairs = np.minimum(*counts)
     rank = np.arange(len(order)) - np.flatnonzero(is_new)[group]
     rank[~is_first] -= counts[0][group[~is_first]]
-    used = rank < pairs[group]
-    return order[used & is_first], order[used & ~is_first] - first_count
+    used = rank < np.minimum(*counts)[group]
+    of_all = np.concatenate(numbers)[order]
+    return of_all[used & is_first], of_all[used & ~is_first]
