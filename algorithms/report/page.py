@@ -1,16 +1,17 @@
-"""The parts of a page: headings, paragraphs, tables and maps; each part escapes plain text."""
+"""The parts of a page: headings, paragraphs, tables, maps and bars; each escapes plain text."""
 
 from __future__ import annotations
 
 import base64
 from html import escape
 from pathlib import Path
-from typing import Iterable, Sequence
+from typing import Iterable, NamedTuple, Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError, printable
 from ..core.files import check_output
+from ..core.version import __version__
 from .pictures import Picture, png
 from .units import Units, round_length
 
@@ -29,6 +30,11 @@ img { width: 100%; image-rendering: pixelated; border: 1px solid #bbb; box-sizin
        border: 1px solid #555; }
 .files { word-break: break-all; }
 """
+# Of pages with drawings.
+DRAWN = "svg { width: 100%; max-width: 860px; height: auto; }\n"
+# Sizes of drawings in pixels.
+_WIDTH, _HEIGHT, _BELOW, _LEFT = 800, 180, 40, 46
+_TALLEST, _RADIUS = 900, 7
 
 
 class Html(str):
@@ -44,8 +50,6 @@ def check_page(target: Path, sources: tuple[Path, ...] = ()) -> None:
 
 def page(title: str, parts: Iterable[str], style: str = "") -> str:
     """Return a page of parts below a headline, with further CSS."""
-    from ..core.version import __version__
-
     title, body = text(title), "\n".join(part for part in parts if part)
     return f"""<!DOCTYPE html>
 <html lang="en">
@@ -117,11 +121,11 @@ def table(
         return Html("")
     kinds = ["text" if side == "l" else "" for side in align or "l" * len(rows[0])]
     names = ["th" if is_named else "td", *["td"] * (len(kinds) - 1)]
-    made = [map(element, names, row, kinds) for row in rows]
+    cells = [map(element, names, row, kinds) for row in rows]
     if head:
-        made.insert(0, map(element, ["th"] * len(kinds), head, kinds))
-    lines = [element("tr", Html("".join(row))) for row in made]
-    return element("table", Html("\n".join(lines)), kind)
+        cells.insert(0, map(element, ["th"] * len(kinds), head, kinds))
+    content = "\n".join(element("tr", Html("".join(row))) for row in cells)
+    return element("table", Html(content), kind)
 
 
 def data_uri(pixels: np.ndarray) -> str:
@@ -158,3 +162,70 @@ def key(colour: str, meaning: str) -> Html:
 def keys(colours: Iterable[str], meanings: Iterable[str]) -> Html:
     """Return a legend."""
     return Html("".join(map(key, colours, meanings)))
+
+
+def bars(name: str, counts: Sequence[int], colours: Sequence[str], ticks: Sequence[str]) -> Html:
+    """Return bars of these counts side by side; the ticks below them are evenly spread."""
+    wide, highest = _WIDTH / len(counts), max(*counts, 1)
+    drawn, labels = [], []
+    for number, (count, colour) in enumerate(zip(counts, colours)):
+        tall = count / highest * _HEIGHT
+        drawn.append(
+            f'<rect x="{number * wide:.1f}" y="{_HEIGHT - tall:.1f}" width="{wide - 2:.1f}"'
+            f' height="{tall:.1f}" fill="{colour}" stroke="#555"/>'
+        )
+        if count:
+            labels.append(_label((number + 0.5) * wide, _HEIGHT - tall - 4, count))
+    for number, tick in enumerate(ticks):
+        labels.append(_label(number / (len(ticks) - 1) * _WIDTH, _HEIGHT + 18, tick))
+    return _svg(
+        name,
+        (-_LEFT, -20, _WIDTH + 2 * _LEFT, _HEIGHT + _BELOW + 20),
+        f'<path d="M0 {_HEIGHT}H{_WIDTH}" stroke="#555"/>{"".join(drawn)}'
+        f'<g font-size="12" fill="#333" text-anchor="middle">{"".join(labels)}</g>',
+    )
+
+
+class Mark(NamedTuple):
+    """A place on a map, in the coordinates of the map, with what is shown under the mouse."""
+
+    x: float
+    y: float
+    colour: str
+    title: str
+
+
+def map_of_places(name: str, boxes: np.ndarray, marks: Sequence[Mark], unit: str) -> Html:
+    """Return a map of marks on rectangles: west, south, east and north, shape (n, 4)."""
+    x, y = [mark.x for mark in marks], [mark.y for mark in marks]
+    west, south = (min(low, *at) for low, at in zip(boxes[:, :2].min(axis=0).tolist(), (x, y)))
+    east, north = (max(high, *at) for high, at in zip(boxes[:, 2:].max(axis=0).tolist(), (x, y)))
+    scale = min(_WIDTH / max(east - west, 1e-6), _TALLEST / max(north - south, 1e-6))
+    high = (north - south) * scale
+    drawn = "".join(
+        f'<rect x="{(a - west) * scale:.1f}" y="{(north - d) * scale:.1f}"'
+        f' width="{(c - a) * scale:.1f}" height="{(d - b) * scale:.1f}"/>'
+        for a, b, c, d in boxes.tolist()
+    )
+    circles = "".join(
+        f'<circle cx="{(mark.x - west) * scale:.1f}" cy="{(north - mark.y) * scale:.1f}"'
+        f' r="{_RADIUS}" fill="{mark.colour}"><title>{text(mark.title)}</title></circle>'
+        for mark in marks
+    )
+    length = round_length((east - west) / 4 or 1.0)
+    return _svg(
+        name,
+        (-10, -10, _WIDTH + 20, round(high + 50)),
+        f'\n<g fill="#f2efe9" stroke="#bbb">{drawn}</g>\n<g stroke="#333">{circles}</g>'
+        f'<path d="M0 {high + 16:.0f}h{length * scale:.1f}" stroke="#222" stroke-width="3"/>'
+        f'<text x="0" y="{high + 34:.0f}" font-size="12" fill="#333">{length:g} {unit}</text>',
+    )
+
+
+def _label(x: float, y: float, words: object) -> str:
+    return f'<text x="{x:.1f}" y="{y:.1f}">{words}</text>'
+
+
+def _svg(name: str, box: tuple[int, int, int, int], content: str) -> Html:
+    shown = " ".join(map(str, box))
+    return Html(f'<svg viewBox="{shown}" role="img"\n aria-label="{name}">{content}</svg>')

@@ -4,8 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...report.drawings import STYLE, Mark, histogram, map_of_places
-from ...report.page import Html, element, keys, page, paragraph, section, table
+from ...report.page import (
+    DRAWN,
+    Html,
+    Mark,
+    bars,
+    element,
+    keys,
+    map_of_places,
+    page,
+    paragraph,
+    section,
+    table,
+)
 from ...survey.files import Survey
 from .accuracy import Figures
 from .results import COLOURS, COUNTED, NOT_COUNTED, REASONS, Check, Residuals, limits_of
@@ -13,7 +24,7 @@ from .results import COLOURS, COUNTED, NOT_COUNTED, REASONS, Check, Residuals, l
 _BARS = 15
 _MOST_ROWS = 1000
 _STYLE = f"""
-{STYLE}blockquote {{ margin: 1em 0; padding: .4em 1em; border-left: 4px solid #888;
+{DRAWN}blockquote {{ margin: 1em 0; padding: .4em 1em; border-left: 4px solid #888;
   background: #f6f6f6; }}
 .doubt {{ padding: .4em 1em; border-left: 4px solid #b2182b; background: #fdecea; }}
 """
@@ -94,7 +105,7 @@ def _histogram(check: Check, found: Residuals) -> Html:
     ticks = [f"{share * limit:+g} m" for share in (-1.0, -0.5, 0.0, 0.5, 1.0)]
     return section(
         "How the differences are distributed",
-        histogram("Histogram of the differences", counts.tolist(), colours, ticks),
+        bars("Histogram of the differences", counts.tolist(), colours, ticks),
         paragraph(
             "Ground points minus checkpoints. The outermost bars hold what lies beyond them."
         ),
