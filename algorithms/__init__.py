@@ -58,6 +58,8 @@ if TYPE_CHECKING:
     from .tools.check.checkpoints import Checkpoints as Checkpoints
     from .tools.check.checkpoints import read_checkpoints as read_checkpoints
     from .tools.check.outputs import CheckOutputs as CheckOutputs
+    from .tools.compare_settings import compare_settings as compare_settings
+    from .tools.compare_settings.settings import TrialOptions as TrialOptions
     from .tools.contours import Contours as Contours
     from .tools.contours import write_contours as write_contours
     from .tools.heights import HeightOutput as HeightOutput
@@ -79,8 +81,6 @@ if TYPE_CHECKING:
     from .tools.water_classes import ClassifyWater as ClassifyWater
     from .tools.water_classes import WaterClasses as WaterClasses
     from .tools.water_classes import WaterPolygons as WaterPolygons
-    from .trial.comparing import compare_settings as compare_settings
-    from .trial.options import TrialOptions as TrialOptions
 
     above_ground: PointFunction
     heights: PointFunction
@@ -119,8 +119,8 @@ _MODULES = {
     "TerrainRequest": "runs.requests",
     "classify": "runs.entry",
     "terrain": "runs.entry",
-    "compare_settings": "trial.comparing",
-    "TrialOptions": "trial.options",
+    "compare_settings": "tools.compare_settings",
+    "TrialOptions": "tools.compare_settings.settings",
     "GridMinimum": "filters.grid_minimum",
     "SlopeFilter": "filters.slope",
     "TinDensification": "filters.tin",

@@ -65,7 +65,7 @@ def _assess(options: argparse.Namespace) -> int:
 
 def _add_compare_settings(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
-    from ..trial.options import TrialOptions
+    from ..tools.compare_settings.settings import TrialOptions
 
     add_inputs(parser)
     add_crs(parser)
@@ -79,8 +79,8 @@ def _add_compare_settings(parser: argparse.ArgumentParser, arguments: Sequence[s
 
 def _compare_settings(options: argparse.Namespace) -> int:
     from ..engine.memory import Resources
-    from ..trial.comparing import compare_settings
-    from ..trial.options import TrialOptions
+    from ..tools.compare_settings import compare_settings
+    from ..tools.compare_settings.settings import TrialOptions
 
     sets = chosen(options)
     what, resources = TrialOptions.among(sets), Resources.among(sets)

@@ -8,7 +8,7 @@ from qgis.core import QgsProcessingParameterExtent as Extent
 from qgis.core import QgsProcessingParameterFileDestination as File
 
 from ...algorithms.engine.memory import Resources
-from ...algorithms.trial.options import TrialOptions
+from ...algorithms.tools.compare_settings.settings import TrialOptions
 from ..i18n import tr
 from .area import area_of
 from .base import BareEarthAlgorithm, command_line
@@ -64,7 +64,7 @@ class CompareSettingsAlgorithm(BareEarthAlgorithm):
     def compute(self, parameters, context, progress):
         """Make the page."""
         # Imported here, so that QGIS starts faster.
-        from ...algorithms.trial.comparing import compare_settings
+        from ...algorithms.tools.compare_settings import compare_settings
 
         chosen = self.chosen(parameters, context)
         page = self.parameterAsFileOutput(parameters, "OUTPUT", context)

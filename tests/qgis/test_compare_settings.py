@@ -15,7 +15,7 @@ from qgis.core import (
 )
 from support import Log, write_scene
 
-from bare_earth.algorithms.trial.options import SETTINGS
+from bare_earth.algorithms.tools.compare_settings.settings import SETTINGS
 
 ALGORITHM = "bareearth:comparesettings"
 WINDOW = QgsRectangle(500_010, 5_700_010, 500_070, 5_700_070)

@@ -14,8 +14,9 @@ from test_assessment import Tags
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las.writing import write_classified
-from bare_earth.algorithms.trial.comparing import compare_settings
-from bare_earth.algorithms.trial.options import SETTINGS, TrialOptions
+from bare_earth.algorithms.steps.labelling import LabelGround
+from bare_earth.algorithms.tools.compare_settings import compare_settings
+from bare_earth.algorithms.tools.compare_settings.settings import SETTINGS, TrialOptions
 
 ORIGIN = (500_000.0, 5_700_000.0)
 SIDE = 120.0
@@ -181,12 +182,10 @@ def test_the_context_is_told_and_can_be_chosen(source, made, tmp_path):
 
 
 def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch):
-    from bare_earth.algorithms.trial import points as trial_points
-
     def none(*arguments):
         raise BareEarthError("No ground was found.")
 
-    monkeypatch.setattr(trial_points.LabelGround, "work", none)
+    monkeypatch.setattr(LabelGround, "work", none)
     heard = Heard()
     summary = compare_settings([source], tmp_path / "p.html", WINDOW, BOTH, progress=heard)
     assert [each["ground_count"] for each in summary.settings] == [0, 0]

@@ -4,23 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Iterable, Sequence
+from typing import Any, Iterable
 
-from ..core.errors import BareEarthError
-from ..core.files import replacing
-from ..core.points import Box, box_in_words
-from ..core.progress import SILENT, Progress
-from ..core.threads import may_use
-from ..engine.file_points import fits_in_memory
-from ..engine.memory import Resources
-from ..report.page import check_page
-from ..report.units import Units
-from .commands import commands_for
-from .options import USUAL_CONTEXT, TrialOptions
-from .page import TrialPage
-from .points import TrialPoints, read_trial_points
-from .profile import Profile, can_be_shown
-from .window import Outcome, figures_of, line_across
+from ...core.errors import BareEarthError
+from ...core.files import replacing
+from ...core.points import Box
+from ...core.progress import SILENT, Progress
+from ...core.threads import may_use
+from ...engine.file_points import fits_in_memory
+from ...engine.memory import Resources
+from ...report.page import check_page
+from ...report.units import Units
+from .page import comparison, figures_of
+from .profile import Profile, line_across, line_between
+from .settings import SETTINGS, USUAL_CONTEXT, TrialOptions
+from .window import read_points
 
 
 @dataclass(frozen=True)
@@ -32,16 +30,16 @@ class TrialSummary:
     point_count: int  # in the window
     window: Box  # in units of the CRS
     context: float  # metres that were read round the window
-    settings: list[dict[str, Any]]  # `Figures` and `Commands` of each setting
+    settings: list[dict[str, Any]]  # `Figures` of each setting
 
     def lines(self) -> list[str]:
         """Return the figures as lines of text for a terminal or a log."""
-        wide = max(len(each["name"]) for each in self.settings)
+        wide = max(len(one["name"]) for one in self.settings)
         return [
-            f"{each['name']:<{wide}}  {each['ground_share']:6.2f} % ground, confidence"
-            f" {each['confidence']:3.0f} %; {each['gained']:,} points more and {each['lost']:,}"
+            f"{one['name']:<{wide}}  {one['ground_share']:6.2f} % ground, confidence"
+            f" {one['confidence']:3.0f} %; {one['gained']:,} points more and {one['lost']:,}"
             " less ground than the first"
-            for each in self.settings
+            for one in self.settings
         ]
 
 
@@ -86,56 +84,38 @@ def compare_settings(
     Cancelled
         If the user asked to stop; no page is left behind.
     """
-    paths, page = [Path(each) for each in sources], Path(page)
+    paths, page = [Path(source) for source in sources], Path(page)
     check_page(page, tuple(paths))
-    settings, resources = options.chosen, resources.now()
-    reach = max(each.reach for each in settings)
+    settings, resources = [SETTINGS[name] for name in options.settings], resources.now()
+    reach = max(setting.method.reach(setting.parameters) for setting in settings)
     context = min(reach, USUAL_CONTEXT) if options.context is None else options.context
     with may_use(resources.thread_count):
-        points = read_trial_points(paths, extent, context, progress.part(0.0, 0.4), crs)
-        if not fits_in_memory(points.count, resources):
+        window = read_points(paths, extent, context, progress.part(0.0, 0.4), crs)
+        if not fits_in_memory(window.count, resources):
             raise BareEarthError(
-                f"The window and what lies round it have {points.count:,} points, more than fit"
+                f"The window and what lies round it have {window.count:,} points, more than fit"
                 " into the memory that may be used. Choose a smaller one."
             )
         parts = progress.part(0.4, 0.8).shares(*[1.0] * len(settings))
-        labelled = [
-            points.labelled(setting, resources, part, is_first=part is parts[0])
+        labels = [
+            window.labels(setting, resources, part, is_first=part is parts[0])
             for setting, part in zip(settings, parts)
         ]
-        outcomes = points.outcomes(labelled)
-        found = _page(paths, points, outcomes, options, (context, reach), crs)
-        html = found.html()
+        outcomes = window.outcomes(labels)
+        ends, first = options.profile, outcomes[0]
+        line = line_between(window, ends) if ends else line_across(window, outcomes)
+        figures = [
+            figures_of(window, outcome, first, outcome.setting.commands(paths, crs))
+            for outcome in outcomes
+        ]
+        notes, profile = _notes(window.units, context, reach), Profile(window, line, first)
+        html = comparison(paths, notes, window, outcomes, figures, profile)
     with replacing(page) as temporary:
         temporary.write_text(html, encoding="utf-8")
     progress(1.0)
-    told = [{**a._asdict(), **b._asdict()} for a, b in zip(found.figures, found.commands)]
-    counts = points.count, found.figures[0].point_count
-    return TrialSummary(str(page), *counts, points.box, context, told)
-
-
-def _page(
-    paths: Sequence[Path],
-    points: TrialPoints,
-    outcomes: Sequence[Outcome],
-    options: TrialOptions,
-    seen: tuple[float, float],
-    crs: str | None,
-) -> TrialPage:
-    """Return the page; `seen` is how far was read, and how far the methods look."""
-    window, first = points.window, outcomes[0]
-    line = points.line(options.profile) if options.profile else line_across(window, outcomes)
-    profile = Profile.of(window, line, can_be_shown(first.classes, points.withheld))
-    return TrialPage(
-        paths,
-        f"Window: {box_in_words(points.box)} ({window.size})",
-        _notes(window.units, *seen),
-        window,
-        outcomes,
-        [figures_of(window, each, first) for each in outcomes],
-        [commands_for(paths, each, crs) for each in options.chosen],
-        profile,
-    )
+    told = [one._asdict() for one in figures]
+    counts = window.count, figures[0].point_count
+    return TrialSummary(str(page), *counts, window.box, context, told)
 
 
 def _notes(units: Units, context: float, reach: float) -> list[str]:

@@ -1,0 +1,210 @@
+"""The page that compares settings on a window."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Sequence
+
+import numpy as np
+
+from ...core.points import box_in_words
+from ...grids.hillshade import hillshade
+from ...report.page import (
+    Html,
+    element,
+    key,
+    lines,
+    listed,
+    map_of,
+    maps,
+    page,
+    paragraph,
+    section,
+    table,
+)
+from ...report.pictures import Picture, Relief, rgb
+from ...report.units import percent
+from .profile import Profile
+from .window import Outcome, Window
+
+# These colours differ for colour-blind people and in print.
+_LOST, _GAINED = "#d1157f", "#1b62c4"
+_PROFILE = "#e06c00"
+_NO_TERRAIN = (236, 236, 236)
+_LONGEST_SIDE = 400
+
+_STYLE = """
+body { max-width: 1320px; }
+.maps { display: flex; flex-wrap: wrap; gap: 1em; align-items: flex-end; }
+.maps figure { flex: 1 1 280px; max-width: 500px; }
+td { white-space: nowrap; }
+figcaption { font-weight: 600; }
+svg { width: 100%; max-width: 976px; display: block; font-family: inherit; }
+svg image { image-rendering: pixelated; }
+pre { background: #f4f4f4; border: 1px solid #ddd; padding: .5em .8em; margin: .4em 0;
+      white-space: pre-wrap; overflow-wrap: anywhere; max-width: 960px; box-sizing: border-box; }
+h3 { margin: 1.6em 0 .3em; font-size: 1.05em; }
+"""
+
+
+class Figures(NamedTuple):
+    """Figures of a setting for the points and cells in the window, and what runs it on all."""
+
+    name: str
+    label: str
+    point_count: int
+    ground_count: int
+    ground_share: float  # percent
+    confidence: float  # mean, in percent
+    gained: int  # points that are ground, but not with the first setting
+    lost: int  # the reverse
+    # mean absolute, in metres, from the first setting; None without terrain
+    terrain_difference: float | None
+    shell: str  # the command line
+    qgis: str  # the call in the Python console of QGIS; empty if there is none
+
+
+def figures_of(
+    window: Window, outcome: Outcome, first: Outcome, commands: tuple[str, str]
+) -> Figures:
+    """Return the figures of a setting, compared with the first setting."""
+    ground, before = outcome.ground[window.inside], first.ground[window.inside]
+    apart = np.abs(outcome.terrain - first.terrain)
+    apart = apart[np.isfinite(apart)]
+    ground_count = int(np.count_nonzero(ground))
+    return Figures(
+        outcome.setting.name,
+        outcome.setting.label,
+        len(ground),
+        ground_count,
+        100.0 * ground_count / len(ground),
+        100.0 * outcome.confidence,
+        int(np.count_nonzero(ground & ~before)),
+        int(np.count_nonzero(before & ~ground)),
+        float(apart.mean()) if apart.size else None,
+        *commands,
+    )
+
+
+def comparison(
+    sources: Sequence[object],
+    notes: Sequence[str],  # that help to judge the pictures
+    window: Window,
+    outcomes: Sequence[Outcome],
+    figures: Sequence[Figures],
+    profile: Profile,
+) -> str:
+    """Return the page."""
+    label, cell = outcomes[0].setting.label, window.units.length(window.cell_size)
+    where = f"Window: {box_in_words(window.box)} ({_size(window)})"
+    parts = [
+        lines(*sources, where, kind="files"),
+        listed(notes),
+        *_table(window, figures),
+        section(
+            "Terrain",
+            maps(_terrain(window, outcome, profile) for outcome in outcomes),
+            paragraph(
+                "Hillshade of the terrain, lit from north-west; north is up, a pixel is"
+                f" {cell} wide. Light grey: no terrain.",
+                key(_PROFILE, "where the profile lies"),
+            ),
+        ),
+        section(
+            f"Differences from {label}",
+            maps(_differences(window, outcomes)),
+            paragraph(
+                key(_GAINED, "ground here, but not with the first setting"),
+                key(_LOST, "ground with the first setting, but not here"),
+            ),
+            paragraph(
+                "Grey is the relief of the highest points, all that stands on the ground"
+                " included. A pixel takes the colour of its more frequent difference, the"
+                " stronger the more of its points differ."
+            ),
+        ),
+        section(
+            "Profiles, and how to run each setting on all points",
+            paragraph(_about_profile(window, profile)),
+            *(_profile(profile, *both) for both in zip(outcomes, figures)),
+        ),
+    ]
+    return page("Settings compared on a window", parts, _STYLE)
+
+
+def _size(window: Window) -> str:
+    """Return the size of the window in the unit of the survey, and in metres."""
+    (width, height), unit = window.sides, window.units.horizontal
+    metric = f"{width:.0f} x {height:.0f} m"
+    if unit == 1.0:
+        return metric
+    return f"{width / unit:.0f} x {height / unit:.0f} {window.units.across}, {metric}"
+
+
+def _table(window: Window, figures: Sequence[Figures]) -> tuple[Html, Html]:
+    rows = []
+    for number, one in enumerate(figures):
+        differences = ["first"] * 3
+        if number:
+            differences = [
+                f"{count:,} ({percent(100.0 * count / one.point_count)})"
+                for count in (one.gained, one.lost)
+            ]
+            apart = one.terrain_difference
+            differences.append("none" if apart is None else window.units.height(apart))
+        confidence = f"{one.confidence:.0f} %"
+        rows.append((one.label, percent(one.ground_share), confidence, *differences))
+    head = (
+        "Setting", "Ground", "Confidence", "More ground", "Less ground", "Terrain differs by",
+    )  # fmt: skip
+    return table(rows, head, "lrrrrr", is_named=True), paragraph(
+        f"Of the {figures[0].point_count:,} points in the window. Ground: their share that"
+        " is ground. Confidence: the mean probability that the terrain is right, as each"
+        " setting's own points tell it. More, less ground: points that are ground here but not"
+        " with the first setting, and the reverse. Terrain differs by: the mean of the absolute"
+        " differences in height."
+    )
+
+
+def _terrain(window: Window, outcome: Outcome, profile: Profile) -> Html:
+    lit = np.maximum(hillshade(outcome.terrain, window.cell_size), 1)
+    pixels = np.repeat(lit[..., None], 3, axis=2)
+    pixels[np.isnan(outcome.terrain)] = _NO_TERRAIN
+    _, row, column = profile.cells()
+    pixels[row, column] = rgb(_PROFILE)
+    picture = Picture(pixels, window.cell_size)
+    return map_of(picture, outcome.setting.label, units=window.units)
+
+
+def _differences(window: Window, outcomes: Sequence[Outcome]) -> list[Html]:
+    relief = Relief.of(window.points.take(window.inside), _LONGEST_SIDE)
+    pictures, before = [], outcomes[0].ground[window.inside]
+    for number, outcome in enumerate(outcomes):
+        ground = outcome.ground[window.inside]
+        picture = relief.marked(ground & ~before, before & ~ground, (_GAINED, _LOST))
+        label = outcome.setting.label if number else "The highest points"
+        pictures.append(map_of(picture, label, units=window.units))
+    return pictures
+
+
+def _profile(profile: Profile, outcome: Outcome, figures: Figures) -> Html:
+    parts = [
+        element("h3", outcome.setting.label),
+        profile.svg(outcome),
+        paragraph(profile.key(outcome)),
+        element("pre", figures.shell),
+        element("pre", figures.qgis) if figures.qgis else "",
+    ]
+    return Html("\n".join(parts))
+
+
+def _about_profile(window: Window, profile: Profile) -> str:
+    units, more = window.units, profile.exaggeration
+    strip = units.length(float(f"{2.0 * profile.strip:.2g}"), 2)
+    (x0, y0), (x1, y1) = ((x / units.horizontal, y / units.horizontal) for x, y in profile.line)
+    unit = units.across
+    return (
+        f"The profile runs from {x0:.0f} {unit} east and {y0:.0f} {unit} north of the lower"
+        f" left corner of the window to {x1:.0f} {unit} east and {y1:.0f} {unit} north of it,"
+        f" and shows the points of a strip {strip} wide by class, but for noise. Heights are"
+        f" drawn {more:.2g} times as large as lengths."
+    )

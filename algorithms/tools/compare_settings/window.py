@@ -1,0 +1,222 @@
+"""The points in a window of a survey, which are read once, and what settings make of them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple, Sequence
+
+import numpy as np
+
+from ...core.errors import BareEarthError
+from ...core.points import Box, Points, box_in_words
+from ...core.progress import Progress
+from ...core.threads import in_threads
+from ...crs.measurable import require_measurable
+from ...crs.system import Crs
+from ...engine.memory import Resources
+from ...engine.memory_store import MemoryStore
+from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+from ...las.cloud import PointCloud, survey_frame
+from ...las.crs_records import read_crs
+from ...las.lasfile import LasFile
+from ...las.opening import open_las
+from ...grids.confidence import confidence
+from ...report.units import Units
+from ...steps.labelling import LabelGround
+from ...survey.area import Area
+from ...survey.files import is_one_file, open_survey
+from ...survey.middle import middle_window, nearest_window
+from ...survey.window import may_touch, read_window
+from .settings import Setting
+
+# Metres. A wider window would take long.
+_WIDEST = 1000.0
+# Greatest number of cells along the longer side of the terrain, and the sides in metres that cells
+# can have below one metre. Larger cells have whole metres.
+_MOST_CELLS = 300
+_CELL_SIZES = (0.25, 0.5)
+# Distance in metres up to which points around the window are used for the confidence.
+_NEAR = 20.0
+
+
+class Labels(NamedTuple):
+    """The points as classified with a setting."""
+
+    setting: Setting
+    classes: np.ndarray  # uint8, (n,)
+    ground: np.ndarray  # bool, (n,)
+    selected: np.ndarray  # bool, (n,): which points took part
+
+
+class Outcome(NamedTuple):
+    """The result of a setting."""
+
+    setting: Setting
+    classes: np.ndarray  # uint8, (n,)
+    ground: np.ndarray  # bool, (n,)
+    terrain: np.ndarray  # float64, (rows, columns): metres, from north to south; NaN for none
+    confidence: float  # mean probability in the window that the terrain is right, 0 to 1
+
+
+@dataclass(frozen=True)
+class Window:
+    """The points in and round a window."""
+
+    clouds: tuple[PointCloud, ...]  # the points of each file that has any
+    crs: Crs
+    box: Box  # the window, in units of the CRS
+
+    @property
+    def count(self) -> int:
+        """Number of points."""
+        return sum(cloud.count for cloud in self.clouds)
+
+    @property
+    def units(self) -> Units:
+        """The units of the survey."""
+        return Units(self.crs.horizontal_unit, self.crs.vertical_unit)
+
+    @cached_property
+    def sides(self) -> tuple[float, float]:
+        """Width and height in metres."""
+        west, south, east, north = (each * self.crs.horizontal_unit for each in self.box)
+        return east - west, north - south
+
+    @cached_property
+    def points(self) -> Points:
+        """The points in metres from the lower left corner of the window."""
+        corner = (self.box[0] * self.crs.horizontal_unit, self.box[1] * self.crs.horizontal_unit)
+        frame = survey_frame(self.crs).moved(corner)
+        parts = [cloud.points(slice(None), frame) for cloud in self.clouds]
+        return Points(*map(np.concatenate, zip(*parts)))
+
+    @cached_property
+    def inside(self) -> np.ndarray:
+        """Which points lie in the window; bool, (n,)."""
+        return np.concatenate([Area(self.box).of(cloud) for cloud in self.clouds])
+
+    @property
+    def cell_size(self) -> float:
+        """Side of a cell of the terrain in metres."""
+        least = max(self.sides) / _MOST_CELLS
+        return next((size for size in _CELL_SIZES if size >= least), float(math.ceil(least)))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the terrain."""
+        width, height = self.sides
+        return math.ceil(height / self.cell_size), math.ceil(width / self.cell_size)
+
+    def labels(
+        self, setting: Setting, resources: Resources, progress: Progress, is_first: bool
+    ) -> Labels:
+        """Classify the points with a setting, and warn if there is no ground; messages that all
+        settings have in common are only reported for the first.
+        """
+        step = LabelGround(setting.parameters)
+        counts = step.counts()
+        marks = [step.marks(cloud, counts) for cloud in self.clouds]
+        step.tell(counts, self.clouds[0].path, progress if is_first else progress.quiet())
+        progress.info(f"{setting.label}:")
+        store = MemoryStore(survey_frame(self.crs), step.blocks, step.kind)
+        for cloud, its_marks in zip(self.clouds, marks):
+            store.append(cloud, its_marks)
+        store.finish(progress.part(0.0, 0.1))
+        try:
+            step.work(store, resources, progress.part(0.1, 1.0))
+        except BareEarthError as error:
+            progress.warning(f"{setting.label}: {error}")
+        found = [step.applied(cloud, store.values(n)) for n, cloud in enumerate(self.clouds)]
+        classes = np.concatenate([cloud.classification for cloud in found])
+        selected = np.concatenate([its_marks.selected for its_marks in marks])
+        return Labels(setting, classes, classes == step.selection.to_class, selected)
+
+    def outcomes(self, labels: Sequence[Labels]) -> list[Outcome]:
+        """Return the results of settings, several of which run at the same time."""
+        points = self.points
+
+        def outcome(labels: Labels) -> Outcome:
+            setting, classes, ground, selected = labels
+            sure = self._confidence(points, ground, selected)
+            return Outcome(setting, classes, ground, self._terrain(points, ground), sure)
+
+        return in_threads(outcome, labels)
+
+    def _terrain(self, points: Points, ground: np.ndarray) -> np.ndarray:
+        """Return the heights of the terrain, from north to south."""
+        if not ground.any():
+            return np.full(self.shape, np.nan)
+        # One vertex a cell is enough for a picture, and faster than the four of a terrain model.
+        surface = DenseSurface(points.take(ground), VERTICES_A_SIDE * self.cell_size)
+        y, x = ((np.arange(count) + 0.5) * self.cell_size for count in self.shape)
+        heights = surface.heights(np.tile(x, len(y)), np.repeat(y, len(x)))
+        return heights.reshape(self.shape)[::-1]
+
+    def _confidence(self, points: Points, ground: np.ndarray, selected: np.ndarray) -> float:
+        """Return the mean confidence of the cells of 1 m in the window."""
+        (x, y, _), (width, height) = points, self.sides
+        near = (x >= -_NEAR) & (y >= -_NEAR) & (x <= width + _NEAR) & (y <= height + _NEAR)
+        near &= selected
+        cells, values = confidence(points.take(near), ground[near])
+        rows, columns = (
+            slice(max(-first, 0), max(math.ceil(side / cells.size) - first, 0))
+            for first, side in zip(cells.first, (height, width))
+        )
+        inside = values[rows, columns]
+        return float(inside.mean()) if inside.size else 0.0
+
+
+def read_points(
+    paths: Sequence[Path], box: Box | None, context: float, progress: Progress, stated: str | None
+) -> Window:
+    """Read the points in a window, in units of the CRS, or in the middle of the survey, which a
+    message tells, and in `context` metres round it.
+    """
+    # An error says if the window is invalid, too wide or empty.
+    area, reading = None if box is None else Area(tuple(map(float, box))), progress
+    if is_one_file(paths):
+        las = open_las(paths[0], stated)
+        files, crs, extent = [las], read_crs(las), las.box
+    else:
+        survey = open_survey(paths, progress=progress.part(0.0, 0.1), stated=stated)
+        files, crs, extent = survey.tiles, survey.crs, survey.box
+        reading = progress.quiet()  # the messages were given
+    require_measurable("The survey", crs, extent)
+    wanted, unit = area, crs.horizontal_unit
+    area = area or Area(middle_window(files, unit))
+    window = _read(files, crs, area, context / unit, reading.part(0.1, 1.0 if wanted else 0.8))
+    where = "in the middle of the points"
+    if wanted is None and not (window.count and window.inside.any()):
+        where = "round the point that is nearest to the middle"
+        area = Area(nearest_window(files, unit, progress.part(0.8, 0.9)))
+        window = _read(files, crs, area, context / unit, progress.quiet().part(0.9, 1.0))
+    if wanted is None:
+        progress.choice(f"window {where}, {box_in_words(area.box)}")
+    if not (window.count and window.inside.any()):
+        raise BareEarthError(
+            f"No point lies in the window ({box_in_words(area.box)}): the points lie in"
+            f" {box_in_words(extent)}. Give the window in the CRS of the points."
+        )
+    return window
+
+
+def _read(
+    files: Sequence[LasFile], crs: Crs, area: Area, context: float, progress: Progress
+) -> Window:
+    """Return the points in the area and round it, up to a distance in units of the CRS."""
+    west, south, east, north = area.box
+    widest = max(east - west, north - south) * crs.horizontal_unit
+    if widest > _WIDEST:
+        raise BareEarthError(
+            f"The window is {widest:,.0f} m wide. Choose one of at most {_WIDEST:,.0f} m, such as"
+            " 250 x 250 m: in QGIS, zoom in."
+        )
+    box = area.buffered_box(context)
+    if len(files) > 1:  # a survey, whose headers are right
+        files = [file for file in files if may_touch(file, box)]
+    parts = progress.shares(*[1.0] * len(files))
+    clouds = [read_window(las, box, part) for las, part in zip(files, parts)]
+    return Window(tuple(cloud for cloud in clouds if cloud.count), crs, area.box)

@@ -1,1 +1,0 @@
-"""Compares settings of the filters in a window of a survey."""
