@@ -18,12 +18,12 @@ from ...crs.measurable import require_measurable
 from ...crs.system import Crs
 from ...engine.memory import Resources
 from ...engine.memory_store import MemoryStore
+from ...grids.confidence import confidence
 from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ...las.cloud import PointCloud, survey_frame
 from ...las.crs_records import read_crs
 from ...las.lasfile import LasFile
 from ...las.opening import open_las
-from ...grids.confidence import confidence
 from ...report.units import Units
 from ...steps.labelling import LabelGround
 from ...survey.area import Area
