@@ -8,7 +8,7 @@ import numpy as np
 
 from ...grids.morphology import closing, dilation
 from ...survey.area import Area, Polygon
-from .grid import WaterGrid
+from .grid import WaterGrid, Window, regions_of
 
 # Cells this near to a deck, in metres and at least in cells, have few returns from the water.
 _EDGE, _EDGE_CELLS = 2.0, 1.5
@@ -29,22 +29,17 @@ def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
     """
     # Only the cells of a deck and of its edges change, so that the land on both sides of a river
     # stays. A deck without water on both sides has none below it.
-    from scipy.ndimage import distance_transform_edt, find_objects, label
+    from scipy.ndimage import distance_transform_edt
 
     below = np.zeros(grid.shape, dtype=bool)
-    if grid.decks is None:
-        return below
     edge = max(_EDGE / grid.cell, _EDGE_CELLS)
     most = _MOST_HALF / grid.cell + edge
     # A disc that lies beyond the window touches no water that matters.
     reach = int(2.0 * _RADIUS * most) + 1
-    labels, _ = label(dilation(grid.decks, edge))
-    for number, box in enumerate(find_objects(labels), start=1):
-        window = tuple(slice(max(side.start - reach, 0), side.stop + reach) for side in box)
-        seen = water[window]
+    for window, widened in regions_of(dilation(grid.decks, edge), reach=reach):
+        seen, deck = water[window], grid.decks[window] & widened
         if not seen.any():
             continue
-        deck = grid.decks[window] & (labels[window] == number)
         land = np.isfinite(grid.ground[window]) & ~deck
         hiding = dilation(deck, edge) & ~land & ~seen
         half = float(distance_transform_edt(np.pad(hiding, 1)).max())
@@ -60,42 +55,36 @@ def _across(seen: np.ndarray, joined: np.ndarray, hiding: np.ndarray, most: floa
     from scipy.ndimage import label
     from scipy.spatial import Delaunay, cKDTree
 
-    found = np.zeros_like(hiding)
+    between = np.zeros_like(hiding)
     labels, _ = label(seen | joined, np.ones((3, 3)))
     beside = np.where(seen & dilation(hiding, _BESIDE), labels, 0)
-    pieces = [np.argwhere(beside == name) for name in np.unique(beside[beside > 0])]
+    pieces = [np.argwhere(beside == number) for number in np.unique(beside[beside > 0])]
     cells = np.argwhere(hiding)
-    for one, other in itertools.combinations(pieces, 2):
-        far = cKDTree(other).query(one)[0]
-        back = cKDTree(one).query(other)[0]
-        if far.min() > most:
-            continue
-        ends = np.concatenate(
-            [each[away <= _STRAIGHT * far.min()] for each, away in ((one, far), (other, back))]
-        )
-        corners = (ends[:, None] + _CORNERS).reshape(-1, 2)
-        inside = cells[Delaunay(corners).find_simplex(cells) >= 0]
-        found[inside[:, 0], inside[:, 1]] = True
-    return found
+    for pair in itertools.combinations(pieces, 2):
+        away = [cKDTree(pair[1 - side]).query(pair[side])[0] for side in (0, 1)]
+        nearest = away[0].min()
+        if nearest <= most:
+            ends = np.concatenate(
+                [piece[far <= _STRAIGHT * nearest] for piece, far in zip(pair, away)]
+            )
+            corners = (ends[:, None] + _CORNERS).reshape(-1, 2)
+            between[tuple(cells[Delaunay(corners).find_simplex(cells) >= 0].T)] = True
+    return between
 
 
 def decks_without_water(grid: WaterGrid, polygons: tuple[Polygon, ...]) -> int:
     """Return how many decks have no cell in any polygon of water, in the frame of the grid."""
     from scipy.ndimage import label
 
-    if grid.decks is None:
-        return 0
     labels, count = label(dilation(grid.decks, max(_EDGE / grid.cell, _EDGE_CELLS)))
-    if not polygons:
+    if not (count and polygons):
         return int(count)
     rows, columns = np.nonzero(labels)
-    x, y = ((at + 0.5) * grid.cell for at in (columns + grid.column, rows + grid.row))
+    x, y = (columns + grid.column + 0.5) * grid.cell, (rows + grid.row + 0.5) * grid.cell
     wet = Area(None, polygons).contains(x, y)
     return int(count) - len(np.unique(labels[rows[wet], columns[wet]]))
 
 
-def beside_decks(grid: WaterGrid, rows: slice, columns: slice) -> np.ndarray:
+def beside_decks(grid: WaterGrid, window: Window) -> np.ndarray:
     """Return the cells of a window whose ground may be that of an abutment."""
-    if grid.decks is None:
-        return np.zeros(grid.shape, dtype=bool)[rows, columns]
-    return dilation(grid.decks[rows, columns], max(_ABUTMENT / grid.cell, _ABUTMENT_CELLS))
+    return dilation(grid.decks[window], max(_ABUTMENT / grid.cell, _ABUTMENT_CELLS))

@@ -19,9 +19,8 @@ from ...survey.feature_files import Feature, Layer, check_features, feature_writ
 from ...survey.ground_classes import GroundClasses
 from ...survey.kept_classes import NOISE, is_one_of
 from ..rasters.constraints import Constraints
-from .body import GRADES, WaterBody
 from .bridges import decks_without_water
-from .finding import Water, find_water
+from .finding import GRADES, Water, WaterBody, find_water
 from .grid import WaterGrid, cell_for
 
 # The classes of water and of the decks of bridges in the LAS specification.
@@ -136,7 +135,7 @@ class SurveyWater:
         grades = [each.grade for each in self.bodies]
         return WaterSummary(
             kinds.count("lake"), kinds.count("river"), sum(each.area for each in self.bodies),
-            {name: grades.count(name) for _, name in GRADES if name in grades}, self.cell,
+            {name: grades.count(name) for name in GRADES if name in grades}, self.cell,
             self.how.min_area, self.how.min_width,
         )  # fmt: skip
 

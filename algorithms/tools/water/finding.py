@@ -9,21 +9,20 @@ spread as a measure of quality, are those of r.hydro.flatten of GRASS.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Callable, Iterator, NamedTuple
+from typing import Iterator, NamedTuple
 
 import numpy as np
 
 from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
+from ...grids.isolines import Isolines
+from ...grids.lines import along
 from ...grids.morphology import closing, dilation, erosion
 from ..rasters.constraints import STATION
-from .body import WaterBody, divided, rings_of
 from .bridges import below_decks, beside_decks
-from .extent import surveyed
-from .grid import WaterGrid
-from .levels import Levels, Shore, lake_level, margin, river_level, shore_of, surface_of
-from .steps import STEP, parts_of_step
-from .surfaces import level_surfaces
+from .grid import WaterGrid, Window, regions_of
+from .level_areas import level_areas
+from .levels import MARGIN, STEP, Levels, Shore, levels_of, parts_of_step, shore_of, surface_of
 
 # Radius in cells of the disc that closes single stray cells, and of that which cuts thin links.
 _CLOSE, _OPEN = 1.5, 1.5
@@ -39,9 +38,6 @@ _MOST_SPREAD, _SPREAD_A_METRE = 0.3, 0.12
 # Share of the shore from which the land rises if it is one of banks: in few points, twice that
 # spread is that of the places along the bank where these happen to lie.
 _RISING_FROM_BANKS = 0.8
-# A river falls by so many metres, is so many times as long as wide, and its shore fits a falling
-# level so much better than one level.
-_FALL, _ELONGATED, _BETTER = 0.15, 3.0, 0.8
 # Least share of the shore with ground, and of its segments from which the land rises by so much.
 _LEAST_KNOWN, _LEAST_RISING, _RISE = 0.2, 0.6, 0.05
 # The same share where a region goes on beyond the survey: its border on flat land is level, too.
@@ -59,6 +55,8 @@ _LEAST_PART = 0.1
 # Most certainty where a part of the shore is farther from the level than the spread of water, or
 # the whole shore has such a spread, in metres.
 _MOST_MISFITTING, _CERTAIN_SPREAD = 0.7, 0.25
+# Least certainty of each grade.
+GRADES = {"certain": 0.75, "likely": 0.5, "doubtful": 0.0}
 
 
 @dataclass(frozen=True)
@@ -97,16 +95,38 @@ class Water(ParameterSet):
     )
 
 
-class _Region(NamedTuple):
-    """Connected cells, with a margin."""
+class WaterBody(NamedTuple):
+    """A lake, or a part of a river, in metres; what is not known is NaN."""
 
+    kind: str  # "lake" or "river"
+    rings: tuple[np.ndarray, ...]  # float64, (n, 3): shore and islands, closed, with their level
+    # float64, (m, 3): middle of each branch of a river, downstream, with its level
+    lines: tuple[np.ndarray, ...]
+    level: float  # of a river, at its upper end
+    lowest: float  # of a river, the level at its lower end
+    spread: float  # robust standard deviation of the shore from the level
+    certainty: float  # 0 to 1
+    area: float  # square metres
+    width: float  # mean
+    class_share: float  # of cells with mostly points of class 9
+    filled: float  # number of last returns relative to land
+
+    @property
+    def grade(self) -> str:
+        """The grade of certainty: certain, likely or doubtful; given if it was not found."""
+        grades = (name for name, least in GRADES.items() if self.certainty >= least)
+        return next(grades, "given")
+
+
+class _Region(NamedTuple):
+    """Connected cells in a window with a margin; bool."""
+
+    window: Window
     water: np.ndarray
-    below: np.ndarray  # those below decks of bridges
+    below: np.ndarray  # cells of it below decks of bridges
     outside: np.ndarray  # those beyond the points of the survey
     level: np.ndarray  # those of dead-level surfaces full of returns
-    rows: slice
-    columns: slice
-    other: np.ndarray | None = None  # cells of water with another level, and those beside it
+    beside: np.ndarray  # cells of water with another level, and those beside it
 
     @property
     def open(self) -> np.ndarray:
@@ -122,291 +142,208 @@ class _Marks(NamedTuple):
     rising: float  # share of the shore from which the land rises
 
 
-_Measure = Callable[[_Region, WaterGrid], "_Marks | None"]
-
-
 def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list[WaterBody]:
     """Return the water of a survey, from north to south."""
-    usual, outside = grid.usual(), ~surveyed(grid.counts > 0)
-    covered = np.zeros(grid.shape, dtype=bool)
+    search = _Search(grid, how)
+    none, covered = (np.zeros(grid.shape, dtype=bool) for _ in range(2))
+    first, second = progress.shares(1.0, 1.0)
     found: list[WaterBody] = []
+    for region in search.regions(none, covered, first):
+        found += search.bodies_in(region, covered)
     # Level surfaces full of returns are water only where there is none by its voids and shore.
-    for number in range(2):
-        level = np.zeros(grid.shape, dtype=bool)
-        if number:
-            level = level_surfaces(grid, outside, how.min_area / grid.cell**2) & ~covered
-            if not level.any():
-                break
-        part = progress.part(number / 2.0, (number + 1) / 2.0)
-        for region in _regions(grid, how, outside, level, covered, part):
-            if number and not region.level.any():
+    level = level_areas(grid, search.outside, search.least) & ~covered
+    if level.any():
+        for region in search.regions(level, covered, second):
+            if region.level.any():
+                found += search.bodies_in(region, covered)
+    return sorted(found, key=lambda body: (-body.rings[0][:, 1].max(), body.rings[0][:, 0].min()))
+
+
+class _Search:
+    """The search for water in a grid."""
+
+    def __init__(self, grid: WaterGrid, how: Water) -> None:
+        self.grid, self.how = grid, how
+        self.usual, self.outside = grid.usual(), ~grid.surveyed()
+        self.least = how.min_area / grid.cell**2  # cells
+
+    def regions(
+        self, level: np.ndarray, covered: np.ndarray, progress: Progress
+    ) -> Iterator[_Region]:
+        """Yield the connected regions that are large enough, without those that are covered."""
+        cells = _without_links(closing(self.grid.candidates() | level, _CLOSE) & ~covered)
+        below = below_decks(cells, self.grid)
+        for window, water in regions_of(cells | below, self.least, MARGIN, progress):
+            water = self._with_small_islands(water)
+            under, beyond, flat = (water & part[window] for part in (below, self.outside, level))
+            yield _Region(window, water, under, beyond, flat, np.zeros_like(water))
+
+    def _with_small_islands(self, water: np.ndarray) -> np.ndarray:
+        from scipy.ndimage import label
+
+        land, count = label(np.pad(~water, 1, constant_values=True), np.ones((3, 3)))
+        small = np.bincount(land.ravel(), minlength=count + 1) * self.grid.cell**2 < _LEAST_ISLAND
+        small[land[0, 0]] = False
+        return water | small[land[1:-1, 1:-1]]
+
+    def bodies_in(self, region: _Region, covered: np.ndarray) -> list[WaterBody]:
+        """Return the water of a region, perhaps without what no point shows; it is then covered."""
+        bodies = self._bodies_of(region)
+        for unseen in (region.outside, region.below, region.outside | region.below):
+            if bodies or not unseen.any():
                 continue
-            bodies = _water_of(region, grid, usual, how)
+            for _, cells in regions_of(_without_links(region.water & ~unseen), self.least):
+                below, outside = region.below & cells, region.outside & cells
+                part = region._replace(water=cells, below=below, outside=outside)
+                bodies += self._bodies_of(part)
+        if bodies:
+            covered[region.window] |= region.water
+        return bodies
+
+    def _bodies_of(self, region: _Region) -> list[WaterBody]:
+        """Return a region as water; if it is something else, its parts of class 9."""
+        if not region.open.any():
+            return []
+        is_class = region.water & self.grid.class_in(region.window)
+        if (is_class | region.level)[region.open].mean() < _CLASSIFIED:
+            bodies = self._parts_of(region, is_shore=True)
             if bodies:
-                covered[region.rows, region.columns] |= region.water
-            found += bodies
-    return sorted(found, key=lambda each: (-each.rings[0][:, 1].max(), each.rings[0][:, 0].min()))
+                return bodies
+        classified = closing(is_class, _CLOSE_CLASS) | region.level | region.below
+        bodies = []
+        for _, part in regions_of(classified, self.least):
+            cells = self._with_small_islands(part)
+            part_of = region._replace(water=cells, below=cells & region.below)
+            bodies += self._parts_of(part_of, is_shore=False)
+        return bodies
 
+    def _marks_of(self, region: _Region, is_shore: bool) -> _Marks | None:
+        """Return what tells the level of a region: its shore, None if that is not one of water; or
+        its points, of class 9 or a level surface.
+        """
+        grid, window = self.grid, region.window
+        is_class = grid.class_in(window)
+        share = float(is_class[region.open].mean()) if region.open.any() else 0.0
+        if not is_shore:
+            cells = region.water & (is_class | region.level)
+            return _Marks(surface_of(cells, grid.lowest[window], grid.cell), share, 1.0)
+        hidden = beside_decks(grid, window) | region.beside
+        shore = shore_of(region.water, grid.ground[window], grid.cell, hidden)
+        if shore is None or shore.known < _LEAST_KNOWN:
+            return None
+        known = shore.rises[~np.isnan(shore.rises)]
+        rising = float((known > _RISE).mean()) if len(known) else 0.0
+        least = _LEAST_RISING_OUTSIDE if region.outside.any() else _LEAST_RISING
+        return _Marks(shore, share, rising) if rising >= least else None
 
-def _water_of(region: _Region, grid: WaterGrid, usual: np.ndarray, how: Water) -> list[WaterBody]:
-    """Return the water of a region, perhaps without what no point shows."""
-    bodies = list(_bodies_of(region, grid, usual, how))
-    for unseen in (region.outside, region.below, region.outside | region.below):
-        if bodies or not unseen.any():
-            continue
-        seen = _without_links(region.water & ~unseen)
-        for part in _labelled(seen, how.min_area / grid.cell**2):
-            alone = region._replace(
-                water=part, below=region.below & part, outside=region.outside & part
-            )
-            bodies += _bodies_of(alone, grid, usual, how)
-    return bodies
+    def _parts_of(self, region: _Region, is_shore: bool) -> list[WaterBody]:
+        """Return a region as water, or what it falls into at steps of its level."""
+        grid = self.grid
+        marks = self._marks_of(region, is_shore)
+        if marks is None or len(marks.shore.lowest) < _FEWEST:
+            return []
+        banks = marks.rising >= _RISING_FROM_BANKS and not region.outside.any()
+        most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell)
+        most *= 1.0 + (marks.share >= _CLASSIFIED or banks)
+        surface = _inner_returns(region.open, grid.lowest[region.window])
+        levels = levels_of(region.water, marks.shore, surface, most)
+        parts = parts_of_step(region.water, levels, grid.ground[region.window])
+        if len(parts) == 1:
+            # The water goes round a step, where its level is that of neither side.
+            levels = levels._replace(misfit=max(levels.misfit, STEP))
+        elif parts:
+            bodies = []
+            for cells, beside in parts:
+                if np.count_nonzero(cells) >= _LEAST_PART * self.least:
+                    part = region._replace(
+                        water=cells, below=region.below & cells, beside=region.beside | beside
+                    )
+                    bodies += self._parts_of(part, is_shore)
+            if bodies:
+                return bodies
+        is_river = levels.reaches is not None
+        is_narrow = is_river and levels.width * grid.cell < self.how.min_width
+        if levels.spread > most or is_narrow or not _is_free(surface, levels):
+            return []
+        return [self._body_of(region, marks, levels)]
 
+    def _body_of(self, region: _Region, marks: _Marks, levels: Levels) -> WaterBody:
+        """Return a region as water with its figures."""
+        grid, cell = self.grid, self.grid.cell
+        # The last returns, relative to those of as much land.
+        expected = grid.by_cell(self.usual, region.window)[region.open].sum()
+        count = grid.counts[region.window][region.open].sum()
+        filled = float(min(count / max(expected, 1e-9), 1.0))
+        fits = max(1.0 - levels.spread / (2.0 * _MOST_SPREAD), 0.0)
+        certainty = float(max(1.0 - filled, marks.share) * fits * marks.rising) ** (1.0 / 3.0)
+        is_misfit = levels.misfit > _MOST_SPREAD or levels.spread > _CERTAIN_SPREAD
+        # A field can be as even, and lie as low.
+        is_level = (region.water & region.level).mean() > 0.5 * region.water.mean()
+        if is_misfit or (marks.share < _CLASSIFIED and is_level):
+            certainty = min(certainty, _MOST_MISFITTING)
+        rings = _rings_of(region.water)
+        if levels.reaches is not None:
+            # The level also changes between the corners.
+            rings = [along(ring, STATION / cell) for ring in rings]
+        rings = [np.column_stack((ring[:, :2], levels.at(ring[:, :2]))) for ring in rings]
+        rows, columns = region.window
+        start = columns.start + grid.column, rows.start + grid.row
 
-def _regions(
-    grid: WaterGrid,
-    how: Water,
-    outside: np.ndarray,
-    level: np.ndarray,
-    covered: np.ndarray,
-    progress: Progress,
-) -> Iterator[_Region]:
-    """Yield the connected regions that are large enough, without those that are covered."""
-    from scipy.ndimage import find_objects, label
+        def placed(line: np.ndarray) -> np.ndarray:
+            """Return x, y and level of row, column and level."""
+            return np.column_stack(((line[:, 1::-1] + start + 0.5) * cell, line[:, 2]))
 
-    cells = _without_links(closing(grid.candidates() | level, _CLOSE) & ~covered)
-    below = below_decks(cells, grid)
-    cells |= below
-    labels, _ = label(cells)
-    sizes = np.bincount(labels.ravel())
-    reach, least = margin(), how.min_area / grid.cell**2
-    boxes = find_objects(labels)
-    for number, box in enumerate(boxes, start=1):
-        progress(number / len(boxes))
-        if sizes[number] < least:
-            continue
-        rows, columns = (
-            slice(max(each.start - reach, 0), min(each.stop + reach, side))
-            for each, side in zip(box, grid.shape)
-        )
-        water = labels[rows, columns] == number
-        water = _with_small_islands(water, grid.cell)
-        below_deck, beyond, is_level = (
-            water & each[rows, columns] for each in (below, outside, level)
-        )
-        yield _Region(water, below_deck, beyond, is_level, rows, columns)
+        return WaterBody(
+            "lake" if levels.reaches is None else "river",
+            tuple(map(placed, rings)), tuple(map(placed, levels.lines())),
+            float(levels.heights.max()), float(levels.heights.min()), levels.spread, certainty,
+            float(region.water.sum()) * cell**2, levels.width * cell, marks.share, filled,
+        )  # fmt: skip
 
 
 def _without_links(cells: np.ndarray) -> np.ndarray:
     """Return cells without thin links."""
     # Cells beyond the survey must not eat its border away.
-    kept = erosion(cells.view(np.uint8), _OPEN).view(bool)
-    return cells & dilation(kept, _OPEN)
-
-
-def _with_small_islands(water: np.ndarray, cell: float) -> np.ndarray:
-    from scipy.ndimage import label
-
-    others, count = label(np.pad(~water, 1, constant_values=True), np.ones((3, 3)))
-    sizes = np.bincount(others.ravel(), minlength=count + 1)
-    small = sizes * cell**2 < _LEAST_ISLAND
-    small[others[0, 0]] = False
-    return water | small[others[1:-1, 1:-1]]
-
-
-def _bodies_of(
-    region: _Region, grid: WaterGrid, usual: np.ndarray, how: Water
-) -> Iterator[WaterBody]:
-    """Yield a region as water; if it is something else, its parts of class 9."""
-    window = region.rows, region.columns
-    is_class = region.water & grid.class_in(*window)
-    if not region.open.any():
-        return
-    if (is_class | region.level)[region.open].mean() < _CLASSIFIED:
-        bodies = _parts_of(region, _by_shore, grid, usual, how)
-        if bodies:
-            yield from bodies
-            return
-    classified = closing(is_class, _CLOSE_CLASS) | region.level | region.below
-    for cells in _labelled(classified, how.min_area / grid.cell**2):
-        cells = _with_small_islands(cells, grid.cell)
-        part = region._replace(water=cells, below=cells & region.below)
-        yield from _parts_of(part, _by_class, grid, usual, how)
-
-
-def _by_shore(region: _Region, grid: WaterGrid) -> _Marks | None:
-    """Return what tells the level of a region with a shore; None if that is not one of water."""
-    window = region.rows, region.columns
-    hidden = beside_decks(grid, *window)
-    if region.other is not None:
-        hidden = hidden | region.other
-    shore = shore_of(region.water, grid.ground[window], grid.cell, hidden)
-    rising = _rising(shore)
-    least = _LEAST_RISING_OUTSIDE if region.outside.any() else _LEAST_RISING
-    if shore is None or shore.known < _LEAST_KNOWN or rising < least:
-        return None
-    return _Marks(shore, _share_of_class(region, grid), rising)
-
-
-def _by_class(region: _Region, grid: WaterGrid) -> _Marks:
-    """Return what tells the level of a region of class 9, or of a level surface: its points."""
-    window = region.rows, region.columns
-    is_class = region.water & (grid.class_in(*window) | region.level)
-    shore = surface_of(is_class, grid.lowest[window], grid.cell)
-    return _Marks(shore, _share_of_class(region, grid), 1.0)
-
-
-def _share_of_class(region: _Region, grid: WaterGrid) -> float:
-    is_class = grid.class_in(region.rows, region.columns)[region.open]
-    return float(is_class.mean()) if len(is_class) else 0.0
-
-
-def _parts_of(
-    region: _Region, measured: _Measure, grid: WaterGrid, usual: np.ndarray, how: Water
-) -> list[WaterBody]:
-    """Return a region as water, or what it falls into at steps of its level."""
-    marks = measured(region, grid)
-    if marks is None or len(marks.shore.lowest) < _FEWEST:
-        return []
-    surface = _inner_returns(region.open, grid.lowest[region.rows, region.columns])
-    banks = marks.rising >= _RISING_FROM_BANKS and not region.outside.any()
-    most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell)
-    most *= 1.0 + (marks.share >= _CLASSIFIED or banks)
-    kind, levels = _levels_of(region.water, marks.shore, surface, most)
-    if kind == "river":
-        parts = parts_of_step(region.water, levels, grid.ground[region.rows, region.columns])
-        if len(parts) == 1:
-            # The water goes round a step, where its level is that of neither side.
-            levels = levels._replace(misfit=max(levels.misfit, STEP))
-            parts = []
-        bodies: list[WaterBody] = []
-        for cells, other in parts:
-            if np.count_nonzero(cells) * grid.cell**2 >= _LEAST_PART * how.min_area:
-                beside = other if region.other is None else other | region.other
-                part = region._replace(water=cells, below=region.below & cells, other=beside)
-                bodies += _parts_of(part, measured, grid, usual, how)
-        if bodies:
-            return bodies
-    return _body_of(region, marks, (kind, levels, surface), most, grid, usual, how)
-
-
-def _labelled(cells: np.ndarray, least: float) -> Iterator[np.ndarray]:
-    """Yield the connected regions with at least so many cells."""
-    from scipy.ndimage import label
-
-    labels, _ = label(cells)
-    for number in np.flatnonzero(np.bincount(labels.ravel()) >= least):
-        if number:
-            yield labels == number
-
-
-def _body_of(
-    region: _Region, marks: _Marks, measured: tuple[str, Levels, np.ndarray], most: float,
-    grid: WaterGrid, usual: np.ndarray, how: Water,
-) -> list[WaterBody]:  # fmt: skip
-    """Return a region as water; nothing if its level is not that of water."""
-    kind, levels, surface = measured
-    width = levels.width * grid.cell
-    if levels.spread > most or width < (how.min_width if kind == "river" else 0.0):
-        return []
-    if not _is_free(surface, levels):
-        return []
-    filled = _filled(region, grid, usual)
-    certainty = _certainty(max(1.0 - filled, marks.share), levels.spread, marks.rising)
-    if levels.misfit > _MOST_SPREAD or levels.spread > _CERTAIN_SPREAD:
-        certainty = min(certainty, _MOST_MISFITTING)
-    if (
-        marks.share < _CLASSIFIED
-        and (region.water & region.level).mean() > 0.5 * region.water.mean()
-    ):
-        # A field can be as even, and lie as low.
-        certainty = min(certainty, _MOST_MISFITTING)
-    return [_made(kind, region, grid, levels, (certainty, marks.share, filled, width))]
-
-
-def _rising(shore: Shore | None) -> float:
-    """Return the share of segments of a shore from which the land rises."""
-    if shore is None:
-        return 0.0
-    known = shore.rises[~np.isnan(shore.rises)]
-    return float((known > _RISE).mean()) if len(known) else 0.0
-
-
-def _levels_of(
-    water: np.ndarray, shore: Shore, surface: np.ndarray, most: float
-) -> tuple[str, Levels]:
-    """Return the kind of water, and its level; a shore is at most so far from it."""
-    flat, falling = lake_level(water, shore, surface), river_level(water, shore, surface)
-    if falling is None:
-        return "lake", flat
-    is_long = falling.length >= _ELONGATED * falling.width
-    fits = falling.spread < _BETTER * flat.spread
-    if not is_long:
-        # A river that flows into a wide lake is a small part of the shore.
-        fits = flat.misfit > most and falling.misfit < flat.misfit / 2.0
-    if fits and np.ptp(falling.heights) >= _FALL:
-        return "river", falling
-    # A long region with one level is a river that hardly falls, or a long lake: both are flat.
-    return "lake", flat._replace(width=falling.width) if is_long else flat
+    return cells & dilation(erosion(cells, _OPEN), _OPEN)
 
 
 def _inner_returns(water: np.ndarray, lowest: np.ndarray) -> np.ndarray:
     """Return row, column and height of the lowest returns in a region, away from its banks; cells
     without returns have the height NaN.
     """
-    inner = erosion(np.pad(water, 1).view(np.uint8), _BANK).view(bool)[1:-1, 1:-1]
-    rows, columns = np.nonzero(inner)
-    heights = lowest[rows, columns].astype(np.float64)
+    cells = np.argwhere(erosion(np.pad(water, 1), _BANK)[1:-1, 1:-1])
+    heights = lowest[tuple(cells.T)].astype(np.float64)
     heights[~np.isfinite(heights)] = np.nan
-    return np.column_stack((rows, columns, heights))
+    return np.column_stack((cells, heights))
 
 
 def _is_free(inner: np.ndarray, levels: Levels) -> bool:
     """Return whether what lies in a region is at its level, away from its banks."""
     known = inner[~np.isnan(inner[:, 2])]
-    if not len(known):
-        return True
     off = known[:, 2] - levels.at(known[:, :2])
     few = _MOST_ABOVE * len(inner)
     above, elsewhere = np.count_nonzero(off > _ABOVE), np.count_nonzero(np.abs(off) > _MOST_OFF)
     return bool(above <= few and elsewhere <= max(few, len(off) / 2.0))
 
 
-def _filled(region: _Region, grid: WaterGrid, usual: np.ndarray) -> float:
-    """Return the number of last returns relative to that of as much land."""
-    counts = grid.counts[region.rows, region.columns][region.open]
-    expected = grid.by_cell(usual, region.rows, region.columns)[region.open]
-    return float(min(counts.sum() / max(expected.sum(), 1e-9), 1.0))
+def _rings_of(cells: np.ndarray) -> list[np.ndarray]:
+    """Return the outline of a connected region, and then those of its holes, as closed rings of
+    row, column and 0, float64 (n, 3), whose corners are cut.
+    """
+    # Whole numbers are centres of cells.
+    heights = np.pad(cells, 1) + 0.5
+    lines = [line.places - 1.0 for line in Isolines(1.0, heights.shape[1]).add(heights, 0, True)]
+    rings: list[np.ndarray] = []
+    for line in sorted(lines, key=lambda line: -abs(_area(line))):
+        # Without the corners that lie on straight lines.
+        on = np.diff(line, axis=0)
+        back = np.roll(on, 1, axis=0)
+        corners = line[:-1][back[:, 0] * on[:, 1] != back[:, 1] * on[:, 0]]
+        ring = np.concatenate((corners, corners[:1]))
+        rings.append(np.pad(ring, ((0, 0), (0, 1))))
+    return rings
 
 
-def _certainty(evidence: float, spread: float, rising: float) -> float:
-    """Return how certain it is that a region is water, 0 to 1."""
-    level = max(1.0 - spread / (2.0 * _MOST_SPREAD), 0.0)
-    return float(evidence * level * rising) ** (1.0 / 3.0)
-
-
-def _made(
-    kind: str,
-    region: _Region,
-    grid: WaterGrid,
-    levels: Levels,
-    figures: tuple[float, float, float, float],
-) -> WaterBody:
-    """Return a region as water with coordinates."""
-    certainty, share, filled, width = figures
-    start = np.array((region.rows.start + grid.row, region.columns.start + grid.column))
-
-    def placed(places: np.ndarray) -> np.ndarray:
-        y, x = ((places + start + 0.5) * grid.cell).T
-        return np.column_stack((x, y, levels.at(places)))
-
-    rings = rings_of(region.water)
-    if kind == "river":
-        # The level also changes between the corners.
-        rings = [divided(each, STATION / grid.cell) for each in rings]
-    lines = (np.column_stack((placed(each[:, :2])[:, :2], each[:, 2])) for each in levels.lines)
-    high, low = float(levels.heights.max()), float(levels.heights.min())
-    return WaterBody(
-        kind, tuple(map(placed, rings)), tuple(lines), high, low, levels.spread,
-        certainty, float(region.water.sum()) * grid.cell**2, width, share, filled,
-    )  # fmt: skip
+def _area(ring: np.ndarray) -> float:
+    row, column = ring.T
+    return float((row[:-1] * column[1:] - row[1:] * column[:-1]).sum() / 2.0)

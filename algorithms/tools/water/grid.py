@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
+from typing import Iterator
 
 import numpy as np
 
 from ...core.errors import BareEarthError
 from ...core.points import Box, Points
+from ...core.progress import SILENT, Progress
 from ...grids.cells import lower_at
 
-# Most cells of a survey, at 12 bytes each; up to 2 GB while water is found.
+# Rows and columns of a part of a grid.
+Window = tuple[slice, slice]
+# Most cells of a survey, at 13 bytes each; up to 2 GB while water is found.
 _MOST_CELLS = 60_000_000
 # The rest is for cells that only touch the extent.
 _SHARE_FOR_BORDERS = 0.99
@@ -54,7 +58,7 @@ class WaterGrid:
     """
 
     def __init__(self, box: Box, cell: float) -> None:
-        west, south, east, north = (math.floor(each / cell) for each in box)
+        west, south, east, north = (math.floor(side / cell) for side in box)
         self.cell, self.row, self.column = cell, south, west
         self.shape = north - south + 1, east - west + 1
         count = self.shape[0] * self.shape[1]
@@ -68,7 +72,7 @@ class WaterGrid:
         self.lowest, self.ground = (np.full(self.shape, np.inf, np.float32) for _ in range(2))
         # Last returns, and those of class 9.
         self.counts, self.water = (np.zeros(self.shape, np.uint16) for _ in range(2))
-        self.decks: np.ndarray | None = None  # cells with points of decks of bridges, if any
+        self.decks = np.zeros(self.shape, dtype=bool)  # cells with points of decks of bridges
 
     def add(
         self,
@@ -76,7 +80,7 @@ class WaterGrid:
         ground: np.ndarray,
         water: np.ndarray,
         last: np.ndarray,
-        decks: np.ndarray | None = None,
+        decks: np.ndarray,
     ) -> None:
         """Add points, in the frame of the survey, and which are ground, of class 9, last returns,
         and on the decks of bridges; bool (n,).
@@ -85,22 +89,17 @@ class WaterGrid:
         column = np.floor(points.x / self.cell).astype(np.int64) - self.column
         # An extent in a header can be a little too small.
         inside = (row >= 0) & (row < self.shape[0]) & (column >= 0) & (column < self.shape[1])
-        code = np.where(inside, row * self.shape[1] + column, -1)
-        for counts, which in ((self.counts, last), (self.water, last & water)):
-            places, some = np.unique(code[which & inside], return_counts=True)
-            flat = counts.reshape(-1)
-            flat[places] = np.minimum(flat[places] + some, _MOST_COUNT)
-        for heights, which in ((self.lowest, last), (self.ground, ground)):
-            which = which & inside
-            lower_at(heights.reshape(-1), code[which], points.z[which].astype(np.float32))
-        if decks is not None and (decks & inside).any():
-            if self.decks is None:
-                self.decks = np.zeros(self.shape, dtype=bool)
-            self.decks.reshape(-1)[code[decks & inside]] = True
+        cells = np.where(inside, row * self.shape[1] + column, -1)
+        for counts, which in ((self.counts.ravel(), last), (self.water.ravel(), last & water)):
+            places, some = np.unique(cells[which & inside], return_counts=True)
+            counts[places] = np.minimum(counts[places] + some, _MOST_COUNT)
+        for heights, which in ((self.lowest.ravel(), last), (self.ground.ravel(), ground)):
+            lower_at(heights, cells[which & inside], points.z[which & inside].astype(np.float32))
+        self.decks.ravel()[cells[decks & inside]] = True
 
-    def class_in(self, rows: slice = slice(None), columns: slice = slice(None)) -> np.ndarray:
+    def class_in(self, window: Window = (slice(None), slice(None))) -> np.ndarray:
         """Return which cells of a window have mostly points of class 9; bool."""
-        water, counts = self.water[rows, columns], self.counts[rows, columns]
+        water, counts = self.water[window], self.counts[window]
         return (water > 0) & (water >= _CLASS_SHARE * counts)
 
     def usual(self) -> np.ndarray:
@@ -108,13 +107,15 @@ class WaterGrid:
         # It is the mean over squares, each weighted by its own count: voids do not lower it.
         from scipy.ndimage import uniform_filter
 
-        starts = [np.arange(0, length, _SQUARE) for length in self.shape]
+        starts = [np.arange(0, side, _SQUARE) for side in self.shape]
         sums = np.add.reduceat(self.counts, starts[0], axis=0, dtype=np.int64)
         sums = np.add.reduceat(sums, starts[1], axis=1)
-        sides = [np.diff(np.append(each, side)) for each, side in zip(starts, self.shape)]
+        sides = [np.diff(np.append(first, side)) for first, side in zip(starts, self.shape)]
         means = sums / np.multiply.outer(*sides)
         size = 2 * _SQUARES + 1
-        squared, plain = (uniform_filter(each, size, mode="constant") for each in (means**2, means))
+        squared, plain = (
+            uniform_filter(values, size, mode="constant") for values in (means**2, means)
+        )
         everywhere = float((means**2).sum() / max(means.sum(), 1e-9))
         return np.maximum(squared / np.maximum(plain, 1e-9), _OF_SURVEY * everywhere)
 
@@ -123,13 +124,56 @@ class WaterGrid:
         from scipy.ndimage import uniform_filter
 
         counts = self.counts.astype(np.float32)
-        round_each = uniform_filter(counts, 3, mode="nearest")
-        rows, columns = (slice(0, side) for side in self.shape)
-        usual = self.by_cell(self.usual().astype(np.float32), rows, columns)
-        found = (counts <= _SPARSE * usual) & (round_each <= _SPARSE_ROUND * usual)
-        return found | self.class_in()
+        of_nine = uniform_filter(counts, 3, mode="nearest")
+        whole = slice(0, self.shape[0]), slice(0, self.shape[1])
+        usual = self.by_cell(self.usual().astype(np.float32), whole)
+        return ((counts <= _SPARSE * usual) & (of_nine <= _SPARSE_ROUND * usual)) | self.class_in()
 
-    def by_cell(self, squares: np.ndarray, rows: slice, columns: slice) -> np.ndarray:
+    def by_cell(self, squares: np.ndarray, window: Window) -> np.ndarray:
         """Return values of squares, as `usual` returns them, for the cells of a window."""
-        along = [np.arange(each.start, each.stop) // _SQUARE for each in (rows, columns)]
-        return squares[np.ix_(*along)]
+        return squares[np.ix_(*(np.arange(side.start, side.stop) // _SQUARE for side in window))]
+
+    def surveyed(self) -> np.ndarray:
+        """Return which cells lie within the survey, the convex hull of the cells with points."""
+        from scipy.spatial import ConvexHull
+
+        full = self.counts > 0
+        rows = np.flatnonzero(full.any(axis=1))
+        if not len(rows):
+            return ~full
+        first = full[rows].argmax(axis=1)
+        last = full.shape[1] - full[rows, ::-1].argmax(axis=1)
+        corners = [np.column_stack((rows + up, side)) for up in (0, 1) for side in (first, last)]
+        hull = ConvexHull(np.concatenate(corners))
+        ring = hull.points[hull.vertices]
+        ring = np.roll(ring, -ring[:, 0].argmin(), axis=0)
+        ring = np.concatenate((ring, ring[:1]))
+        top = ring[:, 0].argmax()
+        middles = np.arange(len(full)) + 0.5
+        sides = [
+            np.interp(middles, side[:, 0], side[:, 1], left=np.nan, right=np.nan)
+            for side in (ring[: top + 1], ring[top:][::-1])
+        ]
+        low, high = np.minimum(*sides), np.maximum(*sides)
+        centres = np.arange(full.shape[1]) + 0.5
+        return (centres >= low[:, None]) & (centres <= high[:, None])
+
+
+def regions_of(
+    cells: np.ndarray, least: float = 1.0, reach: float = math.inf, progress: Progress = SILENT
+) -> Iterator[tuple[Window, np.ndarray]]:
+    """Yield the connected regions of at least so many cells, bool, each in a window that goes so
+    many cells beyond it.
+    """
+    from scipy.ndimage import find_objects, label
+
+    labels, count = label(cells)
+    sizes = np.bincount(labels.ravel())
+    for number, box in enumerate(find_objects(labels), start=1):
+        progress(number / count)
+        if sizes[number] >= least:
+            rows, columns = (
+                slice(int(max(side.start - reach, 0)), int(min(side.stop + reach, end)))
+                for side, end in zip(box, cells.shape)
+            )
+            yield (rows, columns), labels[rows, columns] == number

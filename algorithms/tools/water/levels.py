@@ -1,4 +1,6 @@
-"""The level of water from the ground along its shore: one for a lake, a falling one for a river."""
+"""The level of water from the ground along its shore: one for a lake, a falling one for a river,
+which is cut in two where it steps, at dams, weirs and locks.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +10,14 @@ from typing import NamedTuple
 import numpy as np
 
 from ...grids.descent import descent
-from ...grids.morphology import erosion
+from ...grids.morphology import dilation, erosion
+from .grid import regions_of
 from .reaches import Reaches, reaches_of
 
 # Cells round the water whose ground is its shore, and cells farther out that show whether the land
-# rises from it.
+# rises from it. So many cells round a region are needed.
 _SHORE, _BEYOND = 2, 6
+MARGIN = _BEYOND + 1
 # Rows of cells farther out whose lowest ground is compared with that of a segment.
 _ROWS = 2
 # Height in metres of an embankment.
@@ -21,7 +25,7 @@ _EMBANKMENT = 0.5
 # Length of the segments of a shore in metres, and least in cells; fewest segments of a small shore.
 _SEGMENT, _SEGMENT_CELLS, _SEGMENTS = 20.0, 8.0, 12
 # Share of the shore that is below its level: banks are higher.
-LEVEL_PERCENTILE = 10.0
+_PERCENTILE = 10.0
 # The lowest ground of a segment is so much lower than the level, in metres, because of noise.
 _NOISE = 0.1
 # Standard deviations in the distance between the 10th and the 90th percentile.
@@ -31,6 +35,22 @@ _TOGETHER = 7
 # Returns from the surface lie at most so far from the level of the shore, in metres. At least so
 # many decide the level, and so large a share of all returns inside.
 _SURFACE, _FEW_RETURNS, _MOST_RETURNS = 0.5, 8, 0.6
+# A river falls by so many metres, is so many times as long as wide, and its shore fits a falling
+# level so much better than one level.
+_FALL, _ELONGATED, _BETTER = 0.15, 3.0, 0.8
+# A step is at least so high in metres, within so many reaches, and so many times what the water
+# falls in as many of the reaches on either side of it. So many reaches count there, at least so
+# many.
+STEP, _WITHIN, _STEEPER, _BESIDE, _LEVEL_REACHES = 0.4, 3, 4.0, 4, 1
+# Metres that a drop counts less for each reach over which it goes: few reaches say better where.
+_BLURRED = 0.1
+# The parts are so many cells from where the land says that the step is; cells of the banks.
+_GAP, _BANK = 1.0, 2.0
+# A step goes straight across if its ends are hardly so many cells apart along the water: single
+# cells of a bank are too high.
+_SLANTED = 8.0
+# Cells this near to the other part are no shore: they may be its banks.
+_HIDDEN = 4.0
 
 
 class Shore(NamedTuple):
@@ -45,7 +65,7 @@ class Shore(NamedTuple):
     heights: np.ndarray  # float64, (m,): the ground of all cells of the shore
     known: float  # share of the squares along the shore that have ground
     side: int  # length of the segments in cells
-    percentile: float = LEVEL_PERCENTILE  # of the heights that is the level of a lake
+    percentile: float  # of the heights that is the level of a lake
 
 
 class Levels(NamedTuple):
@@ -55,7 +75,6 @@ class Levels(NamedTuple):
     spread: float  # robust standard deviation of lowest ground of segments from it, metres
     misfit: float  # largest distance from segments of the shore that lie together, metres
     width: float  # mean, in cells
-    length: float = 0.0  # along the middle, in cells
     reaches: Reaches | None = None  # None for a lake
     # int64: reaches of each branch, downstream, where no level rises
     chains: tuple[np.ndarray, ...] = ()
@@ -66,9 +85,8 @@ class Levels(NamedTuple):
             return np.full(len(places), self.heights[0])
         return self.reaches.between(self.heights, places)
 
-    @property
     def lines(self) -> list[np.ndarray]:
-        """Row, column and level along the middle of each branch, downstream."""
+        """Return row, column and level along the middle of each branch, downstream."""
         if self.reaches is None:
             return []
         along = np.column_stack((self.reaches.places, self.heights))
@@ -76,9 +94,9 @@ class Levels(NamedTuple):
 
 
 def shore_of(
-    water: np.ndarray, ground: np.ndarray, cell: float, hidden: np.ndarray | None = None
+    water: np.ndarray, ground: np.ndarray, cell: float, hidden: np.ndarray
 ) -> Shore | None:
-    """Return the shore of a region with a margin of `margin` cells round it, but for `hidden` cells
+    """Return the shore of a region with a margin of `MARGIN` cells round it, but for `hidden` cells
     such as abutments of bridges; None if no cell of it has ground.
     """
     # `ground` is infinite where there is none, and the side of a cell is in metres.
@@ -86,11 +104,8 @@ def shore_of(
 
     # 0 is a cell of the water at its edge: in sparse points the bank begins in it.
     away = distance_transform_cdt(~erosion(water, 1.0), metric="chessboard") - 1
-    is_shore = (away >= 0) & (away <= _SHORE)
-    has_ground = np.isfinite(ground)
-    if hidden is not None:
-        is_shore &= ~hidden
-        has_ground &= ~hidden
+    is_shore = (away >= 0) & (away <= _SHORE) & ~hidden
+    has_ground = np.isfinite(ground) & ~hidden
     rows, columns = np.nonzero(is_shore & has_ground)
     if not len(rows):
         return None
@@ -100,14 +115,14 @@ def shore_of(
     outer = _beyond((away > _SHORE + 1) & (away <= _BEYOND) & has_ground, ground, places, side)
     # Land behind an embankment can be lower than the water.
     outer = np.where(median - lowest > _EMBANKMENT, np.fmax(outer, median), outer)
-    rises = outer - lowest
     squares = _squares(rows, columns, side)
     known = np.unique(squares)
-    shore_row, shore_column = np.nonzero(is_shore)
-    share = len(known) / len(np.unique(_squares(shore_row, shore_column, side)))
+    shore_rows, shore_columns = np.nonzero(is_shore)
+    share = len(known) / len(np.unique(_squares(shore_rows, shore_columns, side)))
     # The lowest ground of a square without cells right at the water is that of the bank.
     near = np.isin(known, squares[away[rows, columns] <= 1])
-    return Shore(places[near], lowest[near], rises[near], heights, share, side)
+    rises = (outer - lowest)[near]
+    return Shore(places[near], lowest[near], rises, heights, share, side, _PERCENTILE)
 
 
 def surface_of(water: np.ndarray, heights: np.ndarray, cell: float) -> Shore:
@@ -136,40 +151,49 @@ def _segments(
     rows: np.ndarray, columns: np.ndarray, heights: np.ndarray, side: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the middle, the lowest and the median height of the cells in each square."""
-    names, group = np.unique(_squares(rows, columns, side), return_inverse=True)
-    order = np.lexsort((heights, group))
-    starts = np.searchsorted(group[order], np.arange(len(names)))
-    counts = np.bincount(group)
-    places = np.column_stack([np.bincount(group, each) / counts for each in (rows, columns)])
-    return places, heights[order][starts], heights[order][starts + counts // 2]
-
-
-def margin() -> int:
-    """Return how many cells round a region are needed."""
-    return _BEYOND + 1
+    _, group, counts = np.unique(
+        _squares(rows, columns, side), return_inverse=True, return_counts=True
+    )
+    heights = heights[np.lexsort((heights, group))]
+    starts = np.cumsum(counts) - counts
+    places = np.column_stack([np.bincount(group, axis) / counts for axis in (rows, columns)])
+    return places, heights[starts], heights[starts + counts // 2]
 
 
 def _beyond(which: np.ndarray, ground: np.ndarray, places: np.ndarray, side: int) -> np.ndarray:
     """Return the lowest ground of the nearest cells among some; NaN where none is near."""
     from scipy.spatial import cKDTree
 
-    rows, columns = np.nonzero(which)
-    found = np.full(len(places), np.nan)
-    if len(rows):
-        count = min(_ROWS * side, len(rows))
-        far, near = cKDTree(np.column_stack((rows, columns))).query(
-            places, list(range(1, count + 1)), distance_upper_bound=side + _BEYOND
-        )
-        heights = ground[rows, columns][np.minimum(near, len(rows) - 1)]
-        lowest = np.where(np.isfinite(far), heights, np.inf).min(axis=1)
-        found = np.where(np.isfinite(lowest), lowest, np.nan)
-    return found
+    cells = np.argwhere(which)
+    if not len(cells):
+        return np.full(len(places), np.nan)
+    nearest = np.arange(1, min(_ROWS * side, len(cells)) + 1)
+    _, near = cKDTree(cells).query(places, nearest, distance_upper_bound=side + _BEYOND)
+    # A missing one has the number behind the last.
+    lowest = np.append(ground[which], np.inf)[near].min(axis=1)
+    return np.where(np.isfinite(lowest), lowest, np.nan)
 
 
-def lake_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels:
-    """Return one level: a low percentile of the ground along the shore, or that of the surface,
-    row, column and height of returns inside, shape (k, 3).
+def levels_of(water: np.ndarray, shore: Shore, surface: np.ndarray, most: float) -> Levels:
+    """Return the level of a lake or of a river, whose shore is at most so far from it, given row,
+    column and height of returns inside, shape (k, 3).
     """
+    flat, river = _lake_level(water, shore, surface), _river_level(water, shore, surface)
+    if river is None or river.reaches is None:
+        return flat
+    is_long = river.reaches.length >= _ELONGATED * river.width
+    fits = river.spread < _BETTER * flat.spread
+    if not is_long:
+        # A river that flows into a wide lake is a small part of the shore.
+        fits = flat.misfit > most and river.misfit < flat.misfit / 2.0
+    if fits and np.ptp(river.heights) >= _FALL:
+        return river
+    # A long region with one level is a river that hardly falls, or a long lake: both are flat.
+    return flat._replace(width=river.width) if is_long else flat
+
+
+def _lake_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels:
+    """Return one level: a low percentile of the ground along the shore, or that of the surface."""
     level = float(np.percentile(shore.heights, shore.percentile))
     level = min(level, float(np.median(shore.lowest)) + _NOISE)
     off = _off_surface(np.full(len(surface), level), surface[:, 2])
@@ -179,7 +203,7 @@ def lake_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels:
     return Levels(np.array([level]), spread, misfit, math.sqrt(np.count_nonzero(water)))
 
 
-def river_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels | None:
+def _river_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels | None:
     """Return levels that fall along a region and its branches, or None if it has no length."""
     # The level of a reach is that of the lowest ground of the segments of the shore beside it, by
     # isotonic regression along the branches, and of returns from the surface.
@@ -187,18 +211,16 @@ def river_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels 
     if reaches.network.size < 3:
         return None
     station, heights = reaches.of(shore.places), shore.lowest
-    found = descent(reaches.network, station, heights)
-    off = _off_surface(reaches.between(found.levels, surface[:, :2]), surface[:, 2])
+    falling = descent(reaches.network, station, heights)
+    off = _off_surface(reaches.between(falling.levels, surface[:, :2]), surface[:, 2])
     if off is not None:
         # Banks are higher than the water: they count for the shape of the fall only.
         near = ~np.isnan(off)
         station = np.concatenate((station, reaches.of(surface[near, :2])))
         heights = np.concatenate((heights + np.median(off[near]), surface[near, 2]))
-        found = descent(reaches.network, station, heights)
-    spread, misfit = _fit(shore, reaches.between(found.levels, shore.places))
-    return Levels(
-        found.levels, spread, misfit, reaches.width, reaches.length, reaches, tuple(found.chains)
-    )
+        falling = descent(reaches.network, station, heights)
+    spread, misfit = _fit(shore, reaches.between(falling.levels, shore.places))
+    return Levels(falling.levels, spread, misfit, reaches.width, reaches, tuple(falling.chains))
 
 
 def _off_surface(levels: np.ndarray, heights: np.ndarray) -> np.ndarray | None:
@@ -215,8 +237,8 @@ def _fit(shore: Shore, levels: np.ndarray) -> tuple[float, float]:
     from scipy.spatial import cKDTree
 
     off = shore.lowest - levels
-    count = min(_TOGETHER, len(off))
-    near = cKDTree(shore.places).query(shore.places, list(range(1, count + 1)))[1]
+    nearest = np.arange(1, min(_TOGETHER, len(off)) + 1)
+    near = cKDTree(shore.places).query(shore.places, nearest)[1]
     together = np.median(off[near], axis=1) - np.median(off)
     return spread_of(off), float(np.abs(together).max())
 
@@ -225,3 +247,91 @@ def spread_of(values: np.ndarray) -> float:
     """Return a robust standard deviation, from the 10th and the 90th percentile."""
     low, high = np.percentile(values, (10.0, 90.0))
     return float(high - low) / _DEVIATIONS
+
+
+class _Step(NamedTuple):
+    """A step of the level, from the first to the last of some reaches."""
+
+    sharpness: float  # the drop, less for each reach
+    before: np.ndarray  # the reaches upstream, with those at the step
+    after: np.ndarray  # the reaches downstream, with those at the step
+    middle: float  # height
+
+
+def parts_of_step(
+    water: np.ndarray, levels: Levels, ground: np.ndarray
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return what a region of a river falls into at its highest step, as the cells of each part and
+    those that are not its shore: nothing if it has none, one part if water goes round it.
+    """
+    # `ground` is infinite where there is none.
+    reaches = levels.reaches
+    steps = [step for chain in levels.chains for step in _steps(levels.heights, chain)]
+    if reaches is None or not steps:
+        return []
+    gap = _gap(water, reaches, max(steps, key=lambda step: step.sharpness), ground)
+    # Only side by side: a corner is no passage for a gap that is one cell wide.
+    parts = [part for _, part in regions_of(water & ~gap)]
+    if len(parts) < 2:
+        return [(water, np.zeros_like(water))]
+    return [(part, dilation(water & ~part, _HIDDEN)) for part in parts]
+
+
+def _steps(levels: np.ndarray, chain: np.ndarray) -> list[_Step]:
+    """Return all steps of a chain of reaches."""
+    heights, count, steps = levels[chain], len(chain), []
+    for first in range(_LEVEL_REACHES, count - _LEVEL_REACHES):
+        for last in range(first + 1, min(first + _WITHIN, count - _LEVEL_REACHES - 1) + 1):
+            drop, length = float(heights[first] - heights[last]), last - first
+            usual = max(_slope(heights[first::-1]), _slope(heights[last:])) * length
+            if drop >= max(STEP, _STEEPER * usual):
+                before, after = chain[max(first - 2, 0) : first + 1], chain[last : last + 3]
+                middle = float(heights[first] + heights[last]) / 2.0
+                steps.append(_Step(drop - _BLURRED * length, before, after, middle))
+    return steps
+
+
+def _slope(heights: np.ndarray) -> float:
+    """Return how far the level changes beside a step at most, for each reach."""
+    some = np.abs(heights[1 : _BESIDE + 1] - heights[0])
+    return float((some / np.arange(1, len(some) + 1)).max())
+
+
+def _gap(water: np.ndarray, reaches: Reaches, step: _Step, ground: np.ndarray) -> np.ndarray:
+    """Return the cells across a region at a step."""
+    # No land beside the upper water is lower than the middle of the step. So it begins where the
+    # first such land is, on either bank.
+    last, first = step.before[-1], step.after[0]
+    near = np.isin(np.arange(reaches.network.size), (last, first))
+    for _ in range(_WITHIN - 1):
+        near |= reaches.network.matrix() @ near.astype(float) > 0
+    cells = np.argwhere(water)
+    numbers = reaches.of(cells)
+    # Where the water is narrow, the direction in which it flows is sure.
+    sizes = np.bincount(numbers, minlength=len(near))
+    pairs = [pair for side in (step.before, step.after) for pair in zip(side[:-1], side[1:])]
+    start, end = reaches.places[list(min(pairs, key=lambda pair: sizes[list(pair)].sum()))]
+    down = (end - start) / max(float(np.hypot(*(end - start))), 1e-9)
+    turned = np.array((-down[1], down[0]))
+    middle = (reaches.places[last] + reaches.places[first]) / 2.0
+    land = np.argwhere(
+        dilation(water, _BANK) & ~water & np.isfinite(ground) & (ground < step.middle)
+    )
+    land = land[near[reaches.of(land)]] - middle
+    cells = cells[near[numbers]]
+    along, across = (cells - middle) @ down, (cells - middle) @ turned
+    # Where the low land of each bank begins, along and across; a single cell does not count.
+    firsts = []
+    for bank in (land[land @ turned <= 0], land[land @ turned > 0]):
+        if len(bank) > 1:
+            place = bank[np.argsort(bank @ down)[1]]
+            firsts.append((float(place @ down) - 1.0, float(place @ turned)))
+    cut = np.zeros(len(cells))
+    if firsts:
+        begins, beside = np.array(sorted(firsts, key=lambda first: first[1])).T
+        if np.ptp(begins) < _SLANTED:
+            begins[:] = begins.min()
+        cut = np.interp(across, beside, begins)
+    gap = np.zeros(water.shape, dtype=bool)
+    gap[tuple(cells[np.abs(along - cut) <= _GAP].T)] = True
+    return gap

@@ -46,25 +46,24 @@ class Reaches(NamedTuple):
     def between(self, values: np.ndarray, places: np.ndarray) -> np.ndarray:
         """Return values of reaches at rows and columns, interpolated along the water."""
         groups = self._groups(places)
-        reach, along = self.numbers[groups], self.along[groups]
-        off = along - self.middles[reach]
-        found, share, nearest = (np.zeros(len(reach)) for _ in range(3))
-        nearest[:] = np.inf
-        both = np.concatenate((self.network.edges, self.network.edges[:, ::-1]))
-        order = np.argsort(both[:, 0], kind="stable")
-        starts = np.searchsorted(both[order, 0], np.arange(self.network.size + 1))
-        most = int(np.diff(starts).max(initial=0))
-        for turn in range(most):
-            place = np.minimum(starts[reach] + turn, len(order) - 1)
-            other = np.where(starts[reach] + turn < starts[reach + 1], both[order[place], 1], reach)
-            length = self.middles[other] - self.middles[reach]
-            far = np.hypot(*(self.places[other] - places).T)
+        reach = self.numbers[groups]
+        off = self.along[groups] - self.middles[reach]
+        beyond, share, nearest = values[reach], np.zeros(len(reach)), np.full(len(reach), np.inf)
+        edges = np.concatenate((self.network.edges, self.network.edges[:, ::-1]))
+        edges = edges[np.argsort(edges[:, 0], kind="stable")]
+        starts = np.searchsorted(edges[:, 0], np.arange(self.network.size + 1))
+        for turn in range(int(np.diff(starts).max(initial=0))):
+            place = starts[reach] + turn
+            has_one = place < starts[reach + 1]
+            beside = np.where(has_one, edges[np.minimum(place, len(edges) - 1), 1], reach)
+            length = self.middles[beside] - self.middles[reach]
+            far = np.hypot(*(self.places[beside] - places).T)
             closer = (length * off > 0) & (far < nearest)
-            ratio = off / np.where(closer, length, 1.0)
-            share = np.where(closer, np.clip(ratio, 0.0, 1.0), share)
-            found = np.where(closer, values[other], found)
+            ratio = np.clip(off / np.where(closer, length, 1.0), 0.0, 1.0)
+            share = np.where(closer, ratio, share)
+            beyond = np.where(closer, values[beside], beyond)
             nearest = np.where(closer, far, nearest)
-        return values[reach] * (1.0 - share) + found * share
+        return values[reach] * (1.0 - share) + beyond * share
 
 
 def reaches_of(water: np.ndarray, longest: float) -> Reaches:
@@ -73,55 +72,60 @@ def reaches_of(water: np.ndarray, longest: float) -> Reaches:
     from scipy.sparse.csgraph import dijkstra
 
     group = max(1, math.ceil(math.sqrt(np.count_nonzero(water) / _MOST_CELLS)))
-    rows, columns = (-(-side // group) * group for side in water.shape)
-    cells = np.pad(water, ((0, rows - water.shape[0]), (0, columns - water.shape[1])))
-    cells = cells.reshape(rows // group, group, columns // group, group).max(axis=(1, 3))
+    cells = np.pad(water, [(0, -side % group) for side in water.shape])
+    rows, columns = (side // group for side in cells.shape)
+    cells = cells.reshape(rows, group, columns, group).max(axis=(1, 3))
     deep = distance_transform_edt(np.pad(cells, 1))[1:-1, 1:-1][cells]
-    one, other, apart = _neighbours(cells)
-    graph = _matrix(one, other, apart, len(deep))
-    end = _farthest(graph, _farthest(graph, 0))
-    away = dijkstra(graph, directed=False, indices=end)
+    ends, apart = _neighbours(cells)
+    graph = _matrix(ends, apart, len(deep))
+    start = _farthest(graph, _farthest(graph, 0))
+    away = dijkstra(graph, directed=False, indices=start)
     away[~np.isfinite(away)] = 0.0
     side = max(_LEAST, round(min(_DEPTHS * float(deep.mean()), longest / group)))
-    reach, edges = _bands(one, other, np.floor(away / side).astype(np.int64))
-    sizes, middles = np.bincount(reach), _means(reach, away)
+    reach, edges = _bands(ends, np.floor(away / side).astype(np.int64))
+    sizes = np.bincount(reach)
+    middles = np.bincount(reach, away) / sizes
     owner = _without_bays(edges, sizes, middles, side)
     # A bay is as far along as the water that it belongs to.
     away = np.where(owner[reach] == reach, away, middles[owner[reach]])
     names, reach = np.unique(owner[reach], return_inverse=True)
-    edges = np.searchsorted(names, owner[edges])
-    edges = np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], axis=1), axis=0)
-    network, middles = Network(len(names), edges), middles[names]
-    places = _middle_places(cells, reach, deep**4)
+    network = Network(len(names), _links(np.searchsorted(names, owner[edges])))
+    weights = deep**4
+    sums = [np.bincount(reach, weights * axis) for axis in np.nonzero(cells)]
+    places = np.column_stack(sums) / np.bincount(reach, weights)[:, None]
     width, length = _width_and_length(network, places, np.bincount(reach), side)
     nearest = distance_transform_edt(~cells, return_distances=False, return_indices=True)
     numbers, along = np.zeros(cells.shape, np.int32), np.zeros(cells.shape)
     numbers[cells], along[cells] = reach, away
-    places = (places + 0.5) * group - 0.5
-    numbers, along = numbers[tuple(nearest)], along[tuple(nearest)]
-    return Reaches(network, places, numbers, along, middles, group, width * group, length * group)
+    return Reaches(
+        network, (places + 0.5) * group - 0.5, numbers[tuple(nearest)], along[tuple(nearest)],
+        middles[names], group, width * group, length * group,
+    )  # fmt: skip
 
 
-def _neighbours(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the numbers of neighbouring cells of a region, and their distances."""
-    number = np.full(cells.shape, -1, dtype=np.int64)
-    number[cells] = np.arange(np.count_nonzero(cells))
-    starts, ends, lengths = [], [], []
+def _neighbours(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the numbers of neighbouring cells of a region, (n, 2), and their distances."""
+    rows, columns = cells.shape
+    number = np.full((rows + 1, columns + 2), -1, dtype=np.int64)
+    number[:-1, 1:-1][cells] = np.arange(np.count_nonzero(cells))
+    ends, apart = [], []
     for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
-        left = max(-right, 0)
-        one = (slice(0, cells.shape[0] - down), slice(left, cells.shape[1] - max(right, 0)))
-        other = (slice(down, None), slice(left + right, cells.shape[1] - left))
-        both = np.logical_and(cells[one], cells[other])
-        starts.append(number[one][both])
-        ends.append(number[other][both])
-        lengths.append(np.full(len(starts[-1]), math.hypot(down, right)))
-    return np.concatenate(starts), np.concatenate(ends), np.concatenate(lengths)
+        beside = number[down:, 1 + right :][:rows, :columns][cells]
+        one = np.flatnonzero(beside >= 0)
+        ends.append(np.column_stack((one, beside[one])))
+        apart.append(np.full(len(one), math.hypot(down, right)))
+    return np.concatenate(ends), np.concatenate(apart)
 
 
-def _matrix(one: np.ndarray, other: np.ndarray, weights: np.ndarray, size: int) -> Any:
+def _matrix(ends: np.ndarray, weights: np.ndarray, size: int) -> Any:
     from scipy.sparse import coo_matrix
 
-    return coo_matrix((weights, (one, other)), shape=(size, size)).tocsr()
+    return coo_matrix((weights, ends.T), shape=(size, size)).tocsr()
+
+
+def _links(edges: np.ndarray) -> np.ndarray:
+    """Return each pair of numbers that differ once."""
+    return np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], axis=1), axis=0)
 
 
 def _farthest(graph: Any, start: int) -> int:
@@ -131,19 +135,14 @@ def _farthest(graph: Any, start: int) -> int:
     return int(np.argmax(np.where(np.isfinite(far), far, -1.0)))
 
 
-def _bands(one: np.ndarray, other: np.ndarray, band: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _bands(ends: np.ndarray, band: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the number of the connected part of its band for each cell, and which parts touch."""
     from scipy.sparse.csgraph import connected_components
 
-    same = band[one] == band[other]
-    graph = _matrix(one[same], other[same], np.ones(np.count_nonzero(same)), len(band))
+    same = np.equal(*band[ends].T)
+    graph = _matrix(ends[same], np.ones(np.count_nonzero(same)), len(band))
     reach = connected_components(graph, directed=False)[1]
-    edges = np.column_stack((reach[one[~same]], reach[other[~same]]))
-    return reach, np.unique(np.sort(edges, axis=1), axis=0)
-
-
-def _means(group: np.ndarray, values: np.ndarray) -> np.ndarray:
-    return np.bincount(group, values) / np.bincount(group)
+    return reach, _links(reach[ends[~same]])
 
 
 def _without_bays(
@@ -152,8 +151,7 @@ def _without_bays(
     """Return the reach that each one belongs to when short branches belong to their junction."""
     owner, sizes = np.arange(len(sizes)), sizes.astype(np.float64)
     while True:
-        links = owner[edges]
-        links = np.unique(np.sort(links[links[:, 0] != links[:, 1]], axis=1), axis=0)
+        links = _links(owner[edges])
         degree = np.bincount(links.ravel(), minlength=len(owner))
         bays: dict[int, tuple[float, np.ndarray]] = {}
         for chain in Network(len(owner), links).chains():
@@ -172,13 +170,6 @@ def _without_bays(
         # Only the shortest at each junction: the next one can be the main water then.
         for junction, (_, chain) in bays.items():
             owner[np.isin(owner, chain)] = junction
-
-
-def _middle_places(cells: np.ndarray, reach: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """Return the weighted middle of each reach."""
-    total = np.bincount(reach, weights)
-    sums = [np.bincount(reach, weights * axis) for axis in np.nonzero(cells)]
-    return np.column_stack(sums) / total[:, None]
 
 
 def _width_and_length(

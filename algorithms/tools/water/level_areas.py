@@ -11,8 +11,8 @@ from typing import Iterator
 import numpy as np
 
 from ...grids.morphology import closing, dilation
-from .grid import WaterGrid
-from .levels import margin, spread_of, surface_of
+from .grid import WaterGrid, Window, regions_of
+from .levels import MARGIN, spread_of, surface_of
 
 # Cells of the square in which the lowest returns differ by at most so much, as a standard deviation
 # in metres, and the share of its cells that have returns.
@@ -35,68 +35,53 @@ _SHORE, _LEAST_KNOWN = 6.0, 0.4
 _HIGHER, _LOWER, _NEARLY, _RISE = 0.8, 0.025, 0.05, 0.15
 
 
-def level_surfaces(grid: WaterGrid, outside: np.ndarray, least: float) -> np.ndarray:
+def level_areas(grid: WaterGrid, outside: np.ndarray, least: float) -> np.ndarray:
     """Return which cells belong to dead-level areas of at least so many cells that are lower than
     the land round them and not outside the survey.
     """
-    from scipy.ndimage import find_objects, label
-
-    found = np.zeros(grid.shape, dtype=bool)
-    labels, _ = label(_even(grid))
-    sizes = np.bincount(labels.ravel())
-    reach = margin() + _SQUARE
-    for number, box in enumerate(find_objects(labels), start=1):
-        if sizes[number] < _LEAST_PART * least:
-            continue
-        window = tuple(slice(max(side.start - reach, 0), side.stop + reach) for side in box)
-        for area in _areas(labels[window] == number, grid.lowest[window], least):
+    low = np.zeros(grid.shape, dtype=bool)
+    for window, even in regions_of(_even(grid), _LEAST_PART * least, MARGIN + _SQUARE):
+        for area in _areas(even, grid.lowest[window], least):
             # Points of class 9 say more.
-            is_class = grid.class_in(*window)[area].mean() >= _CLASSIFIED
+            is_class = grid.class_in(window)[area].mean() >= _CLASSIFIED
             if not is_class and _is_low(area, grid, window, outside[window]):
-                found[window] |= area
-    return found
+                low[window] |= area
+    return low
 
 
 def _even(grid: WaterGrid) -> np.ndarray:
     """Return the cells round which the lowest returns are even."""
     from scipy.ndimage import uniform_filter
 
-    found, reach = np.zeros(grid.shape, dtype=bool), _SQUARE // 2
+    even, reach = np.zeros(grid.shape, dtype=bool), _SQUARE // 2
     for start in range(0, grid.shape[0], _ROWS):
-        first, last = max(start - reach, 0), start + _ROWS + reach
-        heights = grid.lowest[first:last].astype(np.float64)
+        first = max(start - reach, 0)
+        heights = grid.lowest[first : start + _ROWS + reach].astype(np.float64)
         known = np.isfinite(heights)
         if not known.any():
             continue
         heights = np.where(known, heights - np.median(heights[known]), 0.0)
-        full, mean, squared = (
-            uniform_filter(each, _SQUARE, mode="constant")
-            for each in (known.astype(np.float64), heights, heights**2)
+        share, mean, squared = (
+            uniform_filter(values, _SQUARE, mode="constant")
+            for values in (known.astype(np.float64), heights, heights**2)
         )
-        full = np.maximum(full, 1e-9)
-        even = (squared / full - (mean / full) ** 2 <= _EVEN**2) & (full >= _FULL)
-        found[start : start + _ROWS] = even[start - first :][:_ROWS]
-    return found
+        full = np.maximum(share, 1e-9)
+        is_even = (squared / full - (mean / full) ** 2 <= _EVEN**2) & (full >= _FULL)
+        even[start : start + _ROWS] = is_even[start - first :][:_ROWS]
+    return even
 
 
 def _areas(even: np.ndarray, lowest: np.ndarray, least: float) -> Iterator[np.ndarray]:
     """Yield the connected cells at the level that most cells of an even area have."""
-    from scipy.ndimage import label
-
     heights = lowest[even & np.isfinite(lowest)].astype(np.float64)
     steps = np.floor((heights - heights.min()) / _STEP).astype(np.int64)
     counts = np.convolve(np.bincount(steps), np.ones(5), mode="same")
     level = heights.min() + (int(counts.argmax()) + 0.5) * _STEP
     near = dilation(even, 2.0) & (np.abs(lowest - level) <= _NEAR)
-    labels, _ = label(closing(near, _CLOSE))
-    for number in np.flatnonzero(np.bincount(labels.ravel()) >= least):
-        if number:
-            yield labels == number
+    return (area for _, area in regions_of(closing(near, _CLOSE), least))
 
 
-def _is_low(
-    area: np.ndarray, grid: WaterGrid, window: tuple[slice, ...], outside: np.ndarray
-) -> bool:
+def _is_low(area: np.ndarray, grid: WaterGrid, window: Window, outside: np.ndarray) -> bool:
     """Return whether an area has one level, and the land round it is higher."""
     surface = surface_of(area, grid.lowest[window], grid.cell).lowest
     if spread_of(surface) > _MOST_SPREAD:
