@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from test_benchmarks import write_labelled
+from benchmarks.tests.test_accuracy import write_labelled
 
 from bare_earth.algorithms.filters import METHODS
 from benchmarks import ablation, ablation_page, cache, data, work
