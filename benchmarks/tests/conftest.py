@@ -1,3 +1,3 @@
-"""The tests of the benchmarks run as those in tests/core do: long ones only if they are asked for."""
+"""The tests of the benchmarks leave long ones out, as those in tests/core do."""
 
 from conftest import pytest_runtest_setup  # noqa: F401

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from benchmarks.tests.test_accuracy import write_labelled
 
 from bare_earth.algorithms.filters import METHODS
 from benchmarks import ablation, ablation_page, cache, data, work
 from benchmarks.measure import Filter
 from benchmarks.rules import GROUPS, VALUES, changed, lines, pipeline_of, switched_off, variants
 from benchmarks.scenes import make
+from benchmarks.tests.test_accuracy import write_labelled
 
 SCENE = "hillside_village"
 
