@@ -1,6 +1,18 @@
-"""Bare Earth: classifies lidar points into ground and non-ground, and makes terrain models."""
+"""Bare Earth: classifies lidar points into ground and non-ground, and makes terrain models.
+
+A function has the name of its command, and its keywords are the options of that command. It is
+imported when it is first used, so that this package is imported fast and needs no other one.
+
+>>> import bare_earth
+>>> bare_earth.classify("tile.laz", "ground.laz", dtm="dtm.tif")  # doctest: +SKIP
+>>> bare_earth.relief("dtm.tif", "relief.tif", kind="vat")  # doctest: +SKIP
+"""
 
 from .algorithms.core.version import __version__ as __version__
+from .algorithms.library import names
+
+_OTHERS = {"BareEarthError": "errors", "Cancelled": "errors", "Progress": "progress"}
+__all__ = ["__version__", *_OTHERS, *names()]
 
 
 def classFactory(iface):
@@ -8,3 +20,17 @@ def classFactory(iface):
     from .plugin.plugin import BareEarthPlugin
 
     return BareEarthPlugin(iface)
+
+
+def __getattr__(name):
+    from importlib import import_module
+
+    if name in _OTHERS:
+        return getattr(import_module(f".algorithms.core.{_OTHERS[name]}", __name__), name)
+    if name in names():
+        return import_module(".algorithms.library.table", __name__).function(name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})

@@ -1,0 +1,203 @@
+"""What users give to tools beside declared parameters: points, files, areas, a CRS."""
+
+from __future__ import annotations
+
+import inspect
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+from ..products.line_files import FORMATS as LINE_FORMATS
+from ..products.raster_files import RASTERS as _RASTERS
+from ..survey.checkpoint_files import FORMATS as POINT_FORMATS
+from ..survey.vector_files import FORMATS
+from ..tools.declaration import Input
+
+REQUIRED = inspect.Parameter.empty
+_PATH, _LITERAL = "str | PathLike[str]", "Literal[{}]"
+
+
+class Kind(NamedTuple):
+    """A kind of values, as editors and as documentation name it."""
+
+    type: str
+    words: str
+
+
+KINDS = {
+    "clouds": Kind(f"{_PATH} | Iterable[{_PATH}]", "path or iterable of paths"),
+    "path": Kind(_PATH, "path"),
+    "polygons": Kind(f"{_PATH} | Sequence[Any]", "path or polygons"),
+    "lines": Kind(f"{_PATH} | Sequence[Any]", "path or lines"),
+    "points": Kind(f"{_PATH} | Sequence[Any]", "path or array of shape (n, 3)"),
+    "extent": Kind("Sequence[float]", "four floats"),
+    "text": Kind("str", "str"),
+    "words": Kind("Sequence[str]", "sequence of str"),
+    "progress": Kind(
+        "Progress | Callable[[float], object]", "Progress or callable that takes a float"
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Argument:
+    """Something that a user gives to a tool beside its declared parameters."""
+
+    name: str  # of the keyword; with hyphens, that of the option
+    kind: Kind
+    help: str  # without a full stop
+    default: Any = None
+
+    @classmethod
+    def of(cls, name: str, kind: str, help: str, default: Any = None) -> Argument:
+        """Return an argument of one of the `KINDS`."""
+        return cls(name, KINDS[kind], help, default)
+
+    @classmethod
+    def choice(cls, name: str, choices: Any, default: str, help: str) -> Argument:
+        """Return an argument that is one of some words."""
+        words = ", ".join(f'"{each}"' for each in choices)
+        return cls(name, Kind(_LITERAL.format(words), f"{{{words}}}"), help, default)
+
+
+def path(name: str, help: str, default: Any = None) -> Argument:
+    """Return an argument that is a path."""
+    return Argument.of(name, "path", help, default)
+
+
+SOURCES = Argument.of(
+    "sources",
+    "clouds",
+    "files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of them together"
+    " are one survey",
+    REQUIRED,
+)
+OUTPUT = path(
+    "output",
+    "the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs",
+    REQUIRED,
+)
+CRS = Argument.of(
+    "crs",
+    "text",
+    "the CRS of the points, for files that state none or a wrong one: an EPSG code, such as"
+    " EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but"
+    " written point clouds keep the records that the files have",
+)
+PROGRESS = Argument.of(
+    "progress",
+    "progress",
+    "receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a `Progress`"
+    " receives messages, too",
+)
+SCHEDULER = Argument.of(
+    "scheduler",
+    "text",
+    "with many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers do"
+    " the work, or the word processes; without it, threads of this process do it",
+)
+VPC = path(
+    "vpc", "with many files: the virtual point cloud that lists the results, by default in OUTPUT"
+)
+RASTERS = tuple(path(name, f"GeoTIFF (.tif). {each.help}") for name, each in _RASTERS.items())
+CONTOURS = path(
+    "contours",
+    f"contour lines of the terrain model ({', '.join(LINE_FORMATS)}); the field ELEV has the"
+    " height, INDEX is 1 for every fifth line. All but .geojson need pyogrio",
+)
+TARGET = (
+    path(
+        "like",
+        "a raster in the CRS of the points, such as dem.tif: all rasters get its CRS, cell size,"
+        " position of the cells, and extent; it replaces the cell size",
+    ),
+    Argument.of(
+        "raster_extent",
+        "extent",
+        "xmin, ymin, xmax, ymax: the rasters cover this rectangle in the CRS of the points,"
+        " widened to whole cells, which stay where they are; all points are used",
+    ),
+)
+CONSTRAINTS = (
+    Argument.of(
+        "breaklines",
+        "lines",
+        "lines that no triangle of the terrain crosses; z is in the unit of heights of the points,"
+        " and a line without z gets the height of the nearest ground point on each side"
+        f" ({FORMATS})",
+    ),
+    Argument.of(
+        "water",
+        "polygons",
+        f"polygons of water; each is flattened to one level ({FORMATS})",
+    ),
+    Argument.of(
+        "rivers",
+        "lines",
+        f"lines along which the level of the water polygons falls ({FORMATS})",
+    ),
+    Argument.of(
+        "no_ground",
+        "polygons",
+        "polygons in which the terrain uses no ground points, such as bridges and roofs"
+        f" ({FORMATS})",
+    ),
+)
+# Constraints of functions that find the water themselves where it is automatic.
+WITH_AUTOMATIC_WATER = tuple(
+    replace(each, help=f"{each.help}; the word automatic: the water is found first")
+    if each.name == "water"
+    else each
+    for each in CONSTRAINTS
+)
+CORRECTIONS = Argument.of(
+    "corrections",
+    "polygons",
+    "polygons in which you know the class; the attribute 'class' holds it, and it replaces the"
+    " result of the filter",
+)
+CHECKPOINTS = (
+    Argument.of(
+        "checkpoints",
+        "points",
+        f"points that were surveyed on the ground ({POINT_FORMATS}), or their x, y and z in the"
+        " CRS of the points",
+    ),
+    Argument.of(
+        "columns",
+        "text",
+        "the columns or attributes of the checkpoints, by name or by number from 1 on, such as"
+        " x=E,y=N,z=H,cover=Class,type=Use,name=ID; those that are not given are recognised by"
+        " their names",
+    ),
+    Argument.of(
+        "checkpoints_crs",
+        "text",
+        "the CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file"
+        " states, or the CRS of the points",
+    ),
+)
+
+
+def area(what: str, more: str = "") -> tuple[Argument, Argument]:
+    """Return the arguments for a rectangle and for polygons; `what` starts their help."""
+    return (
+        Argument.of(
+            "extent",
+            "extent",
+            f"xmin, ymin, xmax, ymax: {what} this rectangle, in the CRS of the points{more}",
+        ),
+        Argument.of(
+            "boundary",
+            "polygons",
+            f"{what} these polygons ({FORMATS}); with an extent only what lies in both",
+        ),
+    )
+
+
+def arguments_of(declared: Input) -> tuple[Argument, ...]:
+    """Return the arguments for a further input of a tool."""
+    if declared.kind == "area":
+        return area(declared.help, declared.more)
+    kind = "polygons" if declared.kind == "polygons" else "path"
+    default = REQUIRED if declared.kind == "polygons" else None
+    return (Argument.of(declared.name, kind, declared.help.format(formats=FORMATS), default),)

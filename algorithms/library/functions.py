@@ -1,0 +1,224 @@
+"""Makes functions of the library from what is declared of them."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+import re
+import textwrap
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any, Callable, Collection, Iterable
+
+from ..core.parameters import Declaration, ParameterSet
+from ..filters import METHODS
+from ..runs.options import TileMethod
+from .arguments import REQUIRED, Argument, Kind
+
+_WIDTH = 92
+_OPTION = re.compile(r"--([a-z-]+)")  # in texts of the command line
+_TYPES = {"number": "float", "integer": "int", "boolean": "bool"}
+_RAISES = """
+Raises
+------
+BareEarthError
+    If an input cannot be read, a value is not allowed, or an output cannot be written.
+Cancelled
+    If `progress` asked to stop; no output is incomplete.
+"""
+
+
+@dataclass(frozen=True)
+class Described:
+    """A parameter of a function, and what its documentation says of it."""
+
+    parameter: inspect.Parameter
+    words: str  # its type and default
+    help: str
+
+    @property
+    def section(self) -> str:
+        """The lines of the documentation."""
+        text = textwrap.fill(self.help, _WIDTH - 4, break_long_words=False)
+        return f"{self.parameter.name} : {self.words}\n{textwrap.indent(text, '    ')}"
+
+
+@dataclass(frozen=True)
+class Function:
+    """What is declared of a function of the library."""
+
+    name: str
+    about: str  # a sentence, or paragraphs
+    positional: tuple[Argument, ...]
+    keywords: tuple[Argument, ...]
+    sets: tuple[type[ParameterSet], ...]
+    # Given all values by their names, and instances of the sets, of which the first is that of the
+    # ground filter if the function has one.
+    run: Callable[[SimpleNamespace, list[ParameterSet]], Any]
+    result: type | None  # class of what it returns
+    is_survey_if_many: bool = False  # whether it returns a `SurveySummary` of many files
+    has_method: bool = False  # whether it takes the parameters of a ground filter
+
+    @property
+    def parameters(self) -> list[Described]:
+        """The parameters in order."""
+        found = [_of_argument(each, is_keyword=False) for each in self.positional]
+        found += map(_of_argument, self.keywords)
+        if self.has_method:
+            found += [_of_declaration(TileMethod.declarations()[0]), *_of_methods()]
+        found += [_of_declaration(each) for some in self.sets for each in some.declarations()]
+        return found
+
+    @property
+    def documentation(self) -> str:
+        """The documentation as numpydoc has it."""
+        sections = "\n".join(each.section for each in self.parameters)
+        about = "\n\n".join(textwrap.fill(each, _WIDTH) for each in self.about.split("\n"))
+        returns = ""
+        if self.result is not None:
+            first = (self.result.__doc__ or "").partition("\n")[0]
+            many = "; of many files a `SurveySummary`." if self.is_survey_if_many else "."
+            text = f"{first.rstrip('.')}{many}"
+            returns = f"\n\nReturns\n-------\n{self.result.__name__}\n    {text}"
+        return f"{about}\n\nParameters\n----------\n{sections}{returns}\n{_RAISES}"
+
+    @property
+    def returns(self) -> str:
+        """The annotation of what it returns."""
+        name = "None" if self.result is None else self.result.__name__
+        return f"{name} | Any" if self.is_survey_if_many else name
+
+    @property
+    def signature(self) -> inspect.Signature:
+        """The signature, whose annotations are texts."""
+        parameters = [each.parameter for each in self.parameters]
+        return inspect.Signature(parameters, return_annotation=self.returns)
+
+    def sets_of(self, values: dict[str, Any], named: Collection[str]) -> list[ParameterSet]:
+        """Return the sets of parameters, given all values and which of them the user named."""
+        found = []
+        if self.has_method:
+            (method,) = TileMethod.declarations()[:1]
+            chosen = METHODS[method.check(values["method"])].parameters
+            names = {each.name for each in chosen.declarations()}
+            for name in _declared_by_method():
+                if name in named and name not in names:
+                    raise TypeError(
+                        f"{self.name}(): {name} is no parameter of method={values['method']!r}."
+                        f"{_suggestion(name, names)}"
+                    )
+            found.append(
+                chosen(**{each: values[each] for each in names if values[each] is not None})
+            )
+        for declared in self.sets:
+            names = {each.name for each in declared.declarations()}
+            found.append(declared(**{each: values[each] for each in names}))
+        return found
+
+    def made(self) -> Callable[..., Any]:
+        """Return the function."""
+        signature, name = self.signature, self.name
+
+        def function(*positional: Any, **named: Any) -> Any:
+            for each in named:
+                if each not in signature.parameters:
+                    nearest = _suggestion(each, signature.parameters)
+                    raise TypeError(f"{name}() has no parameter {each}.{nearest}")
+            try:
+                bound = signature.bind(*positional, **named)
+            except TypeError as error:
+                raise TypeError(f"{name}(): {error}.") from None
+            bound.apply_defaults()
+            values = bound.arguments
+            return self.run(SimpleNamespace(**values), self.sets_of(values, named))
+
+        function.__name__ = function.__qualname__ = name
+        function.__module__ = __name__.partition(".algorithms.")[0]
+        function.__doc__ = self.documentation
+        function.__signature__ = signature  # type: ignore[attr-defined]
+        return function
+
+
+def _suggestion(name: str, names: Iterable[str]) -> str:
+    nearest = difflib.get_close_matches(name, names)
+    return f" Did you mean {' or '.join(nearest)}?" if nearest else ""
+
+
+def _of_argument(argument: Argument, is_keyword: bool = True) -> Described:
+    kind, default = argument.kind, argument.default
+    annotation, words = kind.type, kind.words
+    if default is None:
+        annotation, words = f"{annotation} | None", f"{words}, optional"
+    elif default is not REQUIRED:
+        words = f'{words}, default "{default}"'
+    kinds = inspect.Parameter
+    place = kinds.KEYWORD_ONLY if is_keyword else kinds.POSITIONAL_OR_KEYWORD
+    parameter = kinds(argument.name, place, default=default, annotation=annotation)
+    help = _OPTION.sub(lambda found: f"`{found[1].replace('-', '_')}`", argument.help.rstrip("."))
+    return Described(parameter, words, f"{help[:1].upper()}{help[1:]}.")
+
+
+def _of_declaration(declared: Declaration) -> Described:
+    kind, default, help = _kind_of(declared), declared.default, declared.help
+    unit = f" {declared.unit}" if declared.unit else ""
+    words = f"{kind.words}, optional"
+    if default is not None:
+        text = f'"{default}"' if isinstance(default, str) else repr(default)
+        words = f"{kind.words}, default {text}{unit}"
+    if declared.minimum is not None and declared.maximum is not None:
+        help = f"{help} From {declared.minimum:g} to {declared.maximum:g}{unit}."
+    choices = " ".join(f'"{name}": {label}.' for name, label in declared.choices.items())
+    if declared.optional and "Empty:" not in help:
+        help = f"{help} None: {declared.empty}."
+    text = f"{help.replace('Empty:', 'None:')} {choices}".rstrip()
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    parameter = inspect.Parameter(declared.name, keyword, default=default, annotation=kind.type)
+    return Described(parameter, words, text)
+
+
+def _kind_of(declared: Declaration) -> Kind:
+    """Return the type of a parameter."""
+    choices = ", ".join(map(repr, declared.choices)).replace("'", '"')
+    word = f' | Literal["{declared.word}"]' if declared.word else ""
+    kind = {
+        "choice": Kind(f"Literal[{choices}]", f"{{{choices}}}"),
+        "choices": Kind(f"Sequence[Literal[{choices}]]", f"sequence of {{{choices}}}"),
+        "numbers": Kind(f"Sequence[float]{word}", "sequence of float"),
+        "integers": Kind(f"Sequence[int]{word}", "sequence of int"),
+    }.get(declared.kind) or Kind(*[_TYPES[declared.kind]] * 2)
+    if declared.word:
+        kind = kind._replace(words=f'{kind.words} or "{declared.word}"')
+    return kind._replace(type=f"{kind.type} | None") if declared.optional else kind
+
+
+def _declared_by_method() -> dict[str, dict[str, Declaration]]:
+    """Return the declarations of all parameters of ground filters, by names and methods."""
+    found: dict[str, dict[str, Declaration]] = {}
+    for method in METHODS.values():
+        for declared in method.parameters.declarations():
+            found.setdefault(declared.name, {})[method.name] = declared
+    return found
+
+
+def _of_methods() -> list[Described]:
+    """Return the parameters of all ground filters; each has those of its name in one."""
+    found = []
+    for by_method in _declared_by_method().values():
+        described = {method: _of_declaration(each) for method, each in by_method.items()}
+        parameters = [each.parameter for each in described.values()]
+        types = dict.fromkeys(
+            part for each in parameters for part in each.annotation.split(" | ")
+        )  # "None" stands last
+        types = {**{each: None for each in types if each != "None"}, "None": None}
+        if len(described) == 1:
+            ((method, only),) = described.items()
+            words, help = only.words, f"Only of method={method!r}. {only.help}"
+        else:
+            words = "by method"
+            help = " ".join(
+                f"With method={method!r}: {each.words}. {each.help}"
+                for method, each in described.items()
+            )
+        parameter = parameters[0].replace(default=None, annotation=" | ".join(types))
+        found.append(Described(parameter, words, help))
+    return found

@@ -1,0 +1,138 @@
+"""Values of the arguments of a function, as runs need them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, Callable
+
+from ..core.progress import SILENT, Progress
+from ..survey.area import Area
+from ..survey.corrections import NO_CORRECTIONS, Corrections
+
+if TYPE_CHECKING:
+    from ..engine.memory import Resources
+    from ..engine.workers import Workers
+    from ..products.constraints import Constraints
+    from ..products.raster_files import RasterFiles
+    from ..products.raster_grid import RasterTarget
+    from ..survey.checkpoint_files import Checkpoints
+
+# The word for water that is found, and for processes of this computer.
+AUTOMATIC, PROCESSES = "automatic", "processes"
+
+
+class CallingProgress(Progress):
+    """Calls a function with the share of the work that is done."""
+
+    def __init__(self, called: Callable[[float], object]) -> None:
+        self._called = called
+
+    def report(self, fraction: float) -> None:
+        """Call the function, which may raise `Cancelled`."""
+        self._called(fraction)
+
+
+def progress_of(given: Any) -> Progress:
+    """Return the progress that a user gives, or a silent one."""
+    if given is None or isinstance(given, Progress):
+        return given or SILENT
+    return CallingProgress(given)
+
+
+def paths_of(sources: Any) -> list[Path]:
+    """Return paths, given one or several."""
+    return [Path(sources)] if isinstance(sources, (str, Path)) else [Path(each) for each in sources]
+
+
+def path_of(given: Any) -> Path | None:
+    """Return a path, or None where none is given."""
+    return None if given is None else Path(given)
+
+
+def polygons_of(given: Any) -> Any:
+    """Return polygons, given as such or as a file."""
+    from ..survey.vector_files import read_boundary
+
+    return read_boundary(Path(given)) if isinstance(given, (str, Path)) else tuple(given or ())
+
+
+def lines_of(given: Any) -> Any:
+    """Return lines, given as such or as a file."""
+    from ..survey.vector_files import read_lines
+
+    return read_lines(Path(given)) if isinstance(given, (str, Path)) else tuple(given or ())
+
+
+def area_of(values: SimpleNamespace) -> Area | None:
+    """Return the area that extent and boundary give, or None."""
+    if values.extent is None and values.boundary is None:
+        return None
+    # An extent that is none is refused before the boundary is read.
+    box = None if values.extent is None else Area(tuple(map(float, values.extent))).box
+    return Area(box, polygons_of(values.boundary))
+
+
+def corrections_of(values: SimpleNamespace) -> Corrections:
+    """Return the polygons whose class is known."""
+    from ..survey.vector_files import read_corrections
+
+    given = values.corrections
+    if isinstance(given, (str, Path)):
+        return read_corrections(Path(given))
+    return given or NO_CORRECTIONS
+
+
+def is_automatic(given: Any) -> bool:
+    """Return whether polygons are to be found, and not read."""
+    return isinstance(given, (str, Path)) and str(given).lower() == AUTOMATIC
+
+
+def constraints_of(values: SimpleNamespace) -> Constraints:
+    """Return the lines and polygons that the terrain must respect."""
+    from ..products.constraints import Constraints
+
+    return Constraints(
+        breaklines=lines_of(values.breaklines),
+        water=() if is_automatic(values.water) else polygons_of(values.water),
+        rivers=lines_of(values.rivers),
+        no_ground=polygons_of(values.no_ground),
+    )
+
+
+def target_of(values: SimpleNamespace) -> RasterTarget:
+    """Return the grid and the extent of the rasters."""
+    from ..products.raster_grid import RasterTarget
+
+    extent = values.raster_extent
+    return RasterTarget(values.like, None if extent is None else tuple(extent))
+
+
+def rasters_of(values: SimpleNamespace) -> RasterFiles:
+    """Return the rasters to make."""
+    from ..products.raster_files import RASTERS, RasterFiles
+
+    return RasterFiles(**{name: path_of(getattr(values, name)) for name in RASTERS})
+
+
+def checkpoints_of(values: SimpleNamespace) -> Checkpoints | None:
+    """Return the checkpoints of a file, or of x, y and z in the CRS of the points; or None."""
+    from ..survey.checkpoint_files import Checkpoints, read_checkpoints
+
+    given = values.checkpoints
+    if isinstance(given, (str, Path)):
+        return read_checkpoints(str(given), values.columns, values.checkpoints_crs)
+    return None if given is None else Checkpoints.of(given)
+
+
+def workers_of(scheduler: str | None, resources: Resources) -> Workers | None:
+    """Return the workers for many files: None for threads of this process."""
+    if scheduler is None:
+        return None
+    if scheduler == PROCESSES:
+        from ..engine.workers import Local
+
+        return Local(resources)
+    from ..engine.cluster import Cluster
+
+    return Cluster(scheduler, resources)

@@ -1,0 +1,554 @@
+"""The functions of the library: what is declared of each, imported when it is asked for."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, Callable, Iterator
+
+from ..core.parameters import ParameterSet
+from ..core.progress import Progress
+from ..engine.memory import Resources
+from ..products.contours import Contours
+from ..products.surface_model import SurfaceModel
+from ..products.terrain_model import TerrainModel
+from ..runs.options import RasterOutput, TileInput, TileOutput
+from ..survey.ground_classes import GroundClasses
+from ..survey.selection import Selection
+from ..tools import POINT_TOOLS, point_tool
+from ..tools.declaration import Input
+from . import arguments
+from .arguments import KINDS, REQUIRED, Argument, path
+from .functions import Function
+from .given import (
+    area_of,
+    checkpoints_of,
+    constraints_of,
+    corrections_of,
+    is_automatic,
+    path_of,
+    paths_of,
+    polygons_of,
+    progress_of,
+    rasters_of,
+    target_of,
+    workers_of,
+)
+
+_REACHES = (arguments.SCHEDULER, arguments.PROGRESS)
+_SOURCE = path("source", "a raster that GDAL reads", REQUIRED)
+_CLASSIFIED = replace(arguments.SOURCES, help=f"classified {arguments.SOURCES.help}")
+
+
+@contextlib.contextmanager
+def _contours_after(
+    values: SimpleNamespace, sets: list[ParameterSet]
+) -> Iterator[tuple[Any, list[ParameterSet], Progress]]:
+    """Yield the rasters to make, the sets and the progress of their run, and then draw the contour
+    lines, if these are wanted; without `dtm`, their terrain model is a temporary file.
+    """
+    from ..core.files import temporary_folder
+    from ..products.contours import write_contours
+    from ..products.line_files import check_features
+    from ..products.raster_files import virtual_of
+
+    rasters, how, progress = rasters_of(values), Contours.among(sets), progress_of(values.progress)
+    rest, target = [each for each in sets if each is not how], path_of(values.contours)
+    if target is None:
+        yield rasters, rest, progress
+        return
+    check_features(target, tuple(paths_of(values.sources)))
+    with temporary_folder(target.parent) as folder:
+        dtm = rasters.dtm or folder / "dtm.tif"
+        yield replace(rasters, dtm=dtm), rest, progress.part(0.0, 0.9)
+        per_file = RasterOutput.among(sets).raster_per_file
+        source = virtual_of(dtm) if per_file and virtual_of(dtm).exists() else dtm
+        write_contours(source, target, how, progress.part(0.9, 1.0))
+
+
+def _classify() -> Function:
+    from ..products.above_ground import ThenAboveGround
+    from ..runs.one_file import Summary
+    from ..steps.output import Output
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..runs.entry import classify
+        from ..runs.requests import ClassifyRequest
+
+        with _contours_after(values, sets) as (rasters, rest, progress):
+            request = ClassifyRequest.of(
+                rest, rasters=rasters, area=area_of(values), corrections=corrections_of(values),
+                constraints=constraints_of(values), crs=values.crs,
+                raster_target=target_of(values), explain=path_of(values.explain),
+            )  # fmt: skip
+            workers = workers_of(values.scheduler, request.resources)
+            as_survey = bool(values.scheduler) or None
+            return classify(
+                values.sources, values.output, request, progress, workers, path_of(values.vpc),
+                as_survey,
+            )  # fmt: skip
+
+    explain = path(
+        "explain",
+        "of one file: write a GeoTIFF of the rule that decided each cell; its band lists the rules",
+    )
+    area = arguments.area(
+        "classify only points in", "; points outside are written too, with the class that they"
+        " have, unless `area_only` is given; rasters end at its border",
+    )  # fmt: skip
+    return Function(
+        "classify",
+        "Classify the ground points of a file, or of many files as one survey, and make products of"
+        " them.",
+        (arguments.SOURCES, arguments.OUTPUT),
+        (
+            arguments.CRS, *arguments.RASTERS, arguments.CONTOURS, *arguments.TARGET,
+            *arguments.CONSTRAINTS, *area, arguments.CORRECTIONS, explain, arguments.VPC, *_REACHES,
+        ),
+        (
+            Selection, ThenAboveGround, TerrainModel, SurfaceModel, Contours, Output, TileInput,
+            TileOutput, RasterOutput, Resources,
+        ),
+        run,
+        Summary,
+        is_survey_if_many=True,
+        has_method=True,
+    )  # fmt: skip
+
+
+def _terrain() -> Function:
+    from ..steps.raster_output import RasterSize
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..runs.entry import terrain
+        from ..runs.requests import TerrainRequest
+
+        with _contours_after(values, sets) as (rasters, rest, progress):
+            constraints, progress = _with_found_water(values, sets, progress)
+            request = TerrainRequest.of(
+                rest, rasters=rasters, area=area_of(values), constraints=constraints,
+                crs=values.crs, raster_target=target_of(values),
+            )  # fmt: skip
+            workers = workers_of(values.scheduler, request.resources)
+            return terrain(values.sources, request, progress, workers)
+
+    area = arguments.area(
+        "make the rasters only in", "; points outside still help along its border"
+    )
+    return Function(
+        "terrain",
+        "Make rasters of the terrain and of what stands on it, and contour lines, of classified"
+        " points; all files together are one survey.",
+        (_CLASSIFIED,),
+        (
+            arguments.CRS, *arguments.RASTERS, arguments.CONTOURS, *arguments.TARGET, *area,
+            *arguments.WITH_AUTOMATIC_WATER, *_REACHES,
+        ),
+        (
+            GroundClasses, TerrainModel, SurfaceModel, Contours, TileInput, RasterOutput,
+            Resources,
+        ),
+        run,
+        RasterSize,
+    )  # fmt: skip
+
+
+def _with_found_water(
+    values: SimpleNamespace, sets: list[ParameterSet], progress: Progress
+) -> tuple[Any, Progress]:
+    """Return the constraints with the water of the points, if that is automatic, and what is left
+    of the progress.
+    """
+    from ..products.water_files import SurveyWater, WaterRequest
+
+    constraints = constraints_of(values)
+    if not is_automatic(values.water):
+        return constraints, progress
+    finding, rest = progress.part(0.0, 0.4), progress.part(0.4, 1.0)
+    request = WaterRequest(ground=GroundClasses.among(sets), crs=values.crs)
+    found = SurveyWater.of(paths_of(values.sources), request, finding)
+    finding.info(f"Water: {found.summary.text}.")
+    return constraints.with_water(found.constraints, finding), rest
+
+
+def _point_tool(command: str) -> Function:
+    """Return the function of a tool that writes classified files anew."""
+    from ..runs.entry import write
+    from ..runs.requests import PointRequest
+
+    tool = point_tool(command)
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        progress, inputs = progress_of(values.progress), {}
+        for each in tool.inputs:
+            inputs[each.name], progress = _tool_input(each, values, sets, progress)
+        request = PointRequest.of(tool, sets, inputs, values.crs)
+        workers = workers_of(values.scheduler, request.resources)
+        as_survey = bool(values.scheduler) or None
+        return write(
+            values.sources, values.output, request, progress, workers, as_survey,
+            path_of(values.vpc),
+        )  # fmt: skip
+
+    return Function(
+        POINT_TOOLS[command].file,
+        f"Write classified files with {tool.writes}.",
+        (_CLASSIFIED, arguments.OUTPUT),
+        (
+            *(each for some in tool.inputs for each in arguments.arguments_of(some)),
+            arguments.CRS, arguments.VPC, *_REACHES,
+        ),
+        (*tool.sets, TileInput, TileOutput, Resources),
+        run,
+        tool.step.summary_type,
+        is_survey_if_many=True,
+    )  # fmt: skip
+
+
+def _tool_input(
+    declared: Input, values: SimpleNamespace, sets: list[ParameterSet], progress: Progress
+) -> tuple[Any, Progress]:
+    """Return a further input of a tool as its step has it, and what is left of the progress."""
+    from ..las.writing import check_cloud
+    from ..survey.files import is_one_file
+
+    if declared.kind == "area":
+        return area_of(values), progress
+    value = getattr(values, declared.name)
+    if declared.kind == "raster":
+        return (None if value is None else declared.of(value)), progress
+    if declared.found is None or not is_automatic(value):
+        return declared.of(polygons_of(value)), progress
+    paths = paths_of(values.sources)
+    if is_one_file(paths):  # to find polygons can take minutes
+        check_cloud(paths[0], Path(values.output))
+    ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
+    return declared.found(paths, ground, values.crs, part), progress.part(0.4, 1.0)
+
+
+def _check() -> Function:
+    from ..products.accuracy import Accuracy
+    from ..products.checkpoint_results import Check
+    from ..products.checkpoints import CheckOptions
+    from ..products.line_files import FORMATS
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..products.checkpoint_outputs import CheckOutputs
+        from ..products.checkpoints import CheckRequest, check_files
+
+        files = (path_of(each) for each in (values.report, values.table, values.residuals))
+        request = CheckRequest.of(
+            sets, checkpoints=checkpoints_of(values), dtm=values.dtm, confidence=values.confidence,
+            vegetated=tuple(values.vegetated or ()), crs=values.crs, outputs=CheckOutputs(*files),
+        )  # fmt: skip
+        return check_files(paths_of(values.sources), request, progress_of(values.progress))
+
+    return Function(
+        "check",
+        "Compare the ground, and a terrain model, with checkpoints, or with points that are held"
+        " out.",
+        (_CLASSIFIED,),
+        (
+            *arguments.CHECKPOINTS,
+            Argument(
+                "vegetated", KINDS["words"],
+                "land covers with one of these words are vegetated, and no others; without it,"
+                " those with words such as forest, crops and brush in several languages",
+            ),
+            path("dtm", "check this terrain model as well, in the CRS of the points"),
+            path(
+                "confidence", "the confidence of the terrain model, 0 to 1, as `terrain` makes it;"
+                " checkpoints where it is low are not counted",
+            ),
+            path("report", "write a page (.html)"),
+            path("table", "write the checkpoints and their errors (.csv)"),
+            path(
+                "residuals",
+                f"write the checkpoints and their errors as points ({', '.join(FORMATS)}); all but"
+                " .geojson need pyogrio",
+            ),
+            arguments.CRS, arguments.PROGRESS,
+        ),
+        (Accuracy, CheckOptions, GroundClasses),
+        run,
+        Check,
+    )  # fmt: skip
+
+
+def _quality() -> Function:
+    from ..products.quality import QualityOptions
+    from ..products.quality_figures import Quality
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..products.quality import QualityRequest, survey_quality
+
+        request = QualityRequest.of(
+            sets, page=path_of(values.page), folder=path_of(values.folder), crs=values.crs
+        )
+        return survey_quality(paths_of(values.sources), request, progress_of(values.progress))
+
+    return Function(
+        "quality",
+        "Measure density, voids and overlap of a classified survey, and compare it with a"
+        " specification.",
+        (_CLASSIFIED,),
+        (
+            path("page", "write a page (.html)"),
+            path(
+                "folder",
+                "write rasters (.tif) into this folder, which is made if need be: densities, voids,"
+                " low vegetation, overlap of strips, differences between strips, maximum surface"
+                " height",
+            ),
+            arguments.CRS, arguments.PROGRESS,
+        ),
+        (QualityOptions, GroundClasses),
+        run,
+        Quality,
+    )  # fmt: skip
+
+
+def _assess() -> Function:
+    from ..products.comparison import Assessment, AssessmentOptions
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..products.assessment import assess_files
+
+        return assess_files(
+            Path(values.classified), Path(values.reference), *sets, path_of(values.report),
+            path_of(values.error_map), progress_of(values.progress), values.crs,
+        )  # fmt: skip
+
+    return Function(
+        "assess",
+        "Compare the ground of a classified file with a reference that holds the same points, or a"
+        " part of them.",
+        (
+            path("classified", "the file to check", REQUIRED),
+            path("reference", "a file with the same points and their true classes", REQUIRED),
+        ),
+        (
+            path("report", "write a report (.html)"),
+            path("error_map", "write the share of wrong points in each cell, 0 to 1 (.tif)"),
+            arguments.CRS, arguments.PROGRESS,
+        ),
+        (AssessmentOptions,),
+        run,
+        Assessment,
+    )  # fmt: skip
+
+
+def _contours() -> Function:
+    from ..products.contours import Interval
+    from ..products.line_files import FORMATS
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..products.contours import write_contours
+
+        progress = progress_of(values.progress)
+        return write_contours(values.source, Path(values.output), *sets, progress)
+
+    lines = f"the lines to write ({', '.join(FORMATS)}); all but .geojson need pyogrio"
+    return Function(
+        "contours",
+        "Draw contour lines of an elevation raster, of its heights smoothed for the lines only.",
+        (_SOURCE, path("output", lines, REQUIRED)),
+        (arguments.PROGRESS,),
+        (Contours,),
+        run,
+        Interval,
+    )
+
+
+def _relief() -> Function:
+    from ..products.relief import KINDS as RELIEFS
+    from ..products.relief import LOCAL_RELIEF, ReliefPictures
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> None:
+        from ..products.relief import write_relief
+
+        progress = progress_of(values.progress)
+        write_relief(values.source, Path(values.output), values.kind, *sets, progress)
+
+    return Function(
+        "relief",
+        "Make a raster that shows the relief of an elevation raster.",
+        (_SOURCE, path("output", "a GeoTIFF (.tif) to write", REQUIRED)),
+        (Argument.choice("kind", RELIEFS, LOCAL_RELIEF, "what to make"), arguments.PROGRESS),
+        (ReliefPictures,),
+        run,
+        None,
+    )
+
+
+def _remove_objects() -> Function:
+    from ..products.off_terrain import OffTerrain, Removal
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..products.off_terrain import remove_objects_file
+
+        progress = progress_of(values.progress)
+        return remove_objects_file(values.source, Path(values.output), *sets, progress)
+
+    return Function(
+        "remove_off_terrain_objects",
+        "Remove buildings, trees and other steep-sided objects from an elevation raster, and fill"
+        " the gaps smoothly.",
+        (_SOURCE, path("output", "a GeoTIFF (.tif) to write", REQUIRED)),
+        (arguments.PROGRESS,),
+        (OffTerrain,),
+        run,
+        Removal,
+    )
+
+
+def _water() -> Function:
+    from ..products.line_files import FORMATS
+    from ..products.water import Water
+    from ..products.water_files import WaterSummary
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..products.water_files import WaterRequest, write_water
+
+        breaklines = path_of(values.breaklines_out)
+        request = WaterRequest.of(sets, crs=values.crs, breaklines=breaklines)
+        progress = progress_of(values.progress)
+        return write_water(paths_of(values.sources), Path(values.output), request, progress)
+
+    kinds = f"({', '.join(FORMATS)}); all but .geojson need pyogrio"
+    lines = f"write shores, islands and the middles of rivers as lines with heights {kinds}"
+    return Function(
+        "water",
+        "Find lakes and rivers in classified points.",
+        (_CLASSIFIED, path("output", f"the polygons of water to write {kinds}", REQUIRED)),
+        (path("breaklines_out", lines), arguments.CRS, arguments.PROGRESS),
+        (Water, GroundClasses),
+        run,
+        WaterSummary,
+    )
+
+
+def _compare_settings() -> Function:
+    from ..trial.comparing import TrialSummary
+    from ..trial.options import TrialOptions
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..trial.comparing import compare_settings
+
+        return compare_settings(
+            paths_of(values.sources), Path(values.page), values.extent, *sets,
+            progress_of(values.progress), values.crs,
+        )  # fmt: skip
+
+    window = "xmin, ymin, xmax, ymax: the window, in the CRS of the points; without it, 250 x 250"
+    return Function(
+        "compare_settings",
+        "Try methods and presets on a window, and show them side by side on a page. No point cloud"
+        " is written.",
+        (arguments.SOURCES, path("page", "the page to write (.html)", REQUIRED)),
+        (
+            Argument("extent", KINDS["extent"], f"{window} m in the middle of the points"),
+            arguments.CRS, arguments.PROGRESS,
+        ),
+        (TrialOptions, Resources),
+        run,
+        TrialSummary,
+    )  # fmt: skip
+
+
+def _deliver() -> Function:
+    from ..delivery.deliveries import DEFAULT_DELIVERY, DELIVERIES
+    from ..delivery.request import DeliveryOptions, DeliveryTerrain, DeliveryWater
+    from ..delivery.summary import DeliverySummary
+    from ..products.accuracy import Accuracy
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..delivery.delivering import deliver
+        from ..delivery.request import DeliveryRequest
+
+        request = DeliveryRequest.of(
+            sets, delivery=values.delivery, checkpoints=checkpoints_of(values), crs=values.crs,
+            corrections=corrections_of(values), area=area_of(values),
+            constraints=constraints_of(values), raster_target=target_of(values),
+        )  # fmt: skip
+        workers = workers_of(values.scheduler, request.resources)
+        progress = progress_of(values.progress)
+        return deliver(values.sources, values.output, request, progress, workers)
+
+    kinds = " ".join(f"{name}: {each.about}" for name, each in DELIVERIES.items()).rstrip(".")
+    folder = (
+        "the folder for all outputs: a new or empty one, or that of an earlier delivery, which is"
+        " replaced"
+    )
+    return Function(
+        "deliver",
+        "Classify raw points and make everything that a job hands over, in one folder.",
+        (arguments.SOURCES, path("output", folder, REQUIRED)),
+        (
+            Argument.choice("delivery", DELIVERIES, DEFAULT_DELIVERY, f"what to deliver. {kinds}"),
+            *arguments.CHECKPOINTS, arguments.CORRECTIONS,
+            *arguments.area("deliver only", "; points nearby help to judge"),
+            *arguments.WITH_AUTOMATIC_WATER, *arguments.TARGET, arguments.CRS, *_REACHES,
+        ),
+        (
+            DeliveryOptions, Selection, DeliveryTerrain, SurfaceModel, Contours, DeliveryWater,
+            Accuracy, TileInput, TileOutput, Resources,
+        ),
+        run,
+        DeliverySummary,
+        has_method=True,
+    )  # fmt: skip
+
+
+def _info() -> Function:
+    from ..las.reading import Description
+
+    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        from ..las.opening import open_las
+        from ..las.reading import inspect
+
+        return inspect(open_las(Path(values.source), values.crs), progress_of(values.progress))
+
+    return Function(
+        "info",
+        "Describe a point cloud file.",
+        (path("source", "a .las, .laz or .copc.laz file", REQUIRED),),
+        (arguments.CRS, arguments.PROGRESS),
+        (),
+        run,
+        Description,
+    )
+
+
+_DECLARED: dict[str, Callable[[], Function]] = {
+    "assess": _assess,
+    "check": _check,
+    "classify": _classify,
+    "compare_settings": _compare_settings,
+    "contours": _contours,
+    "deliver": _deliver,
+    "info": _info,
+    "quality": _quality,
+    "relief": _relief,
+    "remove_off_terrain_objects": _remove_objects,
+    "terrain": _terrain,
+    "water": _water,
+}
+
+
+@cache
+def declared(name: str) -> Function:
+    """Return what is declared of a function, given its name."""
+    for command, listed in POINT_TOOLS.items():
+        if listed.file == name:
+            return _point_tool(command)
+    return _DECLARED[name]()
+
+
+@cache
+def function(name: str) -> Callable[..., Any]:
+    """Return a function, given its name."""
+    return declared(name).made()
