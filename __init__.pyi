@@ -10,17 +10,17 @@ from .algorithms.core.progress import Progress as Progress
 from .algorithms.core.version import __version__ as __version__
 from .algorithms.delivery.summary import DeliverySummary
 from .algorithms.las.reading import Description
-from .algorithms.products.checkpoint_results import Check
-from .algorithms.products.comparison import Assessment
-from .algorithms.products.contours import Interval
-from .algorithms.products.off_terrain import Removal
-from .algorithms.products.quality_figures import Quality
-from .algorithms.products.water_files import WaterSummary
 from .algorithms.runs.one_file import Summary
-from .algorithms.steps.raster_output import RasterSize
 from .algorithms.tools.above_ground import AboveGroundSummary
+from .algorithms.tools.check.results import Check
+from .algorithms.tools.comparison import Assessment
+from .algorithms.tools.contours import Interval
 from .algorithms.tools.heights import HeightSummary
 from .algorithms.tools.key_points import KeyPointSummary
+from .algorithms.tools.off_terrain import Removal
+from .algorithms.tools.quality.figures import Quality
+from .algorithms.tools.rasters.output import RasterSize
+from .algorithms.tools.water.files import WaterSummary
 from .algorithms.tools.water_classes import WaterClassSummary
 from .algorithms.trial.comparing import TrialSummary
 

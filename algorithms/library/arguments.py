@@ -6,11 +6,11 @@ import inspect
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from ..products.line_files import FORMATS as LINE_FORMATS
-from ..products.raster_files import RASTERS as _RASTERS
-from ..survey.checkpoint_files import FORMATS as POINT_FORMATS
+from ..survey.feature_files import FORMATS as LINE_FORMATS
 from ..survey.vector_files import FORMATS
+from ..tools.check.checkpoints import FORMATS as POINT_FORMATS
 from ..tools.declaration import Input
+from ..tools.rasters.rows import RASTERS as _RASTERS
 
 REQUIRED = inspect.Parameter.empty
 _PATH, _LITERAL = "str | PathLike[str]", "Literal[{}]"

@@ -13,10 +13,10 @@ from ..survey.corrections import NO_CORRECTIONS, Corrections
 if TYPE_CHECKING:
     from ..engine.memory import Resources
     from ..engine.workers import Workers
-    from ..products.constraints import Constraints
-    from ..products.raster_files import RasterFiles
-    from ..products.raster_grid import RasterTarget
-    from ..survey.checkpoint_files import Checkpoints
+    from ..rasters.cell_grid import RasterTarget
+    from ..tools.check.checkpoints import Checkpoints
+    from ..tools.rasters.constraints import Constraints
+    from ..tools.rasters.rows import RasterFiles
 
 # The word for water that is found, and for processes of this computer.
 AUTOMATIC, PROCESSES = "automatic", "processes"
@@ -69,7 +69,9 @@ def area_of(values: SimpleNamespace) -> Area | None:
     if values.extent is None and values.boundary is None:
         return None
     # An extent that is none is refused before the boundary is read.
-    box = None if values.extent is None else Area(tuple(map(float, values.extent))).box
+    box: Any = None if values.extent is None else tuple(map(float, values.extent))
+    if box is not None:
+        Area(box)
     return Area(box, polygons_of(values.boundary))
 
 
@@ -90,7 +92,7 @@ def is_automatic(given: Any) -> bool:
 
 def constraints_of(values: SimpleNamespace) -> Constraints:
     """Return the lines and polygons that the terrain must respect."""
-    from ..products.constraints import Constraints
+    from ..tools.rasters.constraints import Constraints
 
     return Constraints(
         breaklines=lines_of(values.breaklines),
@@ -102,7 +104,7 @@ def constraints_of(values: SimpleNamespace) -> Constraints:
 
 def target_of(values: SimpleNamespace) -> RasterTarget:
     """Return the grid and the extent of the rasters."""
-    from ..products.raster_grid import RasterTarget
+    from ..rasters.cell_grid import RasterTarget
 
     extent = values.raster_extent
     return RasterTarget(values.like, None if extent is None else tuple(extent))
@@ -110,14 +112,14 @@ def target_of(values: SimpleNamespace) -> RasterTarget:
 
 def rasters_of(values: SimpleNamespace) -> RasterFiles:
     """Return the rasters to make."""
-    from ..products.raster_files import RASTERS, RasterFiles
+    from ..tools.rasters.rows import RASTERS, RasterFiles
 
     return RasterFiles(**{name: path_of(getattr(values, name)) for name in RASTERS})
 
 
 def checkpoints_of(values: SimpleNamespace) -> Checkpoints | None:
     """Return the checkpoints of a file, or of x, y and z in the CRS of the points; or None."""
-    from ..survey.checkpoint_files import Checkpoints, read_checkpoints
+    from ..tools.check.checkpoints import Checkpoints, read_checkpoints
 
     given = values.checkpoints
     if isinstance(given, (str, Path)):

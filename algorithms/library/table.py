@@ -12,14 +12,14 @@ from typing import Any, Callable, Iterator
 from ..core.parameters import ParameterSet
 from ..core.progress import Progress
 from ..engine.memory import Resources
-from ..products.contours import Contours
-from ..products.surface_model import SurfaceModel
-from ..products.terrain_model import TerrainModel
 from ..runs.options import RasterOutput, TileInput, TileOutput
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from ..tools import POINT_TOOLS, point_tool
+from ..tools.contours import Contours
 from ..tools.declaration import Input
+from ..tools.rasters.surface_model import SurfaceModel
+from ..tools.rasters.terrain_model import TerrainModel
 from . import arguments
 from .arguments import KINDS, REQUIRED, Argument, path
 from .functions import Function
@@ -45,15 +45,15 @@ _CLASSIFIED = replace(arguments.SOURCES, help=f"classified {arguments.SOURCES.he
 
 @contextlib.contextmanager
 def _contours_after(
-    values: SimpleNamespace, sets: list[ParameterSet]
-) -> Iterator[tuple[Any, list[ParameterSet], Progress]]:
+    values: SimpleNamespace, sets: list[Any]
+) -> Iterator[tuple[Any, list[Any], Progress]]:
     """Yield the rasters to make, the sets and the progress of their run, and then draw the contour
     lines, if these are wanted; without `dtm`, their terrain model is a temporary file.
     """
     from ..core.files import temporary_folder
-    from ..products.contours import write_contours
-    from ..products.line_files import check_features
-    from ..products.raster_files import virtual_of
+    from ..survey.feature_files import check_features
+    from ..tools.contours import write_contours
+    from ..tools.rasters.rows import virtual_of
 
     rasters, how, progress = rasters_of(values), Contours.among(sets), progress_of(values.progress)
     rest, target = [each for each in sets if each is not how], path_of(values.contours)
@@ -70,11 +70,11 @@ def _contours_after(
 
 
 def _classify() -> Function:
-    from ..products.above_ground import ThenAboveGround
     from ..runs.one_file import Summary
     from ..steps.output import Output
+    from ..tools.above_ground.classes import ThenAboveGround
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         from ..runs.entry import classify
         from ..runs.requests import ClassifyRequest
 
@@ -120,9 +120,9 @@ def _classify() -> Function:
 
 
 def _terrain() -> Function:
-    from ..steps.raster_output import RasterSize
+    from ..tools.rasters.output import RasterSize
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         from ..runs.entry import terrain
         from ..runs.requests import TerrainRequest
 
@@ -157,12 +157,12 @@ def _terrain() -> Function:
 
 
 def _with_found_water(
-    values: SimpleNamespace, sets: list[ParameterSet], progress: Progress
+    values: SimpleNamespace, sets: list[Any], progress: Progress
 ) -> tuple[Any, Progress]:
     """Return the constraints with the water of the points, if that is automatic, and what is left
     of the progress.
     """
-    from ..products.water_files import SurveyWater, WaterRequest
+    from ..tools.water.files import SurveyWater, WaterRequest
 
     constraints = constraints_of(values)
     if not is_automatic(values.water):
@@ -181,7 +181,7 @@ def _point_tool(command: str) -> Function:
 
     tool = point_tool(command)
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         progress, inputs = progress_of(values.progress), {}
         for each in tool.inputs:
             inputs[each.name], progress = _tool_input(each, values, sets, progress)
@@ -209,7 +209,7 @@ def _point_tool(command: str) -> Function:
 
 
 def _tool_input(
-    declared: Input, values: SimpleNamespace, sets: list[ParameterSet], progress: Progress
+    declared: Input, values: SimpleNamespace, sets: list[Any], progress: Progress
 ) -> tuple[Any, Progress]:
     """Return a further input of a tool as its step has it, and what is left of the progress."""
     from ..las.writing import check_cloud
@@ -230,14 +230,14 @@ def _tool_input(
 
 
 def _check() -> Function:
-    from ..products.accuracy import Accuracy
-    from ..products.checkpoint_results import Check
-    from ..products.checkpoints import CheckOptions
-    from ..products.line_files import FORMATS
+    from ..survey.feature_files import FORMATS
+    from ..tools.check.accuracy import Accuracy
+    from ..tools.check.checking import CheckOptions
+    from ..tools.check.results import Check
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
-        from ..products.checkpoint_outputs import CheckOutputs
-        from ..products.checkpoints import CheckRequest, check_files
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        from ..tools.check.checking import CheckRequest, check_files
+        from ..tools.check.outputs import CheckOutputs
 
         files = (path_of(each) for each in (values.report, values.table, values.residuals))
         request = CheckRequest.of(
@@ -279,11 +279,11 @@ def _check() -> Function:
 
 
 def _quality() -> Function:
-    from ..products.quality import QualityOptions
-    from ..products.quality_figures import Quality
+    from ..tools.quality.figures import Quality
+    from ..tools.quality.measuring import QualityOptions
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
-        from ..products.quality import QualityRequest, survey_quality
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        from ..tools.quality.measuring import QualityRequest, survey_quality
 
         request = QualityRequest.of(
             sets, page=path_of(values.page), folder=path_of(values.folder), crs=values.crs
@@ -312,13 +312,13 @@ def _quality() -> Function:
 
 
 def _assess() -> Function:
-    from ..products.comparison import Assessment, AssessmentOptions
+    from ..tools.comparison import Assessment, AssessmentOptions
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
-        from ..products.assessment import assess_files
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        from ..tools.assess import assess_files
 
         return assess_files(
-            Path(values.classified), Path(values.reference), *sets, path_of(values.report),
+            Path(values.classified), Path(values.reference), sets[0], path_of(values.report),
             path_of(values.error_map), progress_of(values.progress), values.crs,
         )  # fmt: skip
 
@@ -342,14 +342,14 @@ def _assess() -> Function:
 
 
 def _contours() -> Function:
-    from ..products.contours import Interval
-    from ..products.line_files import FORMATS
+    from ..survey.feature_files import FORMATS
+    from ..tools.contours import Interval
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
-        from ..products.contours import write_contours
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        from ..tools.contours import write_contours
 
         progress = progress_of(values.progress)
-        return write_contours(values.source, Path(values.output), *sets, progress)
+        return write_contours(values.source, Path(values.output), sets[0], progress)
 
     lines = f"the lines to write ({', '.join(FORMATS)}); all but .geojson need pyogrio"
     return Function(
@@ -364,14 +364,14 @@ def _contours() -> Function:
 
 
 def _relief() -> Function:
-    from ..products.relief import KINDS as RELIEFS
-    from ..products.relief import LOCAL_RELIEF, ReliefPictures
+    from ..tools.relief import KINDS as RELIEFS
+    from ..tools.relief import LOCAL_RELIEF, ReliefPictures
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> None:
-        from ..products.relief import write_relief
+    def run(values: SimpleNamespace, sets: list[Any]) -> None:
+        from ..tools.relief import write_relief
 
         progress = progress_of(values.progress)
-        write_relief(values.source, Path(values.output), values.kind, *sets, progress)
+        write_relief(values.source, Path(values.output), values.kind, sets[0], progress)
 
     return Function(
         "relief",
@@ -385,13 +385,13 @@ def _relief() -> Function:
 
 
 def _remove_objects() -> Function:
-    from ..products.off_terrain import OffTerrain, Removal
+    from ..tools.off_terrain import OffTerrain, Removal
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
-        from ..products.off_terrain import remove_objects_file
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        from ..tools.off_terrain import remove_objects_file
 
         progress = progress_of(values.progress)
-        return remove_objects_file(values.source, Path(values.output), *sets, progress)
+        return remove_objects_file(values.source, Path(values.output), sets[0], progress)
 
     return Function(
         "remove_off_terrain_objects",
@@ -406,12 +406,12 @@ def _remove_objects() -> Function:
 
 
 def _water() -> Function:
-    from ..products.line_files import FORMATS
-    from ..products.water import Water
-    from ..products.water_files import WaterSummary
+    from ..survey.feature_files import FORMATS
+    from ..tools.water.files import WaterSummary
+    from ..tools.water.finding import Water
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
-        from ..products.water_files import WaterRequest, write_water
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        from ..tools.water.files import WaterRequest, write_water
 
         breaklines = path_of(values.breaklines_out)
         request = WaterRequest.of(sets, crs=values.crs, breaklines=breaklines)
@@ -435,11 +435,11 @@ def _compare_settings() -> Function:
     from ..trial.comparing import TrialSummary
     from ..trial.options import TrialOptions
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         from ..trial.comparing import compare_settings
 
         return compare_settings(
-            paths_of(values.sources), Path(values.page), values.extent, *sets,
+            paths_of(values.sources), Path(values.page), values.extent, sets[0], sets[1],
             progress_of(values.progress), values.crs,
         )  # fmt: skip
 
@@ -463,9 +463,9 @@ def _deliver() -> Function:
     from ..delivery.deliveries import DEFAULT_DELIVERY, DELIVERIES
     from ..delivery.request import DeliveryOptions, DeliveryTerrain, DeliveryWater
     from ..delivery.summary import DeliverySummary
-    from ..products.accuracy import Accuracy
+    from ..tools.check.accuracy import Accuracy
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         from ..delivery.delivering import deliver
         from ..delivery.request import DeliveryRequest
 
@@ -506,7 +506,7 @@ def _deliver() -> Function:
 def _info() -> Function:
     from ..las.reading import Description
 
-    def run(values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         from ..las.opening import open_las
         from ..las.reading import inspect
 
