@@ -12,8 +12,9 @@ from .algorithms.delivery.summary import DeliverySummary
 from .algorithms.las.reading import Description
 from .algorithms.runs.one_file import Summary
 from .algorithms.tools.above_ground import AboveGroundSummary
+from .algorithms.tools.assess import Assessment
 from .algorithms.tools.check.results import Check
-from .algorithms.tools.comparison import Assessment
+from .algorithms.tools.compare_settings import TrialSummary
 from .algorithms.tools.contours import Interval
 from .algorithms.tools.heights import HeightSummary
 from .algorithms.tools.key_points import KeyPointSummary
@@ -22,7 +23,6 @@ from .algorithms.tools.quality.figures import Quality
 from .algorithms.tools.rasters.output import RasterSize
 from .algorithms.tools.water.files import WaterSummary
 from .algorithms.tools.water_classes import WaterClassSummary
-from .algorithms.trial.comparing import TrialSummary
 
 _Path = str | PathLike[str]
 

@@ -9,7 +9,6 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Callable, Iterator
 
-from ..core.parameters import ParameterSet
 from ..core.progress import Progress
 from ..engine.memory import Resources
 from ..runs.options import RasterOutput, TileInput, TileOutput
@@ -312,7 +311,7 @@ def _quality() -> Function:
 
 
 def _assess() -> Function:
-    from ..tools.comparison import Assessment, AssessmentOptions
+    from ..tools.assess import Assessment, AssessmentOptions
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         from ..tools.assess import assess_files
@@ -432,11 +431,11 @@ def _water() -> Function:
 
 
 def _compare_settings() -> Function:
-    from ..trial.comparing import TrialSummary
-    from ..trial.options import TrialOptions
+    from ..tools.compare_settings import TrialSummary
+    from ..tools.compare_settings.settings import TrialOptions
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..trial.comparing import compare_settings
+        from ..tools.compare_settings import compare_settings
 
         return compare_settings(
             paths_of(values.sources), Path(values.page), values.extent, sets[0], sets[1],
