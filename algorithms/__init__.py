@@ -70,9 +70,9 @@ if TYPE_CHECKING:
     from .tools.quality.measuring import QualityRequest as QualityRequest
     from .tools.quality.measuring import survey_quality as quality  # noqa: F401
     from .tools.rasters.constraints import Constraints as Constraints
+    from .tools.rasters.parameters import SurfaceModel as SurfaceModel
+    from .tools.rasters.parameters import TerrainModel as TerrainModel
     from .tools.rasters.rows import RasterFiles as RasterFiles
-    from .tools.rasters.surface_model import SurfaceModel as SurfaceModel
-    from .tools.rasters.terrain_model import TerrainModel as TerrainModel
     from .tools.relief import ReliefPictures as ReliefPictures
     from .tools.relief import write_relief as write_relief
     from .tools.water.files import WaterRequest as WaterRequest
@@ -136,8 +136,8 @@ _MODULES = {
     "write_contours": "tools.contours",
     "ReliefPictures": "tools.relief",
     "write_relief": "tools.relief",
-    "SurfaceModel": "tools.rasters.surface_model",
-    "TerrainModel": "tools.rasters.terrain_model",
+    "SurfaceModel": "tools.rasters.parameters",
+    "TerrainModel": "tools.rasters.parameters",
     "Water": "tools.water.finding",
     "ClassifyWater": "tools.water_classes",
     "WaterClasses": "tools.water_classes",

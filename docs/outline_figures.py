@@ -12,10 +12,10 @@ from matplotlib import pyplot
 
 from bare_earth.algorithms import RasterFiles, TerrainRequest, terrain
 from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.grids.canopy import without_pits
 from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.rasters.geotiff import read_raster
-from bare_earth.algorithms.tools.rasters.surface_model import SurfaceModel, without_pits
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
+from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 
 _SIDE = 300
 

@@ -21,13 +21,29 @@ _FUNCTIONS = ("tr", "mark")
 
 
 def written_texts() -> set[str]:
-    """Return the texts that the code of the plugin asks for by name."""
-    found = set()
+    """Return the texts that the code of the plugin asks for by name, and those of rasters."""
+    found = _raster_texts()
     for path in (ROOT / "plugin").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") in _FUNCTIONS:
                 found |= {each.value for each in node.args if isinstance(each, ast.Constant)}
     return found
+
+
+def _raster_texts() -> set[str]:
+    """Return titles and legends of rasters, which stand in their rows."""
+    from bare_earth.algorithms.rasters.looks import Categories
+    from bare_earth.algorithms.tools.quality.rasters import QUALITY_RASTERS
+    from bare_earth.algorithms.tools.rasters.rows import RASTERS
+
+    rows = [*RASTERS.values(), *QUALITY_RASTERS.values()]
+    found = {row.title for row in rows}
+    # Parts of the descriptions of bands, except units; the last are those of rasters without a row.
+    found |= {part for row in rows for part in row.shows.split(", ")} - {"{unit}", "1/m2"}
+    found |= {"Class", "Share of wrong points"}
+    styles = [row.look.style for row in rows if isinstance(row.look.style, Categories)]
+    labels = {label for style in styles for _, label, _ in style.entries}
+    return found | {label for label in labels if not label.isdigit()}
 
 
 def asked_texts() -> set[str]:

@@ -36,8 +36,7 @@ def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> 
     from ..survey.selection import Selection
     from ..tools.above_ground.classes import ThenAboveGround
     from ..tools.contours import Contours
-    from ..tools.rasters.surface_model import SurfaceModel
-    from ..tools.rasters.terrain_model import TerrainModel
+    from ..tools.rasters.parameters import SurfaceModel, TerrainModel
 
     add_inputs(parser)
     add_crs(parser, KEPT)

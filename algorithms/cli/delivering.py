@@ -33,7 +33,7 @@ def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..tools.check.accuracy import Accuracy
     from ..tools.check.checkpoints import FORMATS
     from ..tools.contours import Contours
-    from ..tools.rasters.surface_model import SurfaceModel
+    from ..tools.rasters.parameters import SurfaceModel
 
     kinds = " ".join(f"{name}: {each.about}" for name, each in DELIVERIES.items())
     parser.add_argument("delivery", choices=list(DELIVERIES), help=f"what to deliver. {kinds}")

@@ -73,13 +73,13 @@ def _contours(options: argparse.Namespace) -> int:
 
 
 def _add_relief(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..tools.relief import KINDS, LOCAL_RELIEF, ReliefPictures
+    from ..tools.relief import KINDS, ReliefPictures
 
     parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
     parser.add_argument("output", metavar="OUTPUT", type=Path, help="a GeoTIFF (.tif) to write")
     parser.add_argument(
-        "--kind", choices=list(KINDS), default=LOCAL_RELIEF,
-        help=f"what to make (default: {LOCAL_RELIEF})",
+        "--kind", choices=list(KINDS), default="local-relief",
+        help="what to make (default: %(default)s)",
     )  # fmt: skip
     add_parameters(parser, ReliefPictures)
 
@@ -98,8 +98,7 @@ def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
     from ..runs.options import RasterOutput, TileInput
     from ..survey.ground_classes import GroundClasses
     from ..tools.contours import Contours
-    from ..tools.rasters.surface_model import SurfaceModel
-    from ..tools.rasters.terrain_model import TerrainModel
+    from ..tools.rasters.parameters import SurfaceModel, TerrainModel
 
     add_inputs(parser)
     add_crs(parser)

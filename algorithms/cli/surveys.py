@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import dataclasses
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
@@ -40,10 +39,10 @@ def add_rasters(parser: argparse.ArgumentParser) -> None:
     """Add the options for rasters."""
     from ..tools.rasters.rows import RASTERS
 
-    for name, each in RASTERS.items():
+    for name, raster in RASTERS.items():
         parser.add_argument(
             f"--{name.replace('_', '-')}", metavar="FILE", type=Path,
-            help=f"GeoTIFF (.tif). {each.help}",
+            help=f"GeoTIFF (.tif). {raster.help}",
         )  # fmt: skip
 
 
@@ -76,7 +75,7 @@ def contours_after(
     from ..runs.options import RasterOutput
     from ..survey.feature_files import check_features
     from ..tools.contours import Contours, write_contours
-    from ..tools.rasters.rows import virtual_of
+    from ..tools.rasters.rows import RasterFiles, virtual_of
 
     rasters, how = rasters_of(options), Contours.among(sets)
     rest = [each for each in sets if each is not how]
@@ -85,8 +84,8 @@ def contours_after(
         return
     check_features(options.contours, tuple(options.input))
     with temporary_folder(options.contours.parent) as folder:
-        dtm = rasters.dtm or folder / "dtm.tif"
-        yield dataclasses.replace(rasters, dtm=dtm), rest
+        dtm = rasters.wanted.get("dtm", folder / "dtm.tif")
+        yield RasterFiles(**{**rasters.wanted, "dtm": dtm}), rest
         per_file = RasterOutput.among(sets).raster_per_file
         source = virtual_of(dtm) if per_file and virtual_of(dtm).exists() else dtm
         with Terminal(options.verbose) as progress:

@@ -99,7 +99,7 @@ def _figures(
 
 def cell_text(request: DeliveryRequest, made: Made, units: Units) -> str:
     """Return the cell size of the terrain model in words."""
-    size = request.terrain_with(made.cell_size).cell_metres(units.horizontal)
+    size = request.terrain_with(made.cell_size).cells(units.horizontal).metres
     return units.length(size)
 
 
@@ -173,7 +173,7 @@ def _about(path: Path) -> str:
         return RASTERS[path.stem].help
     if path.parent.name == "quality" and path.stem in QUALITY_RASTERS:
         raster = QUALITY_RASTERS[path.stem]
-        return f"{raster.label}."
+        return f"{raster.label or raster.title}."
     return _ABOUT.get(path.name, _ABOUT.get(path.stem, ""))
 
 

@@ -22,8 +22,7 @@ from ..tools.contours import Contours
 from ..tools.quality.measuring import QualityOptions
 from ..tools.quality.specifications import SPECIFICATIONS
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
-from ..tools.rasters.surface_model import SurfaceModel
-from ..tools.rasters.terrain_model import MapTerrain
+from ..tools.rasters.parameters import MapTerrain, SurfaceModel
 from ..tools.water.finding import Water
 from ..tools.water_classes import WaterClasses
 from .deliveries import DEFAULT_DELIVERY, DELIVERIES, Delivery

@@ -28,8 +28,8 @@ from ..tools.key_points import FindKeyPoints, KeyPointMark
 from ..tools.quality.figures import Quality
 from ..tools.quality.measuring import QualityRequest, survey_quality
 from ..tools.rasters.constraints import Constraints
+from ..tools.rasters.parameters import SurfaceModel
 from ..tools.rasters.rows import RasterFiles
-from ..tools.rasters.surface_model import SurfaceModel
 from ..tools.water.files import SurveyWater, WaterRequest, WaterSummary
 from ..tools.water_classes import ClassifyWater, WaterPolygons
 from .deliveries import WITH_BUILDINGS

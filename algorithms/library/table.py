@@ -17,8 +17,7 @@ from ..survey.selection import Selection
 from ..tools import POINT_TOOLS, point_tool
 from ..tools.contours import Contours
 from ..tools.declaration import Input
-from ..tools.rasters.surface_model import SurfaceModel
-from ..tools.rasters.terrain_model import TerrainModel
+from ..tools.rasters.parameters import SurfaceModel, TerrainModel
 from . import arguments
 from .arguments import KINDS, REQUIRED, Argument, path
 from .functions import Function
@@ -52,7 +51,7 @@ def _contours_after(
     from ..core.files import temporary_folder
     from ..survey.feature_files import check_features
     from ..tools.contours import write_contours
-    from ..tools.rasters.rows import virtual_of
+    from ..tools.rasters.rows import RasterFiles, virtual_of
 
     rasters, how, progress = rasters_of(values), Contours.among(sets), progress_of(values.progress)
     rest, target = [each for each in sets if each is not how], path_of(values.contours)
@@ -61,8 +60,8 @@ def _contours_after(
         return
     check_features(target, tuple(paths_of(values.sources)))
     with temporary_folder(target.parent) as folder:
-        dtm = rasters.dtm or folder / "dtm.tif"
-        yield replace(rasters, dtm=dtm), rest, progress.part(0.0, 0.9)
+        dtm = rasters.wanted.get("dtm", folder / "dtm.tif")
+        yield RasterFiles(**{**rasters.wanted, "dtm": dtm}), rest, progress.part(0.0, 0.9)
         per_file = RasterOutput.among(sets).raster_per_file
         source = virtual_of(dtm) if per_file and virtual_of(dtm).exists() else dtm
         write_contours(source, target, how, progress.part(0.9, 1.0))
@@ -364,7 +363,7 @@ def _contours() -> Function:
 
 def _relief() -> Function:
     from ..tools.relief import KINDS as RELIEFS
-    from ..tools.relief import LOCAL_RELIEF, ReliefPictures
+    from ..tools.relief import ReliefPictures
 
     def run(values: SimpleNamespace, sets: list[Any]) -> None:
         from ..tools.relief import write_relief
@@ -376,7 +375,7 @@ def _relief() -> Function:
         "relief",
         "Make a raster that shows the relief of an elevation raster.",
         (_SOURCE, path("output", "a GeoTIFF (.tif) to write", REQUIRED)),
-        (Argument.choice("kind", RELIEFS, LOCAL_RELIEF, "what to make"), arguments.PROGRESS),
+        (Argument.choice("kind", RELIEFS, "local-relief", "what to make"), arguments.PROGRESS),
         (ReliefPictures,),
         run,
         None,

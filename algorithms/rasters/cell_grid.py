@@ -13,12 +13,13 @@ from ..crs.matching import described, is_same_map
 from ..crs.stated import HOW
 from ..crs.system import Crs, crs_of_wkt, unit_symbol
 from ..grids.cell_window import CellWindow
-from .geotiff import RasterGrid
-from .given_grid import GivenGrid, read_grid
+from .geotiff import NO_CELLS, Content, RasterGrid, read_content
 
 MOST_CELLS = 4_000_000_000
 # A corner of a given raster so near a multiple of the cell size, as a share of it, is one.
 _ROUNDING = 1e-6
+# Sides of cells, and corners, may be off by this share of a cell over the whole raster.
+_OFF = 0.01
 
 
 @dataclass(frozen=True)
@@ -94,13 +95,11 @@ def cell_grid(
     """
     # An error says if the raster is unsuitable, or the rasters would hold no point or too many
     # cells.
-    unit = crs.horizontal_unit
-    if target.like is None:
-        cells = usual
-    else:
-        given = read_grid(target.like)
-        cells = _on_grid(given, unit)
-        cells = replace(cells, wkt=_wkt_of(target.like, given, crs, progress))
+    cells = usual
+    if target.like is not None:
+        content = read_content(target.like, window=NO_CELLS)
+        cells = _cells_of(target.like, content, crs.horizontal_unit)
+        cells = replace(cells, wkt=_wkt_of(target.like, content.wkt, crs, progress))
     if target.extent is not None:
         (x, y), (west, south, east, north) = cells.origin, target.extent
         inside = CellWindow.around((west - x, south - y, east - x, north - y), cells.size)
@@ -119,24 +118,33 @@ def no_points(box: Box, extent: Box) -> BareEarthError:
     )
 
 
-def box_of(grid: RasterGrid) -> Box:
-    """Return smallest x and y, largest x and y of a raster."""
-    south = grid.north - grid.rows * grid.cell_size
-    return grid.west, south, grid.west + grid.columns * grid.cell_size, grid.north
-
-
-def _on_grid(given: GivenGrid, unit: float) -> CellGrid:
-    """Return the cells of a given raster."""
-    size = given.cell_size
-    (column, x), (top, y) = (_counted(at, size) for at in (given.west, given.north))
+def _cells_of(source: Path | str, content: Content, unit: float) -> CellGrid:
+    """Return the cells of a raster file; refuse those that are not square with north up."""
+    (rows, columns), (west, width, tilt, north, lean, height) = content.shape, content.geotransform
+    if height > 0.0 and width > 0.0 and not tilt and not lean:
+        raise BareEarthError(
+            f"{source} states no place on the map, or has south up. Give a raster with north up."
+        )
+    most = max(columns, rows)
+    if max(abs(tilt), abs(lean)) * most > _OFF * abs(width):
+        raise BareEarthError(
+            f"The cells of {source} are rotated. Give a raster with north up, such as gdalwarp"
+            " makes."
+        )
+    if width <= 0.0 or abs(width + height) * most > _OFF * width:
+        raise BareEarthError(
+            f"The cells of {source} are not square ({width:.10g} x {abs(height):.10g}). Give a"
+            " raster with square cells, such as gdalwarp -tr makes."
+        )
+    (column, x), (top, y) = (_counted(place, width) for place in (west, north))
     return CellGrid(
-        metres=size * unit,
-        size=size,
+        metres=width * unit,
+        size=width,
         origin=(x, y),
-        anchor=(given.west, given.north),
+        anchor=(west, north),
         anchor_column=column,
         anchor_row=top,
-        window=CellWindow(top - given.rows, column, given.rows, given.columns),
+        window=CellWindow(top - rows, column, rows, columns),
     )
 
 
@@ -147,9 +155,9 @@ def _counted(place: float, size: float) -> tuple[int, float]:
     return number, rest if abs(rest) > _ROUNDING * size else 0.0
 
 
-def _wkt_of(like: Path | str, given: GivenGrid, crs: Crs, progress: Progress) -> str | None:
+def _wkt_of(like: Path | str, wkt: str, crs: Crs, progress: Progress) -> str | None:
     """Check the CRS of a given raster; return it if the points state none."""
-    stated = crs_of_wkt(given.wkt) if given.wkt else None
+    stated = crs_of_wkt(wkt) if wkt else None
     if stated is None:
         progress.warning(f"{like} does not say its CRS: that of the points is used.")
         return None
@@ -160,7 +168,7 @@ def _wkt_of(like: Path | str, given: GivenGrid, crs: Crs, progress: Progress) ->
                 f" ({described(stated)}). Give the CRS of the points: {HOW}."
             )
         progress.warning(f"The points are taken to be in the CRS of {like}, {stated.name}.")
-        return given.wkt
+        return wkt
     if not is_same_map(stated, crs):
         raise BareEarthError(
             f"{like} is in another CRS ({described(stated)}) than the points ({described(crs)})."
@@ -178,6 +186,6 @@ def _check(cells: CellGrid, window: CellWindow, box: Box | None, crs: Crs) -> No
             f"The rasters would have {grid.columns:,} x {grid.rows:,} cells of {cells.size:g}"
             f" {unit_symbol(crs.horizontal_unit)}. Choose a larger cell size, or a smaller extent."
         )
-    west, south, east, north = covered = box_of(grid)
+    west, south, east, north = covered = grid.box
     if box is not None and (west > box[2] or east < box[0] or south > box[3] or north < box[1]):
         raise no_points(covered, box)

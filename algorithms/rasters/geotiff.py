@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.points import Frame, Points
+from ..core.points import Box, Frame, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
 from ..crs.measurable import length_scale, wrong_lengths
@@ -75,6 +75,12 @@ class RasterGrid:
     def geotransform(self) -> tuple[float, ...]:
         """Geotransform of GDAL."""
         return self.west, self.cell_size, 0.0, self.north, 0.0, -self.cell_size
+
+    @property
+    def box(self) -> Box:
+        """Smallest x and y, largest x and y, in units of the CRS."""
+        south, east = self.north - self.rows * self.cell_size, self.columns * self.cell_size
+        return self.west, south, self.west + east, self.north
 
     @property
     def cell_metres(self) -> float:

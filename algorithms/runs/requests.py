@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Iterable, Mapping, TypeVar
 
@@ -24,12 +24,10 @@ from ..tools.above_ground import ClassifyAboveGround
 from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.declaration import PointTool
 from ..tools.heights import MeasureHeights
-from ..tools.rasters.block import LAYERS
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
+from ..tools.rasters.parameters import Gaps, SurfaceModel, TerrainModel
 from ..tools.rasters.rows import RasterFiles
 from ..tools.rasters.step import MakeRasters
-from ..tools.rasters.surface_model import Gaps, SurfaceModel
-from ..tools.rasters.terrain_model import TerrainModel
 from .options import RasterOutput, TileInput, TileMethod, TileOutput
 
 _Request = TypeVar("_Request", bound="Request")
@@ -85,13 +83,11 @@ class RasterRequest(Request):
     raster_target: RasterTarget = ANYWHERE  # a raster whose grid they get, and their extent
     area: Area | None = None  # where rasters have values, and points are classified
 
-    def rasters_of(
-        self, ground: GroundClasses, roads: tuple[int, ...], covers_ground: bool = False
-    ) -> MakeRasters:
+    def rasters_of(self, ground: GroundClasses, roads: tuple[int, ...]) -> MakeRasters:
         """Return the step that makes them, given which points are ground; see `MakeRasters`."""
         return MakeRasters(
-            self.rasters, self.terrain, self.surface, ground, roads, covers_ground,
-            self.constraints, self.raster_output.raster_per_file, target=self.raster_target,
+            self.rasters, self.terrain, self.surface, ground, roads, constraints=self.constraints,
+            per_file=self.raster_output.raster_per_file, target=self.raster_target,
             area=self.area,
         )  # fmt: skip
 
@@ -225,9 +221,8 @@ class ClassifyRequest(RasterRequest):
     @property
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters from the classified points."""
-        needs_all = any(LAYERS[each].of_all for each in self.rasters.layers)
-        covers_ground = self.output.ground_only and not needs_all
-        return self.rasters_of(self.ground, self.selection.roads, covers_ground)
+        step = self.rasters_of(self.ground, self.selection.roads)
+        return replace(step, covers_ground=self.output.ground_only and not step.needs_all)
 
     @property
     def above_ground_step(self) -> ClassifyAboveGround:

@@ -15,8 +15,8 @@ from ..steps.output import Output
 from ..survey.feature_files import check_features, files_beside
 from ..survey.files import is_one_file
 from ..tools.contours import Contours, Interval, write_contours
+from ..tools.rasters.parameters import MapTerrain
 from ..tools.rasters.rows import RasterFiles
-from ..tools.rasters.terrain_model import MapTerrain
 from .entry import classify
 from .one_file import Summary
 from .options import TileOutput

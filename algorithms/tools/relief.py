@@ -15,16 +15,17 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import available_cpus, may_use
 from ..rasters.geotiff import NO_CELLS, NODATA, Raster, read_raster
 from ..rasters.writing import Rows, check_raster_output, raster_file, write_geotiff
-from .rasters.relief_rasters import RELIEF, ReliefRaster
-from .rasters.terrain_model import MapTerrain, TerrainModel
+from .rasters.parameters import MapTerrain, TerrainModel
+from .rasters.rows import RASTERS, How
+from .rasters.rows import Raster as Row
 
 # Cells that are worked on at a time.
 _CELLS = 4_000_000
-LOCAL_RELIEF = "local-relief"
-# The kinds of relief, by their names for users.
+# The names of the rasters, by those of the kinds of relief.
 KINDS = {
-    (LOCAL_RELIEF if name == "relief" else name.replace("_", "-")): each
-    for name, each in RELIEF.items()
+    row.relief_name or name.replace("_", "-"): name
+    for name, row in RASTERS.items()
+    if row.is_relief
 }
 
 
@@ -33,10 +34,10 @@ class ReliefKinds(ParameterSet):
     """The kinds of relief to make."""
 
     kinds: tuple[str, ...] = parameter(
-        ("vat", "sky-view", LOCAL_RELIEF),
+        ("vat", "sky-view", "local-relief"),
         kind="choices",
         label="Kinds of relief",
-        choices={name: each.label for name, each in KINDS.items()},
+        choices={kind: RASTERS[name].title for kind, name in KINDS.items()},
         help="What to make, a raster for each. Archaeological topography (VAT) shows the most in"
         " one picture.",
     )
@@ -61,7 +62,7 @@ class ReliefPictures(ParameterSet):
 def write_relief(
     source: str | Path,
     target: Path,
-    kind: str = LOCAL_RELIEF,
+    kind: str = "local-relief",
     parameters: ReliefPictures = ReliefPictures(),
     progress: Progress = SILENT,
     nodata: float = NODATA,
@@ -93,13 +94,12 @@ def write_relief(
             f"There is no kind of relief '{kind}'. Choose one of {', '.join(KINDS)}."
         )
     check_raster_output(target, (Path(source),))
-    relief = KINDS[kind]
-    raster = read_raster(source, progress=progress, window=NO_CELLS)
-    nodata = 0 if relief.kind == "uint8" else nodata
-    strips = _strips(source, raster, relief, parameters.terrain, nodata, progress)
-    rows = Rows(raster.whole, relief.kind, strips, relief.bands)
+    row = RASTERS[KINDS[kind]]
+    raster, nodata = read_raster(source, progress=progress, window=NO_CELLS), row.nodata(nodata)
+    strips = _strips(source, raster, row, parameters.terrain, nodata, progress)
+    rows = Rows(raster.whole, row.kind, strips, row.bands)
     with may_use(available_cpus()):
-        write_geotiff(target, rows, raster, nodata, progress, relief.shows)
+        write_geotiff(target, rows, raster, nodata, progress, row.shows)
     progress(1.0)
 
 
@@ -128,22 +128,19 @@ def write_reliefs(
 def _strips(
     source: str | Path,
     raster: Raster,
-    relief: ReliefRaster,
+    row: Row,
     model: TerrainModel,
     nodata: float,
     progress: Progress,
 ) -> Iterator[np.ndarray]:
     """Yield the relief of a raster, some rows at a time."""
-    (count, columns), cells = raster.whole, raster.cell_metres
-    unit, reach = raster.frame.vertical_unit, relief.reach(cells, model)
+    (count, columns), how = raster.whole, How(raster.cell_metres, model)
+    unit, reach = raster.frame.vertical_unit, row.margin(how)
     rows = max(_CELLS // columns, 1)
     for start in range(0, count, rows):
         first, last = max(start - reach, 0), min(start + rows + reach, count)
         heights = read_raster(source, window=(0, first, columns, last - first)).heights
-        made = relief.make(heights.astype(np.float64) * unit, cells, model)
-        made = made[..., start - first : start - first + rows, :]
-        if relief.kind == "float32":
-            made = (made / unit if relief.is_height else made).astype(np.float32)
-            made = np.where(np.isnan(made), np.float32(nodata), made)
-        yield made
+        metres = heights.astype(np.float64) * unit
+        made = row.rows(metres, how=how, unit=unit, nodata=nodata)
+        yield made[..., start - first : start - first + rows, :]
         progress(0.05 + 0.85 * min(start + rows, count) / count)

@@ -154,7 +154,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return CloudCrs(*sources, recursive=recursive, stated=self.stated)
 
     def show(self, path: str, look: layers.Look) -> None:
-        """Set the look of an output layer; rasters in `layers.RASTERS` do not need this."""
+        """Set the look of an output layer; rasters with a row do not need this."""
         self._looks[path] = look
 
     # QGIS calls the following methods.
@@ -291,11 +291,11 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         self, results: dict[str, Any], context: QgsProcessingContext, commands: tuple[str, ...]
     ) -> None:
         """Set names, styles and places of the layers, and reload those of an earlier run."""
-        looks, labels = {}, {}
+        looks, labels, known = {}, {}, layers.raster_looks()
         for name in filter(self.parameterDefinition, results):
             labels[results[name]] = self.parameterDefinition(name).description()
-            if name in layers.RASTERS:
-                looks[results[name]] = layers.RASTERS[name]
+            if name in known:
+                looks[results[name]] = known[name]
         looks.update(self._looks)
         if self.stated:
             crs = crs_of_text(self.stated)

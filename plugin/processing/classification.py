@@ -13,8 +13,7 @@ from ...algorithms.filters import METHODS
 from ...algorithms.steps.output import Output
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.above_ground.classes import ThenAboveGround
-from ...algorithms.tools.rasters.surface_model import Gaps
-from ...algorithms.tools.rasters.terrain_model import TerrainModel
+from ...algorithms.tools.rasters.parameters import Gaps, TerrainModel
 from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
@@ -66,7 +65,7 @@ class ClassificationAlgorithm(BareEarthAlgorithm):
         self.add_declared()
         add_limits(self)
         add_cloud(self)
-        add_rasters(self, ("DTM", "HILLSHADE"))
+        add_rasters(self, ("dtm", "hillshade"))
         add_explanation(self)
         self.addOutput(QgsProcessingOutputNumber("POINT_COUNT", "Points"))
         self.addOutput(QgsProcessingOutputNumber("AREA_COUNT", "Points in the area"))

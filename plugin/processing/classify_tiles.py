@@ -5,8 +5,7 @@ from ...algorithms.runs import options
 from ...algorithms.steps import output
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.above_ground.classes import ThenAboveGround
-from ...algorithms.tools.rasters.surface_model import Gaps
-from ...algorithms.tools.rasters.terrain_model import TerrainModel
+from ...algorithms.tools.rasters.parameters import Gaps, TerrainModel
 from ..i18n import mark
 from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
@@ -42,7 +41,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         self.add_declared()
         add_limits(self)
         add_tiles(self)
-        add_rasters(self, ("DTM", "HILLSHADE"))
+        add_rasters(self, ("dtm", "hillshade"))
         self.add_numbers(_NUMBERS)
 
     def find_inputs(self, parameters, context):

@@ -11,8 +11,7 @@ from ...algorithms.runs.options import TileMethod
 from ...algorithms.survey.kept_classes import GROUND
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.contours import Contours
-from ...algorithms.tools.rasters.surface_model import SurfaceModel
-from ...algorithms.tools.rasters.terrain_model import MapTerrain, TerrainModel
+from ...algorithms.tools.rasters.parameters import MapTerrain, SurfaceModel, TerrainModel
 from .area import NOTHING_GIVEN
 from .base import command_line
 

@@ -174,7 +174,7 @@ def _show(
     if done.check is not None:
         looks["checkpoints"] = layers.residuals(done.check.scale)
     for name, path in done.layers.items():
-        look = looks.get(name) or layers.RASTERS[name.upper()]
+        look = looks.get(name) or layers.raster_looks()[name.upper()]
         load: Callable[[str, QgsProcessingContext], None]
         load = compat.load_vector if name in looks else compat.load_raster
         load(path, context)

@@ -22,18 +22,12 @@ from ...algorithms.core.files import split_name
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from ...algorithms.runs.options import RasterOutput
 from ...algorithms.survey.files import is_one_file
-from ...algorithms.tools.rasters.rows import RASTERS as MODELS
-from ...algorithms.tools.rasters.rows import RasterFiles, virtual_of
+from ...algorithms.tools.rasters.rows import RASTERS, RasterFiles, virtual_of
 from .. import compat
 from ..i18n import tr
 
 NOTHING_STAYS = "Cancelled; nothing was written."
 TILES_STAY = "Cancelled. The finished tiles stay, and a later run can continue with them."
-_MODELS = {name.upper(): each for name, each in MODELS.items()}
-# *Relief of a terrain model* makes the others.
-_USUAL = "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF"
-# Label and help of each raster, by the name of its field.
-RASTERS = {name: (each.label, each.help) for name, each in _MODELS.items()}
 
 
 def after_cancel(sources: Sequence[Path]) -> str:
@@ -43,15 +37,21 @@ def after_cancel(sources: Sequence[Path]) -> str:
 
 def add_rasters(
     algorithm: QgsProcessingAlgorithm,
-    names: Iterable[str] = _USUAL,
-    default: Iterable[str] = ("DTM", "HILLSHADE"),
+    names: Iterable[str],
+    default: Iterable[str] = ("dtm", "hillshade"),
 ) -> None:
     """Add optional fields for rasters; `default` names those that are made by default."""
     for name in names:
-        label, text = RASTERS[name]
-        algorithm.addParameter(
-            QgsProcessingParameterRasterDestination(name, label, None, True, name in default), text
+        row, is_default = RASTERS[name], name in default
+        field = QgsProcessingParameterRasterDestination(
+            name.upper(), row.label, None, True, is_default
         )
+        algorithm.addParameter(field, row.help)
+
+
+def usual_rasters(*reliefs: str) -> list[str]:
+    """Return the names of all rasters, but only of some that *Relief of a terrain model* makes."""
+    return [name for name, row in RASTERS.items() if not row.is_relief or name in reliefs]
 
 
 def add_explanation(algorithm: QgsProcessingAlgorithm) -> None:
@@ -114,7 +114,7 @@ def raster_paths(
 ) -> dict[str, str]:
     """Return the paths of the wanted rasters and contour lines, by the names of their fields."""
     paths = {}
-    for name in (*RASTERS, "CONTOURS"):
+    for name in (*map(str.upper, RASTERS), "CONTOURS"):
         if algorithm.parameterDefinition(name) is not None:
             path = algorithm.parameterAsOutputLayer(parameters, name, context)
             if path:
@@ -171,8 +171,7 @@ def shown_rasters(
 
 def raster_files(paths: dict[str, str]) -> RasterFiles:
     """Return the rasters of `raster_paths` that the classifier makes."""
-    given = {name.lower(): Path(path) for name, path in paths.items() if name in _MODELS}
-    return RasterFiles(**given)
+    return RasterFiles(**{name: paths.get(name.upper()) for name in RASTERS})
 
 
 def point_cloud_formats() -> list[str]:

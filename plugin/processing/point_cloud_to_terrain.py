@@ -7,7 +7,7 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.runs.options import TileMethod
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.contours import Contours
-from ...algorithms.tools.rasters.surface_model import SurfaceModel
+from ...algorithms.tools.rasters.parameters import SurfaceModel
 from . import delivery, outputs
 from .area import MAPPED, add_area, add_limits, limits_of
 from .base import BareEarthAlgorithm
@@ -41,7 +41,8 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         add_limits(self)
         delivery.add_delivery(self)
         outputs.add_cloud(self, optional=True)
-        outputs.add_rasters(self, default=("DTM", "HILLSHADE", "DSM", "CHM"))
+        rasters = outputs.usual_rasters("hillshade", "relief")
+        outputs.add_rasters(self, rasters, ("dtm", "hillshade", "dsm", "chm"))
         outputs.add_contours(self)
         self.add_numbers({"POINT_COUNT": "Points", "GROUND_COUNT": "Ground points"})
 

@@ -10,6 +10,7 @@ from qgis.core import (
     QgsProcessingParameterRasterLayer,
 )
 
+from ...algorithms.tools.rasters.rows import RASTERS
 from ...algorithms.tools.relief import KINDS, ReliefKinds, ReliefPictures, write_reliefs
 from .. import compat
 from ..i18n import mark
@@ -48,8 +49,8 @@ class ReliefAlgorithm(BareEarthAlgorithm):
             "The folder for the rasters (GeoTIFF). They are named after what they show, such as"
             " vat.tif and sky-view.tif.",
         )
-        for kind, each in KINDS.items():
-            self.addOutput(QgsProcessingOutputRasterLayer(_output_of(kind), each.label))
+        for name in KINDS.values():
+            self.addOutput(QgsProcessingOutputRasterLayer(name.upper(), RASTERS[name].title))
 
     def find_inputs(self, parameters, context):
         """Find the input file."""
@@ -67,13 +68,9 @@ class ReliefAlgorithm(BareEarthAlgorithm):
             words = [self._source, str(folder / f"{kind}.tif")]
             progress.command(command_line("relief", words, [how], {"kind": kind}))
         made = write_reliefs(self._source, folder, kinds, how, progress)
-        results = {_output_of(kind): str(path) for kind, path in made.items()}
+        results = {KINDS[kind].upper(): str(path) for kind, path in made.items()}
+        looks = layers.raster_looks()
         for name, path in results.items():
             compat.load_raster(path, context)
-            self.show(path, layers.RASTERS[name])
+            self.show(path, looks[name])
         return {"OUTPUT_FOLDER": str(folder), **results}
-
-
-def _output_of(kind: str) -> str:
-    """Return the name of the output of a kind."""
-    return "RELIEF" if kind == "local-relief" else kind.replace("-", "_").upper()

@@ -6,14 +6,13 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.runs.options import RasterOutput
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
-from ...algorithms.tools.rasters.surface_model import SurfaceModel
-from ...algorithms.tools.rasters.terrain_model import TerrainModel
+from ...algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 from ..i18n import mark
 from .area import OF_RASTERS, add_area, area_of, area_options, given_options
 from .base import command_line
 from .constraints import add_constraints, constraints_of
 from .feedback import Refusal
-from .outputs import add_rasters, raster_files, raster_paths, shown_rasters
+from .outputs import add_rasters, raster_files, raster_paths, shown_rasters, usual_rasters
 from .products import ProductAlgorithm
 from .raster_target import add_raster_target, raster_target_of
 
@@ -43,7 +42,7 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         add_area(self, ("EXTENT", "BOUNDARY"), OF_RASTERS)
         add_constraints(self)
         add_raster_target(self)
-        add_rasters(self, ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE"))
+        add_rasters(self, usual_rasters("hillshade"))
 
     def compute(self, parameters, context, progress):
         """Make the wanted rasters."""

@@ -10,6 +10,8 @@ import numpy as np
 from qgis.core import (
     Qgis,
     QgsColorRampShader,
+    QgsGradientColorRamp,
+    QgsGradientStop,
     QgsMapLayer,
     QgsMapUnitScale,
     QgsPointCloudAttributeByRampRenderer,
@@ -22,9 +24,9 @@ from qgis.core import (
 from qgis.PyQt.QtGui import QColor, QPainter
 
 from ...algorithms.las.copc_sample import sample_of
+from ...algorithms.rasters.looks import HEIGHTS, Stops
 from .. import compat
 from ..i18n import mark, tr
-from . import ramps
 
 _GROUND = 2
 # The brown of ground is lighter than that of QGIS, so that shades show. Classes that only mean "not
@@ -94,6 +96,12 @@ def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
     return dress
 
 
+def ramp_of(stops: Stops) -> QgsGradientColorRamp:
+    """Return a colour ramp that QGIS can show and users can change."""
+    inner = [QgsGradientStop(place, QColor(colour)) for place, colour in stops[1:-1]]
+    return QgsGradientColorRamp(QColor(stops[0][1]), QColor(stops[-1][1]), False, inner)
+
+
 def show_through(layer: QgsMapLayer) -> None:
     """Let a hillshade below be just visible, as more, or a blend mode, would change the colours."""
     layer.setBlendMode(QPainter.CompositionMode.CompositionMode_SourceOver)
@@ -119,7 +127,7 @@ def by_height(
         high = max(math.ceil(high / _STEP) * _STEP, _STEP)
         renderer.setMinimum(0.0)
         renderer.setMaximum(high)
-        shader = QgsColorRampShader(0.0, high, ramps.ramp_of(ramps.HEIGHTS))
+        shader = QgsColorRampShader(0.0, high, ramp_of(HEIGHTS))
         shader.classifyColorRamp()
         renderer.setColorRampShader(shader)
         _draw_from_above(renderer)

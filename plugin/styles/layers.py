@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import functools
+from functools import partial
 from typing import Any, Callable, Iterable, Mapping, NamedTuple
 
 from qgis.core import (
@@ -18,7 +18,10 @@ from qgis.core import (
 )
 
 from ...algorithms.crs.system import unit_symbol
+from ...algorithms.rasters import looks
 from ...algorithms.tools.contours import Interval
+from ...algorithms.tools.quality.rasters import QUALITY_RASTERS
+from ...algorithms.tools.rasters.rows import RASTERS
 from ..i18n import mark, tr
 from . import clouds, rasters, vectors
 from .loaded import fresh_path, show_fresh_points
@@ -50,52 +53,38 @@ class Look(NamedTuple):
     # what colours mean, in the user's language; empty for rasters, whose files state it
     shows: str = ""
     origin: Origin | None = None  # the run that made it; set by `arrange`
-
-    @property
-    def is_shade(self) -> bool:
-        """Whether the layer is a hillshade, or another picture without a legend."""
-        return self.dress in (rasters.hillshade, rasters.grey_picture, rasters.colour_picture)
+    has_legend: bool = True
 
 
-HILLSHADE = Look(mark("Hillshade"), 0, rasters.hillshade)
-TERRAIN = Look(mark("Terrain model"), 1, rasters.terrain, 5)
+def _drawn(title: str, look: looks.Look) -> Look:
+    """Return the look of a raster that is drawn as its row says."""
+    dress, has_legend = partial(rasters.draw, look.style), not isinstance(look.style, looks.Picture)
+    return Look(title, look.height, dress, look.hides, has_legend=has_legend)
+
+
+_SURFACE = RASTERS["dsm"].look
 # The only layer of its run, shown on top of other layers.
-BARE = Look(mark("Without objects"), 1, rasters.surface)
-SURFACE = Look(mark("Surface model"), 2, rasters.surface, 1)
-WITH_BUILDINGS = Look(mark("Terrain with buildings"), 2, rasters.surface, 1)
-CANOPY = Look(mark("Canopy height"), 3, rasters.canopy, 3)
-RELIEF = Look(mark("Local relief"), 4, rasters.local_relief, 2)
-MULTI_SCALE = Look(mark("Multi-scale relief"), 4, rasters.local_relief, 1)
-SLOPE = Look(mark("Slope"), 4, rasters.slope, 1)
-SKY_VIEW = Look(mark("Sky-view factor"), 4, rasters.sky_view, 2)
-OPENNESS = Look(mark("Positive openness"), 4, rasters.openness, 1)
-NEGATIVE_OPENNESS = Look(mark("Negative openness"), 4, rasters.negative_openness, 1)
-DOMINANCE = Look(mark("Local dominance"), 4, rasters.local_dominance, 1)
-VAT = Look(mark("Archaeological topography (VAT)"), 5, rasters.grey_picture, 4)
-RED_RELIEF = Look(mark("Red relief image map"), 5, rasters.colour_picture, 3)
-CONFIDENCE = Look(mark("Confidence"), 5, rasters.confidence, 1)
-RULES = Look(mark("Deciding rules"), 6, rasters.rules, 1)
-ERRORS = Look(mark("Errors"), 6, rasters.errors, 1)
+BARE = _drawn(mark("Without objects"), _SURFACE._replace(height=1, hides=0))
 WATER = Look(mark("Water"), 8, vectors.water)
 BREAKLINES = Look(mark("Breaklines"), 9, vectors.breaklines)
-RASTERS = {
-    "DTM": TERRAIN, "DSM": SURFACE, "CHM": CANOPY, "HILLSHADE": HILLSHADE,
-    "CONFIDENCE": CONFIDENCE, "RELIEF": RELIEF, "ERROR_MAP": ERRORS,
-    "EXPLANATION": RULES, "MULTI_SCALE_RELIEF": MULTI_SCALE, "SLOPE": SLOPE, "SKY_VIEW": SKY_VIEW,
-    "OPENNESS": OPENNESS, "NEGATIVE_OPENNESS": NEGATIVE_OPENNESS, "LOCAL_DOMINANCE": DOMINANCE,
-    "VAT": VAT, "RED_RELIEF": RED_RELIEF, "TERRAIN_WITH_BUILDINGS": WITH_BUILDINGS,
-}  # fmt: skip
-
-# Of the quality of a survey, by the names of the files.
-QUALITY = {
-    "surface_height": Look(mark("Maximum surface height"), 1, rasters.surface, 1),
-    "low_vegetation": Look(mark("Density of low vegetation"), 2, rasters.low_vegetation, 1),
-    "ground_density": Look(mark("Density of ground points"), 3, rasters.density, 2),
-    "pulse_density": Look(mark("Density of first returns"), 4, rasters.density, 3),
-    "overlap": Look(mark("Overlap of strips"), 5, rasters.overlap, 1),
-    "strip_differences": Look(mark("Differences between strips"), 6, rasters.strip_differences),
-    "voids": Look(mark("Voids of the ground"), 7, rasters.voids),
+# Beside those of `RASTERS`.
+_OTHERS = {
+    "ERROR_MAP": _drawn(mark("Errors"), looks.Look(looks.Ramp(looks.ERRORS, 0.0, 1.0), 6, 1)),
+    "EXPLANATION": Look(mark("Deciding rules"), 6, rasters.rules, 1),
+    "TERRAIN_WITH_BUILDINGS": _drawn(mark("Terrain with buildings"), _SURFACE),
 }
+
+
+def raster_looks() -> dict[str, Look]:
+    """Return the looks of all rasters, by the names of their fields."""
+    rows = {name.upper(): _drawn(row.title, row.look) for name, row in RASTERS.items()}
+    return {**rows, **_OTHERS}
+
+
+def of_quality(name: str) -> Look:
+    """Return the look of a raster of the quality of a survey."""
+    row = QUALITY_RASTERS[name]
+    return _drawn(row.title, row.look)
 
 
 def in_crs(look: Look, crs: QgsCoordinateReferenceSystem) -> Look:
@@ -163,8 +152,8 @@ def arrange(
     # and is not put into the group. Steps of models set the origin of their layers before.
     project = context.project()
     looks = {path: look._replace(origin=look.origin or origin) for path, look in looks.items()}
-    dresses = {path: functools.partial(_dress, look, subject) for path, look in looks.items()}
-    stage.reload({path: functools.partial(dress, project) for path, dress in dresses.items()})
+    dresses = {path: partial(_dress, look, subject) for path, look in looks.items()}
+    stage.reload({path: partial(dress, project) for path, dress in dresses.items()})
     looks = {path: look for path, look in looks.items() if context.willLoadLayerOnCompletion(path)}
     shown = max((look.hides for look in looks.values()), default=0)
     new = _new(context, looks, stage)
@@ -232,7 +221,7 @@ class _Show(QgsProcessingLayerPostProcessorInterface):
             _leave_degrees(project)
         if node is not None:
             node.setItemVisibilityChecked(self._is_visible)
-            node.setExpanded(self._is_visible and not self.look.is_shade)
+            node.setExpanded(self._is_visible and self.look.has_legend)
 
 
 def _leave_degrees(project: QgsProject) -> None:
@@ -253,7 +242,7 @@ def _dress(look: Look, subject: str, project: QgsProject | None, layer: QgsMapLa
     layer.triggerRepaint()
     node = project.layerTreeRoot().findLayer(layer.id()) if project else None
     shown = rasters.shown_by(layer) if isinstance(layer, QgsRasterLayer) else look.shows
-    if node is not None and look.is_shade:
+    if node is not None and not look.has_legend:
         # Its grey values mean nothing by themselves.
         QgsMapLayerLegendUtils.setLegendNodeOrder(node, [])
         layer.legendChanged.emit()

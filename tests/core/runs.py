@@ -33,9 +33,8 @@ from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 from bare_earth.algorithms.tools.rasters.step import RasterFiles
-from bare_earth.algorithms.tools.rasters.surface_model import SurfaceModel
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 
 
 class CancelAt(Progress):

@@ -23,7 +23,8 @@ from bare_earth.algorithms.steps.explanation import (
     rules_in,
 )
 from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
+from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from benchmarks.scenes.simple import village
 
 EAST, NORTH = 500_000.0, 5_700_000.0
@@ -321,7 +322,7 @@ def test_rasters_and_area_reach_the_classifier(monkeypatch, tmp_path):
     words = "classify in.las out.las --dtm a.tif --hillshade b.tif --extent -1.5 -2 3 4e0"
     assert run(*words.split(), "--boundary", boundary) == 0
     rasters, area = calls[0].rasters, calls[0].area
-    assert str(rasters.dtm) == "a.tif" and str(rasters.hillshade) == "b.tif"
+    assert rasters == RasterFiles(dtm="a.tif", hillshade="b.tif")
     assert area.box == (-1.5, -2.0, 3.0, 4.0) and len(area.polygons) == 1
     assert run("classify", "in.las", "out.las") == 0
     assert calls[1].area is None

@@ -14,8 +14,8 @@ from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
-from bare_earth.algorithms.tools.rasters.surface_model import SurfaceModel
 
 SIDE, ROAD, BRIDGE = 120, 11, 5.0
 # The border of two blocks, at 500,000 m, runs through the scenes.
@@ -170,7 +170,7 @@ def test_the_classes_of_the_surface_can_be_chosen(tmp_path):
     for chosen, height in ((None, 109.0), ((2, 6), 104.0), ((2,), 100.0)):
         files = RasterFiles(dsm=tmp_path / f"{height}.tif")
         terrain(source, TerrainRequest(rasters=files, surface=SurfaceModel(surface_classes=chosen)))
-        assert (read_raster(files.dsm).heights == height).all()
+        assert (read_raster(files.wanted["dsm"]).heights == height).all()
     code, _, told = said("terrain", source, "--dsm", tmp_path / "no.tif", "--surface-classes", "41")
     assert code and "Choose other classes for the surface" in told
 
@@ -182,7 +182,7 @@ def test_water_above_its_bottom_is_no_canopy(tmp_path, classes, lowest):
     request = TerrainRequest(rasters=files, ground=GroundClasses(ground_classes=classes))
     heard = Heard()
     terrain(source, request, heard)
-    assert np.nanmax(read_raster(files.chm).heights) < 0.3
-    assert np.nanmin(read_raster(files.dsm).heights) == pytest.approx(lowest, abs=0.1)
+    assert np.nanmax(read_raster(files.wanted["chm"]).heights) < 0.3
+    assert np.nanmin(read_raster(files.wanted["dsm"]).heights) == pytest.approx(lowest, abs=0.1)
     told = [text for text in heard.infos if "left out of the surface model" in text]
     assert told[0].startswith("9,060 points" if 40 in classes else "1,569 points")

@@ -15,9 +15,9 @@ from bare_earth.algorithms.engine.workers import Processes
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.tools.heights import MeasureHeights
+from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from bare_earth.algorithms.tools.rasters.step import MakeRasters
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 
 # So many points that the arrays of a single tile of `DenseSurface` hardly count.
 COUNT, SIDE = 500_000, 440.0

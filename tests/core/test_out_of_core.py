@@ -28,7 +28,7 @@ from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.heights import HeightOutput
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
+from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 # The least that can be given: 8,000 points do not fit.

@@ -13,12 +13,12 @@ from surveys import ORIGIN, cut, write
 
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.grids import outline as outline_module
+from bare_earth.algorithms.grids.canopy import without_pits
 from bare_earth.algorithms.grids.morphology import closing
 from bare_earth.algorithms.grids.outline import Discs, Outline, with_gaps_inside
 from bare_earth.algorithms.tools.rasters import mosaic
+from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RASTERS, RasterFiles
-from bare_earth.algorithms.tools.rasters.surface_model import SurfaceModel, without_pits
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 
 rasterio = pytest.importorskip("rasterio")
 

@@ -12,15 +12,15 @@ from surveys import write as write_strip
 
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth.algorithms.grids.canopy import canopy_height
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.tools.heights import HeightOutput
 from bare_earth.algorithms.tools.key_points import KeyPointMark
-from bare_earth.algorithms.tools.rasters import relief_rasters
+from bare_earth.algorithms.tools.rasters import rows
+from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
-from bare_earth.algorithms.tools.rasters.surface_model import SurfaceModel, canopy_height
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 
 FEET_WKT = (
     'PROJCS["feet",GEOGCS["g",DATUM["d",SPHEROID["s",6378137,298.257]],PRIMEM["Greenwich",0],'
@@ -291,7 +291,9 @@ rasterio = pytest.importorskip("rasterio")
 
 def all_files(folder):
     folder.mkdir(exist_ok=True)
-    return RasterFiles(*(folder / f"{each}.tif" for each in ("dtm", "dsm", "chm", "shade")))
+    return RasterFiles(
+        **{each: folder / f"{each}.tif" for each in ("dtm", "dsm", "chm", "hillshade")}
+    )
 
 
 def read(path):
@@ -304,10 +306,10 @@ def test_terrain_surface_and_canopy(tmp_path):
     scene(tmp_path / "in.las")
     files = all_files(tmp_path / "out")
     summary = write_terrain_models(tmp_path / "in.las", files)
-    dtm, transform = read(files.dtm)
-    dsm, same = read(files.dsm)
-    chm, _ = read(files.chm)
-    shade, _ = read(files.hillshade)
+    dtm, transform = read(files.wanted["dtm"])
+    dsm, same = read(files.wanted["dsm"])
+    chm, _ = read(files.wanted["chm"])
+    shade, _ = read(files.wanted["hillshade"])
     assert transform == same and dtm.shape == dsm.shape == chm.shape == shade.shape
     assert (summary.ground_count, summary.surface_count) == (800, 900)
     assert (summary.rows, summary.columns) == dtm.shape
@@ -337,7 +339,7 @@ def test_each_raster_alone_is_the_same(tmp_path, name):
     write_terrain_models(tmp_path / "in.las", files)
     alone = tmp_path / "alone.tif"
     write_terrain_models(tmp_path / "in.las", RasterFiles(**{name: alone}))
-    one, other = read(alone), read(getattr(files, name))
+    one, other = read(alone), read(files.wanted[name])
     assert np.array_equal(one[0], other[0], equal_nan=True) and one[1] == other[1]
 
 
@@ -348,10 +350,10 @@ def test_gaps_are_filled_up_to_the_maximum_edge(tmp_path):
     las.write(str(tmp_path / "hole.las"))
     files = all_files(tmp_path / "out")
     write_terrain_models(tmp_path / "hole.las", files)
-    dtm, dsm = read(files.dtm)[0], read(files.dsm)[0]
+    dtm, dsm = read(files.wanted["dtm"])[0], read(files.wanted["dsm"])[0]
     assert not np.isnan(dtm[5:25, 5:25]).any() and not np.isnan(dsm[5:25, 5:25]).any()
     write_terrain_models(tmp_path / "hole.las", files, surface=SurfaceModel(max_edge=3.0))
-    dtm, dsm = read(files.dtm)[0], read(files.dsm)[0]
+    dtm, dsm = read(files.wanted["dtm"])[0], read(files.wanted["dsm"])[0]
     assert np.isnan(dtm[12:18, 12:18]).all() and np.isnan(dsm[12:18, 12:18]).all()
     assert not np.isnan(dtm[1:8, 1:28]).any()
 
@@ -364,9 +366,9 @@ def test_the_surface_of_first_or_of_all_returns(tmp_path):
     las.write(str(tmp_path / "in.las"))
     files = RasterFiles(dsm=tmp_path / "dsm.tif")
     write_terrain_models(tmp_path / "in.las", files)
-    assert np.nanmax(read(files.dsm)[0]) < 110
+    assert np.nanmax(read(files.wanted["dsm"])[0]) < 110
     write_terrain_models(tmp_path / "in.las", files, surface=SurfaceModel(surface_returns="all"))
-    assert np.nanmax(read(files.dsm)[0]) == 120
+    assert np.nanmax(read(files.wanted["dsm"])[0]) == 120
     las.return_number[:] = 2
     las.write(str(tmp_path / "in.las"))
     with pytest.raises(BareEarthError, match="Take all returns"):
@@ -377,8 +379,11 @@ def test_rasters_are_in_the_units_of_the_crs(tmp_path):
     scene(tmp_path / "in.las", wkt=FEET_WKT)
     files = all_files(tmp_path / "out")
     write_terrain_models(tmp_path / "in.las", files, model=TerrainModel(dtm_cell_size=0.6096))
-    chm, transform = read(files.chm)
-    with rasterio.open(files.dtm) as dtm, rasterio.open(files.hillshade) as shade:
+    chm, transform = read(files.wanted["chm"])
+    with (
+        rasterio.open(files.wanted["dtm"]) as dtm,
+        rasterio.open(files.wanted["hillshade"]) as shade,
+    ):
         assert dtm.descriptions == ("Height, ft",)
         assert shade.descriptions == ("Brightness, 1 to 255",)
     assert transform.a == pytest.approx(2.0)
@@ -391,7 +396,7 @@ def test_all_rasters_or_none(tmp_path, monkeypatch):
     def fail(*_):
         raise BareEarthError("the disk is full")
 
-    monkeypatch.setattr(relief_rasters, "hillshade", fail)
+    monkeypatch.setattr(rows, "hillshade", fail)
     files = all_files(tmp_path / "out")
     with pytest.raises(BareEarthError, match="the disk is full"):
         write_terrain_models(tmp_path / "in.las", files)

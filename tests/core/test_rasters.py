@@ -1,6 +1,5 @@
 """The rasters of a survey are those of one triangulation, however it is cut into blocks."""
 
-import dataclasses
 import json
 import os
 
@@ -24,10 +23,9 @@ from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.tools.rasters.block import LAYERS
 from bare_earth.algorithms.tools.rasters.jobs import RasterJob
 from bare_earth.algorithms.tools.rasters.output import write_rasters
+from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RASTERS, RasterFiles
 from bare_earth.algorithms.tools.rasters.step import MakeRasters
-from bare_earth.algorithms.tools.rasters.surface_model import SurfaceModel
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 
 rasterio = pytest.importorskip("rasterio")
 
@@ -95,8 +93,11 @@ CLOUDS = {
 
 
 def test_each_raster_can_be_asked_for():
-    assert list(RASTERS) == [each.name for each in dataclasses.fields(RasterFiles)]
-    assert {name for each in RASTERS.values() for name in each.layers} == set(LAYERS)
+    assert {layer for row in RASTERS.values() for layer in row.layers} == set(LAYERS)
+    wanted = RasterFiles(**{name: f"{name}.tif" for name in reversed([*RASTERS])}).wanted
+    assert [*wanted] == [*RASTERS] and all(name in RasterFiles.__doc__ for name in RASTERS)
+    with pytest.raises(TypeError, match="no raster height, only dtm"):
+        RasterFiles(height="a.tif")
 
 
 @pytest.mark.parametrize("name", CLOUDS)
@@ -145,8 +146,8 @@ def test_blocks_of_any_size_give_the_same_rasters(tmp_path, monkeypatch, max_edg
 
 def _of_files(sources, folder, resources=MUCH, **options):
     folder.mkdir()
-    names = "dtm", "dsm", "chm", "shade", "sure"
-    files = RasterFiles(*(folder / f"{name}.tif" for name in names))
+    names = "dtm", "dsm", "chm", "hillshade", "confidence"
+    files = RasterFiles(**{name: folder / f"{name}.tif" for name in names})
     write_terrain_models(sources, files, resources=resources, **options)
     return [_values(path) for path in files.wanted.values()]
 
@@ -185,7 +186,7 @@ def test_many_files_give_the_rasters_of_one_cell_by_cell(survey, small_blocks, t
     many = _of_files([survey / "many"], tmp_path / "many", workers=Threads(MUCH))
     assert _same(one, many)
     names = [each.removesuffix(".tif") for each in sorted(os.listdir(tmp_path / "many"))]
-    assert names == ["chm", "dsm", "dtm", "shade", "sure"]
+    assert names == ["chm", "confidence", "dsm", "dtm", "hillshade"]
 
 
 def test_processes_give_the_rasters_of_threads(survey, of_one, tmp_path):
@@ -221,7 +222,7 @@ def test_a_cancelled_survey_goes_on_with_the_rasters_that_are_left(small_blocks,
             [tmp_path / "in"], tmp_path / name, SlopeFilter(preset="whitebox"), rasters=files,
             workers=workers, output=TileOutput(**output),
         )  # fmt: skip
-        return _values(files.dtm)
+        return _values(files.wanted["dtm"])
 
     whole = CountedRasters()
     expected = run("once", whole)

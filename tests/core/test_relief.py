@@ -18,10 +18,11 @@ from bare_earth.algorithms.grids.local_relief import multi_scale_relief
 from bare_earth.algorithms.grids.relief_pictures import archaeological_topography, red_relief
 from bare_earth.algorithms.tools import relief as relief_module
 from bare_earth.algorithms.tools.rasters import mosaic
-from bare_earth.algorithms.tools.rasters.relief_rasters import RELIEF
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
+from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
+from bare_earth.algorithms.tools.rasters.rows import RASTERS, How
 from bare_earth.algorithms.tools.relief import KINDS, ReliefPictures, write_relief
 
+RELIEF = [*KINDS.values()]
 METRES = 1.0, 1.0
 MIDDLE = 30, 30
 
@@ -244,14 +245,16 @@ def test_red_relief_is_red_on_slopes_bright_on_ridges_and_dark_in_hollows():
     assert hollow < grey[0] - 30 and ridge > grey[0] + 20
 
 
-@pytest.mark.parametrize("name", sorted(RELIEF))
+@pytest.mark.parametrize("name", RELIEF)
 def test_a_cell_depends_only_on_what_is_within_its_reach(name):
-    each, model = RELIEF[name], TerrainModel(relief_radius=3.0)
+    row, how = RASTERS[name], How(METRES, TerrainModel(relief_radius=3.0))
     heights = rough(3, (150, 150))
-    reach = each.reach(METRES, model)
+    reach = row.margin(how)
     part = np.s_[75 - reach : 76 + reach, 75 - reach : 76 + reach]
-    whole = each.make(heights, METRES, model)[..., 75, 75]
-    alone = each.make(heights[part], METRES, model)[..., reach, reach]
+    whole, alone = (
+        row.rows(some, how=how, unit=1.0, nodata=np.nan) for some in (heights, heights[part])
+    )
+    whole, alone = whole[..., 75, 75], alone[..., reach, reach]
     assert alone == pytest.approx(whole, rel=1e-6, abs=1e-5)
 
 

@@ -13,8 +13,8 @@ from bare_earth.algorithms.runs.entry import terrain
 from bare_earth.algorithms.runs.requests import TerrainRequest
 from bare_earth.algorithms.tools import relief as relief_module
 from bare_earth.algorithms.tools.rasters import mosaic
+from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
 from bare_earth.algorithms.tools.relief import ReliefPictures, write_relief
 
 rasterio = pytest.importorskip("rasterio")

@@ -37,7 +37,9 @@ FLOORS = {
         "core crs grids las survey filters report products engine steps tools runs"
     ),
     "delivery": "core crs grids las survey rasters filters report products engine steps tools runs",
-    "library": "core crs grids las survey rasters filters products engine steps tools runs delivery",
+    "library": (
+        "core crs grids las survey rasters filters products engine steps tools runs delivery"
+    ),
     "cli": (
         "core crs grids las survey rasters filters products engine steps tools runs delivery"
         " library"

@@ -20,8 +20,7 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.above_ground.classes import ThenAboveGround
-from bare_earth.algorithms.tools.rasters.surface_model import Gaps
-from bare_earth.algorithms.tools.rasters.terrain_model import TerrainModel
+from bare_earth.algorithms.tools.rasters.parameters import Gaps, TerrainModel
 from bare_earth.plugin.processing.classification import ClassificationAlgorithm
 
 SHARED_PARAMETERS = [

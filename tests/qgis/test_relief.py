@@ -7,7 +7,7 @@ from qgis.core import QgsProject, QgsRasterLayer
 from support import Log
 
 from bare_earth.algorithms.tools.relief import KINDS
-from bare_earth.plugin.styles import rasters
+from bare_earth.plugin.styles import layers
 
 gdal.UseExceptions()
 ALGORITHM = "bareearth:relief"
@@ -92,7 +92,7 @@ def test_the_layers_have_their_styles_and_names(terrain, tmp_path):
 
 def test_level_land_is_white_sky_and_not_speckle(tmp_path):
     layer = QgsRasterLayer(write(tmp_path / "sky.tif", np.full((9, 9), 0.999)))
-    rasters.sky_view(layer)
+    layers.raster_looks()["SKY_VIEW"].dress(layer)
     shader = layer.renderer()
     assert shader.classificationMin() == pytest.approx(0.9) and shader.classificationMax() == 1.0
 

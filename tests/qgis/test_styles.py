@@ -29,8 +29,7 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import NOT_GROUND
 from bare_earth.algorithms.steps.explanation import described
-from bare_earth.algorithms.tools.rasters.rows import RASTERS
-from bare_earth.plugin.styles import clouds, rasters, rules
+from bare_earth.plugin.styles import clouds, layers, rasters, rules
 
 MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
 
@@ -69,6 +68,10 @@ def raster(path, values):
     made.GetRasterBand(1).WriteArray(values)
     made = None
     return QgsRasterLayer(str(path))
+
+
+def draw(name, layer):
+    layers.raster_looks()[name.upper()].dress(layer)
 
 
 def colour_at(layers, x, y):
@@ -167,7 +170,7 @@ def test_the_colours_of_terrain_fit_its_range_without_the_extremes(tmp_path):
     heights = np.linspace(100.0, 200.0, 10_000).reshape(100, 100)
     heights[0, 0], heights[-1, -1] = -500.0, 4000.0
     layer = raster(tmp_path / "dtm.tif", heights)
-    rasters.terrain(layer)
+    draw("dtm", layer)
     low, high = limits(layer)
     assert low == pytest.approx(102.0, abs=0.1) and high == pytest.approx(198.0, abs=0.1)
     assert layer.blendMode() == MULTIPLY
@@ -176,7 +179,7 @@ def test_the_colours_of_terrain_fit_its_range_without_the_extremes(tmp_path):
 def test_a_file_that_takes_the_place_of_another_gets_its_own_colours(tmp_path):
     for base in (0.0, 1000.0):
         layer = raster(tmp_path / "dtm.tif", base + np.linspace(0, 100, 10_000).reshape(100, 100))
-        rasters.terrain(layer)
+        draw("dtm", layer)
         # What QGIS does when the user asks for the histogram.
         layer.dataProvider().cumulativeCut(1, 0.02, 0.98)
         assert limits(layer)[0] == pytest.approx(base + 2, abs=0.1)
@@ -184,25 +187,25 @@ def test_a_file_that_takes_the_place_of_another_gets_its_own_colours(tmp_path):
 
 def test_a_raster_without_heights_is_coloured_too(tmp_path):
     layer = raster(tmp_path / "dtm.tif", np.full((10, 10), np.nan))
-    rasters.terrain(layer)
+    draw("dtm", layer)
     assert limits(layer) == (0.0, 0.5)
 
 
 def test_level_land_is_not_coloured_by_its_noise(tmp_path):
     noise = np.random.default_rng(1).normal(0.0, 0.005, (50, 50))
     layer = raster(tmp_path / "dtm.tif", 10.0 + noise)
-    rasters.terrain(layer)
+    draw("dtm", layer)
     low, high = limits(layer)
     assert high - low >= 0.5
 
 
 @pytest.mark.parametrize(
-    ("dress", "expected"),
-    [(rasters.confidence, (0.0, 1.0)), (rasters.errors, (0.0, 1.0)), (rasters.canopy, (0.0, None))],
+    ("name", "expected"),
+    [("confidence", (0.0, 1.0)), ("error_map", (0.0, 1.0)), ("chm", (0.0, None))],
 )
-def test_ranges_that_mean_something_are_kept(tmp_path, dress, expected):
+def test_ranges_that_mean_something_are_kept(tmp_path, name, expected):
     layer = raster(tmp_path / "r.tif", np.linspace(0.4, 0.6, 100).reshape(10, 10))
-    dress(layer)
+    draw(name, layer)
     assert limits(layer)[0] == expected[0]
     if expected[1] is not None:
         assert limits(layer)[1] == expected[1]
@@ -210,14 +213,14 @@ def test_ranges_that_mean_something_are_kept(tmp_path, dress, expected):
 
 def test_a_map_of_sure_cells_is_not_blank(tmp_path):
     layer = raster(tmp_path / "r.tif", np.ones((20, 20)))
-    rasters.confidence(layer)
+    draw("confidence", layer)
     sure = colour_at([layer], 500_010, 5_699_990)
     assert sure.lightness() < 220 and sure.green() > sure.red()
 
 
 def test_relief_has_its_middle_at_zero(tmp_path):
     layer = raster(tmp_path / "r.tif", np.linspace(-1.0, 3.0, 10_000).reshape(100, 100))
-    rasters.local_relief(layer)
+    draw("relief", layer)
     low, high = limits(layer)
     assert low == -high < 0
 
@@ -357,12 +360,6 @@ def test_the_legend_of_heights_says_the_unit(run, tmp_path, epsg, unit):
     outputs = {"OUTPUT": tmp_path / "heights.copc.laz"}
     run("bareearth:heightaboveground", {"INPUT": ground}, outputs)
     assert legend_of("Height above ground")[0] == f"Height above ground, {unit}"
-
-
-def test_all_that_bands_say_is_translated():
-    said = [each.shows for each in RASTERS.values()]
-    pieces = {piece for each in said for piece in each.split(", ")} - {"{unit}"}
-    assert pieces <= set(rasters.SHOWN)
 
 
 def test_the_map_has_the_colours_of_the_legend(run, tmp_path):

@@ -13,12 +13,17 @@ from ...las.class_names import named_class
 from ...survey.files import Survey
 from ...survey.point_counts import by_class
 from .cells import FLAGGED, PULSE, ROUGH, WET, Counts, QualityCells, twice
-from .rasters import QUALITY_RASTERS, differences, overlap, rows_of, strip_differences
+from .rasters import (
+    LIMITS,
+    QUALITY_RASTERS,
+    differences,
+    overlap,
+    rows_of,
+    strip_differences,
+)
 from .specifications import Specification
 
 PASS, FAIL, LOOK = "pass", "fail", "look"
-# Limits of the classes of differences between strips, in metres.
-LIMITS = (0.08, 0.16)
 # Side in metres of the squares by which the area of the survey is told.
 _SQUARE = 10.0
 _GROUND = 2

@@ -12,8 +12,8 @@ from ...report.pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
 from ...report.units import Units
 from ...survey.files import Survey
 from .cells import QualityCells
-from .figures import FAIL, LIMITS, LOOK, PASS, Extent, Quality
-from .rasters import QUALITY_RASTERS, rows_of
+from .figures import FAIL, LOOK, PASS, Extent, Quality
+from .rasters import LIMITS, QUALITY_RASTERS, rows_of
 from .specifications import Specification
 
 # Longest side of a map in pixels, and most rows of the table of files.
@@ -104,7 +104,7 @@ def _maps(cells: QualityCells, extent: Extent, void: float, survey: Survey) -> I
         values, size = _small(name, cells, extent, void)
         if not np.isnan(values).all():
             pixels, legend = _coloured(name, values, units)
-            yield map_of(Picture(pixels, size), raster.label, legend, units)
+            yield map_of(Picture(pixels, size), raster.label or raster.title, legend, units)
 
 
 def _small(name: str, cells: QualityCells, extent: Extent, void: float) -> tuple[np.ndarray, float]:

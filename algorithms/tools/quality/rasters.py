@@ -12,7 +12,9 @@ from ...core.files import Outputs
 from ...core.points import Frame
 from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
+from ...rasters import looks
 from ...rasters.geotiff import NODATA, RasterGrid
+from ...rasters.looks import Categories, Look, Ramp, Steps
 from ...rasters.writing import Rows, check_raster_output, raster_file, write_geotiff
 from .cells import STRIPS, QualityCells, twice
 from .planes import plane_of
@@ -29,20 +31,24 @@ _FROM_AROUND, _AROUND = 0.25, 2
 _LOOKED_AT = 1 << 18
 # Cells that are made together.
 _TOGETHER = 1 << 21
+# Limits of the classes of differences between strips, in metres.
+LIMITS = (0.08, 0.16)
 
 
 class QualityRaster(NamedTuple):
     """The declaration of a raster."""
 
-    label: str  # its title
+    title: str
     shows: str  # what its cells mean
     # ``make(cells, rows, inside, void)`` returns some rows, as floats with NaN for no value: `rows`
     # is a slice of rows, `inside` says which of all cells lie in the survey, and `void` is the
     # distance in metres from which on ground is missing.
     make: Callable[[QualityCells, slice, np.ndarray, float], np.ndarray]
+    look: Look
     is_coarse: bool = False  # its cells have twice the size
     kind: str = "float32"  # "float32" or "uint8"
     is_height: bool = False  # written in the vertical unit of the CRS; made in metres
+    label: str = ""  # on the page, where that is not the title
 
 
 def _density(name: str) -> Callable[[QualityCells, slice, np.ndarray, float], np.ndarray]:
@@ -153,28 +159,38 @@ def _highest(cells: QualityCells, rows: slice, inside: np.ndarray, void: float) 
     return np.where(np.isfinite(heights), heights, np.nan)
 
 
+_DENSITY = Ramp(looks.DENSITY, low=0.0)
+# From none to all of the strips of a cell.
+_NUMBERS = tuple((number, str(number), colour) for number, (_, colour) in enumerate(looks.DENSITY))
+
 QUALITY_RASTERS = {
     "pulse_density": QualityRaster(
-        "Density of first returns", "First returns, 1/m2", _density("first")
+        "Density of first returns", "First returns, 1/m2", _density("first"),
+        Look(_DENSITY, 4, hides=3),
     ),
     "ground_density": QualityRaster(
-        "Density of ground points", "Ground points, 1/m2", _density("ground_points")
+        "Density of ground points", "Ground points, 1/m2", _density("ground_points"),
+        Look(_DENSITY, 3, hides=2),
     ),
     "voids": QualityRaster(
-        "Voids of the ground", "1 where ground points are far away", _voids, kind="uint8"
+        "Voids of the ground", "1 where ground points are far away", _voids,
+        Look(Categories(((1, "No ground near", "#c0262d"),)), 7), kind="uint8",
     ),
     "low_vegetation": QualityRaster(
-        "Density of low vegetation", "Points 0.2 to 2 m above the ground, 1/m2", _density("low")
+        "Density of low vegetation", "Points 0.2 to 2 m above the ground, 1/m2", _density("low"),
+        Look(Ramp(looks.CANOPY, low=0.0), 2, hides=1),
     ),
     "overlap": QualityRaster(
-        f"Overlap of strips (up to {STRIPS})", "Number of strips", overlap, True, "uint8"
+        "Overlap of strips", "Number of strips", overlap, Look(Categories(_NUMBERS), 5, hides=1),
+        True, "uint8", label=f"Overlap of strips (up to {STRIPS})",
     ),
     "strip_differences": QualityRaster(
-        "Differences between strips", "Difference between strips, {unit}", differences, True,
-        is_height=True,
+        "Differences between strips", "Difference between strips, {unit}", differences,
+        Look(Steps(LIMITS, ("#3a9d5d", "#f0c93a", "#c0262d")), 6), True, is_height=True,
     ),
     "surface_height": QualityRaster(
-        "Maximum surface height", "Height, {unit}", _highest, True, is_height=True
+        "Maximum surface height", "Height, {unit}", _highest,
+        Look(Ramp(looks.SURFACE, line="#2a9d8f"), 1, hides=1), True, is_height=True,
     ),
 }  # fmt: skip
 

@@ -17,7 +17,6 @@ from ...grids.cell_window import CellWindow
 from ...rasters.cell_grid import (
     MOST_CELLS,
     CellGrid,
-    box_of,
     no_points,
 )
 from ...rasters.geotiff import RasterGrid
@@ -28,7 +27,7 @@ from .block import BlockRasters
 from .level_water import WaterCells
 from .mosaic import Mosaic, gathered_strips
 from .outlines import Held, Outlines, mosaics_of
-from .rows import RASTERS, Raster, folder_of, virtual_of
+from .rows import RASTERS, How, Raster, folder_of, virtual_of
 from .step import MakeRasters
 
 # In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
@@ -74,7 +73,7 @@ def write_rasters(
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
     for (name, path), part in zip(wanted.items(), parts):
         raster = RASTERS[name]
-        measured = outlines.canopy() if raster.is_canopy else None
+        measured = outlines.canopy() if raster.needs_both else None
         layers = [mosaics[each].limited(measured, area) for each in raster.layers]
         write = partial(_write, raster, layers, frame, step, outputs)
         if files is None:
@@ -87,7 +86,8 @@ def write_rasters(
             grids = dict(zip(names, map(write, names, windows.values(), shares)))
             virtual, grid = virtual_of(path), _grid_of(window, step, frame)
             temporary = outputs.file(virtual)
-            band = Band.of(grid, raster.empty(step.model), raster.shows, raster.bands)
+            nodata = raster.nodata(step.model.nodata)
+            band = Band.of(grid, nodata, raster.shows, raster.bands)
             write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
     counts = np.sum([each.counts for each in made], axis=0)
     return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
@@ -104,14 +104,12 @@ def _write(
     progress: Progress,
 ) -> RasterGrid:
     """Write some cells of a raster; return where they lie."""
-    grid = _grid_of(window, step, frame)
-    make = partial(raster.make, grid=grid, model=step.model)
-    if raster.is_canopy:
-        make = partial(make, pit_free=step.surface.pit_free)
-    strips = gathered_strips(layers, window, make, raster.margin(grid, step.model), progress)
-    temporary = raster_file(outputs, path)
+    grid, nodata = _grid_of(window, step, frame), raster.nodata(step.model.nodata)
+    how = How((grid.cell_metres, grid.cell_metres), step.model, step.surface)
+    make = partial(raster.rows, how=how, unit=frame.vertical_unit, nodata=nodata)
+    strips = gathered_strips(layers, window, make, raster.margin(how), progress)
     rows = Rows(window.shape, raster.kind, strips, raster.bands)
-    write_geotiff(temporary, rows, grid, raster.empty(step.model), progress, raster.shows)
+    write_geotiff(raster_file(outputs, path), rows, grid, nodata, progress, raster.shows)
     return grid
 
 
@@ -154,7 +152,7 @@ def _covered(window: CellWindow, step: MakeRasters, frame: Frame) -> CellWindow:
     if wanted is None:
         return window
     if min(wanted.within(window).shape) <= 0:
-        raise no_points(*(box_of(_grid_of(each, step, frame)) for each in (wanted, window)))
+        raise no_points(*(_grid_of(cells, step, frame).box for cells in (wanted, window)))
     return wanted
 
 

@@ -1,8 +1,13 @@
-"""Declarations of all rasters, for the command line, the dialogs and writing."""
+"""The rasters of the terrain and of what stands on it: each is a row of `RASTERS`.
+
+From its row follow the option of the commands, the keyword of `RasterFiles`, the field of dialogs
+or the kind of *Relief of a terrain model*, the band of the file, and the layer on a map.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Callable, NamedTuple
 
@@ -10,167 +15,281 @@ import numpy as np
 
 from ...core.errors import BareEarthError
 from ...core.files import check_distinct, check_output
-from ...rasters.geotiff import RasterGrid
+from ...grids.canopy import PIT_PASSES, canopy_height, without_pits
+from ...grids.hillshade import hillshade, multidirectional_hillshade, slope
+from ...grids.horizons import Cells, horizon_reach, openness, sky_view
+from ...grids.local_dominance import dominance_reach, local_dominance
+from ...grids.local_relief import (
+    local_relief,
+    multi_scale_reach,
+    multi_scale_relief,
+    relief_reach,
+)
+from ...grids.relief_pictures import VAT_RADII, archaeological_topography, red_relief
+from ...grids.relief_smoothing import smoothing_reach, without_noise
+from ...rasters import looks
+from ...rasters.looks import Look, Picture, Ramp
 from ...rasters.writing import check_raster_output
-from .relief_rasters import RELIEF, ReliefRaster
-from .surface_model import PIT_PASSES, canopy_height, without_pits
-from .terrain_model import TerrainModel
+from .parameters import SurfaceModel, TerrainModel
 
 
-def _none(grid: RasterGrid, model: TerrainModel) -> int:
-    """Return that cells depend on no others."""
-    return 0
+class How(NamedTuple):
+    """How rasters are made."""
 
+    cells: Cells  # the two sides of a cell in metres
+    terrain: TerrainModel
+    surface: SurfaceModel = SurfaceModel()
 
-class Raster(NamedTuple):
-    """The declaration of a raster."""
-
-    label: str  # title of its field in the dialog
-    help: str  # a sentence
-    shows: str  # what its cells mean, for legends; ``{unit}`` is the vertical unit
-    layers: tuple[str, ...]  # that it is made from, of `LAYERS`
-    # ``make(*rows, grid, model)`` returns rows of the raster, given as many rows of each layer,
-    # from north to south; NaN is no value
-    make: Callable[..., np.ndarray]
-    # rows and columns round a part of the raster that affect it
-    margin: Callable[[RasterGrid, TerrainModel], int] = _none
-    kind: str = "float32"  # of its values
-    nodata: float | None = None  # None for the one that the user chooses
-    # with values only where surface and terrain were measured nearby; `make` takes ``pit_free``
-    is_canopy: bool = False
-    bands: int = 1  # if several, `make` returns shape (bands, rows, columns)
-
-    def empty(self, model: TerrainModel) -> float:
-        """Return the value of cells without data."""
-        return model.nodata if self.nodata is None else self.nodata
-
-
-def plain(values: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    """Return values with the no-data value for NaN."""
-    return np.where(np.isnan(values), model.nodata, values).astype(np.float32)
-
-
-def _heights(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-    """Return heights in metres as heights in the vertical unit of the CRS."""
-    return plain(heights.astype(np.float64) / grid.frame.vertical_unit, grid, model)
-
-
-def _canopy(
-    surface: np.ndarray,
-    terrain: np.ndarray,
-    grid: RasterGrid,
-    model: TerrainModel,
-    pit_free: bool = False,
-) -> np.ndarray:
-    canopy = canopy_height(surface, terrain)
-    return _heights(without_pits(canopy) if pit_free else canopy, grid, model)
-
-
-def _pit_margin(grid: RasterGrid, model: TerrainModel) -> int:
-    return PIT_PASSES
-
-
-def _sure(
-    sure: np.ndarray, terrain: np.ndarray, grid: RasterGrid, model: TerrainModel
-) -> np.ndarray:
-    """Return the confidence where there is a terrain to be sure of."""
-    return plain(np.where(np.isnan(terrain), np.nan, sure), grid, model)
-
-
-def _of_terrain(relief: ReliefRaster) -> Raster:
-    """Return the declaration of a raster that shows the relief of the terrain."""
-
-    def make(heights: np.ndarray, grid: RasterGrid, model: TerrainModel) -> np.ndarray:
-        made = relief.make(heights, (grid.cell_metres, grid.cell_metres), model)
-        if relief.kind == "uint8":
-            return made
-        return (_heights if relief.is_height else plain)(made, grid, model)
-
-    def margin(grid: RasterGrid, model: TerrainModel) -> int:
-        return relief.reach((grid.cell_metres, grid.cell_metres), model)
-
-    nodata = 0 if relief.kind == "uint8" else None
-    about = relief.label, relief.help, relief.shows
-    return Raster(*about, ("terrain",), make, margin, relief.kind, nodata, bands=relief.bands)
-
-
-RASTERS = {
-    "dtm": Raster(
-        "Terrain model (DTM)",
-        "Heights of the bare ground.",
-        "Height, {unit}",
-        ("terrain",),
-        _heights,
-    ),
-    "dsm": Raster(
-        "Surface model (DSM)",
-        "The highest point of each cell, noise left out.",
-        "Height, {unit}",
-        ("surface",),
-        _heights,
-    ),
-    "chm": Raster(
-        "Canopy height (CHM)",
-        "Surface minus terrain: the height of trees, and of buildings too. Empty where no ground"
-        " point lies within 50 m (or 20 cells), and in gaps of the surface.",
-        "Height above ground, {unit}",
-        ("surface", "terrain"),
-        _canopy,
-        margin=_pit_margin,
-        is_canopy=True,
-    ),
-    "hillshade": _of_terrain(RELIEF["hillshade"]),
-    "confidence": Raster(
-        "Confidence of the terrain model",
-        "The probability, 0 to 1, that the terrain model is right: low under dense trees, across"
-        " gaps and at breaks.",
-        "Confidence, 0 to 1",
-        ("confidence", "terrain"),
-        _sure,
-    ),
-    **{name: _of_terrain(each) for name, each in RELIEF.items() if name != "hillshade"},
-}
+    @property
+    def radius(self) -> float:
+        """The size of the features that pictures of the relief show, in metres."""
+        return self.terrain.relief_radius
 
 
 @dataclass(frozen=True)
-class RasterFiles:
-    """The rasters to make, GeoTIFF; None for those that are not wanted.
+class Raster:
+    """A raster: what it shows, from which layers of a block it is made, and how it looks."""
 
-    Attributes
+    title: str  # of its layer
+    help: str  # a sentence
+    shows: str  # what its cells mean, for legends; ``{unit}`` is the vertical unit
+    # Returns rows, or (bands, rows, columns), given as many rows of each layer, from north to south
+    # and in metres, and `How`; NaN is no value, for bytes 0.
+    make: Callable[..., np.ndarray]
+    look: Look
+    layers: tuple[str, ...] = ("terrain",)  # of `LAYERS`
+    reach: Callable[[How], int] = lambda how: 0  # how many cells away cells matter
+    label: str = ""  # of its field; by default the title
+    kind: str = "float32"  # of its values
+    bands: int = 1
+    is_height: bool = False  # in metres, and written in the vertical unit
+    needs_both: bool = False  # no value where surface or terrain were not measured nearby
+    is_relief: bool = False  # a kind of relief, which any terrain model can be made into
+    is_smoothed: bool = False  # made of heights without noise, unless the user wants the noise
+    relief_name: str = ""  # of the kind of relief, where that is not its name
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "label", self.label or self.title)
+
+    def smooths(self, how: How) -> bool:
+        """Return whether heights are smoothed first."""
+        return self.is_smoothed and how.terrain.relief_smoothing == "automatic"
+
+    def margin(self, how: How) -> int:
+        """Return how many cells away cells matter, smoothing included."""
+        return self.reach(how) + (smoothing_reach(min(how.cells)) if self.smooths(how) else 0)
+
+    def nodata(self, value: float) -> float:
+        """Return the value of cells without data, given that of heights."""
+        return 0 if self.kind == "uint8" else value
+
+    def rows(self, *layers: np.ndarray, how: How, unit: float, nodata: float) -> np.ndarray:
+        """Return rows as they are written, given as many of each layer in metres and the metres in
+        the vertical unit.
+        """
+        if self.smooths(how):
+            layers = tuple(without_noise(heights, min(how.cells)) for heights in layers)
+        values = self.make(*layers, how)
+        if self.kind == "uint8":
+            return values
+        values = values.astype(np.float64) / unit if self.is_height else values
+        return np.where(np.isnan(values), nodata, values).astype(np.float32)
+
+
+def _canopy(surface: np.ndarray, terrain: np.ndarray, how: How) -> np.ndarray:
+    canopy = canopy_height(surface, terrain)
+    return without_pits(canopy) if how.surface.pit_free else canopy
+
+
+def _hillshade(heights: np.ndarray, how: How) -> np.ndarray:
+    model = how.terrain
+    if model.hillshade_light == "multidirectional":
+        return multidirectional_hillshade(heights, how.cells, model.hillshade_altitude)
+    return hillshade(heights, how.cells, model.hillshade_azimuth, model.hillshade_altitude)
+
+
+def _horizon(how: How) -> int:
+    return max(horizon_reach(how.radius, how.cells))
+
+
+_relief = partial(Raster, is_relief=True, is_smoothed=True)
+
+RASTERS = {
+    "dtm": Raster(
+        "Terrain model",
+        "Heights of the bare ground.",
+        "Height, {unit}",
+        lambda terrain, how: terrain,
+        Look(Ramp(looks.TERRAIN, multiplies=True, line="#6e4824"), 1, hides=5),
+        label="Terrain model (DTM)",
+        is_height=True,
+    ),
+    "dsm": Raster(
+        "Surface model",
+        "The highest point of each cell, noise left out.",
+        "Height, {unit}",
+        lambda surface, how: surface,
+        Look(Ramp(looks.SURFACE, line="#2a9d8f"), 2, hides=1),
+        layers=("surface",),
+        label="Surface model (DSM)",
+        is_height=True,
+    ),
+    "chm": Raster(
+        "Canopy height",
+        "Surface minus terrain: the height of trees, and of buildings too. Empty where no ground"
+        " point lies within 50 m (or 20 cells), and in gaps of the surface.",
+        "Height above ground, {unit}",
+        _canopy,
+        Look(Ramp(looks.CANOPY, low=0.0), 3, hides=3),
+        layers=("surface", "terrain"),
+        reach=lambda how: PIT_PASSES,
+        label="Canopy height (CHM)",
+        is_height=True,
+        needs_both=True,
+    ),
+    "hillshade": _relief(
+        "Hillshade",
+        "The terrain model, lit by one light or by four.",
+        "Brightness, 1 to 255",
+        _hillshade,
+        # Level land is nearly white, so that colours above it look as in the legend.
+        Look(Picture((20.0, 210.0)), 0),
+        reach=lambda how: 1,
+        kind="uint8",
+    ),
+    "confidence": Raster(
+        "Confidence",
+        "The probability, 0 to 1, that the terrain model is right: low under dense trees, across"
+        " gaps and at breaks.",
+        "Confidence, 0 to 1",
+        lambda sure, terrain, how: np.where(np.isnan(terrain), np.nan, sure),
+        # From 0 to 1, so that also a map of sure cells has a colour.
+        Look(Ramp(looks.CONFIDENCE, 0.0, 1.0), 5, hides=1),
+        layers=("confidence", "terrain"),
+        label="Confidence of the terrain model",
+    ),
+    "relief": _relief(
+        "Local relief",
+        "The terrain model minus a smoothed one. Mounds, ditches and old paths stand out.",
+        "Local relief, {unit}",
+        lambda heights, how: local_relief(heights, how.cells, how.radius),
+        Look(Ramp(looks.RISES, is_even=True), 4, hides=2),
+        reach=lambda how: relief_reach(how.cells, how.radius),
+        is_height=True,
+        relief_name="local-relief",
+    ),
+    "multi_scale_relief": _relief(
+        "Multi-scale relief",
+        "The mean of local reliefs of four sizes, from half of the radius to four times it, so that"
+        " narrow and wide features are in one picture.",
+        "Multi-scale relief, {unit}",
+        lambda heights, how: multi_scale_relief(heights, how.cells, how.radius),
+        Look(Ramp(looks.RISES, is_even=True), 4, hides=1),
+        reach=lambda how: multi_scale_reach(how.cells, how.radius),
+        is_height=True,
+    ),
+    "slope": _relief(
+        "Slope",
+        "How steep the terrain model is, in degrees.",
+        "Slope, degrees",
+        lambda heights, how: slope(heights, how.cells),
+        Look(Ramp(looks.GREY_UPSIDE_DOWN, low=0.0, least=5.0), 4, hides=1),
+        reach=lambda how: 1,
+        is_smoothed=False,
+    ),
+    "sky_view": _relief(
+        "Sky-view factor",
+        "The share of the sky that can be seen: dark in ditches, pits and sunken paths, whatever"
+        " their direction.",
+        "Sky-view factor, 0 to 1",
+        lambda heights, how: sky_view(heights, how.cells, how.radius),
+        Look(Ramp(looks.GREY, high=1.0, least=0.1), 4, hides=2),
+        reach=_horizon,
+    ),
+    "openness": _relief(
+        "Positive openness",
+        "The mean angle between zenith and horizon in degrees: bright banks and edges. Even slopes"
+        " look like level land.",
+        "Positive openness, degrees",
+        lambda heights, how: openness(heights, how.cells, how.radius),
+        Look(Ramp(looks.GREY, least=5.0), 4, hides=1),
+        reach=_horizon,
+    ),
+    "negative_openness": _relief(
+        "Negative openness",
+        "The same upside down: large in ditches, pits and at the foot of banks.",
+        "Negative openness, degrees",
+        lambda heights, how: openness(-heights, how.cells, how.radius),
+        Look(Ramp(looks.GREY_UPSIDE_DOWN, least=5.0), 4, hides=1),
+        reach=_horizon,
+    ),
+    "local_dominance": _relief(
+        "Local dominance",
+        "How steeply one looks down from a place, 1 on level land: low mounds and banks on level"
+        " land stand out.",
+        "Local dominance, 1 is level",
+        lambda heights, how: local_dominance(heights, how.cells, how.radius),
+        Look(Ramp(looks.GREY, least=0.2), 4, hides=1),
+        reach=lambda how: max(dominance_reach(how.radius, how.cells)),
+    ),
+    "vat": _relief(
+        "Archaeological topography (VAT)",
+        "A hillshade blended with slope, openness and sky-view factor: one picture for features of"
+        " any kind.",
+        "Archaeological topography, 1 to 255",
+        lambda heights, how: archaeological_topography(heights, how.cells, how.radius),
+        Look(Picture(), 5, hides=4),
+        reach=lambda how: max(horizon_reach(VAT_RADII * how.radius, how.cells)),
+        kind="uint8",
+    ),
+    "red_relief": _relief(
+        "Red relief image map",
+        "Slopes in red, ridges bright, hollows dark: a picture without light and shadow.",
+        "Red relief",
+        lambda heights, how: red_relief(heights, how.cells, how.radius),
+        Look(Picture(), 5, hides=3),
+        reach=_horizon,
+        kind="uint8",
+        bands=3,
+    ),
+}
+
+
+@dataclass(frozen=True, init=False)
+class RasterFiles:
+    """The rasters to make, GeoTIFF, by their names: ``RasterFiles(dtm="dtm.tif")``.
+
+    Parameters
     ----------
-    dtm, dsm, chm, hillshade, confidence, relief : Path or None
-        Terrain, surface (with everything that stands on the terrain), canopy height (the
-        difference of the two), hillshade of the terrain, confidence of the terrain, and its local
-        relief.
-    multi_scale_relief, slope, sky_view, openness : Path or None
-    negative_openness, local_dominance, vat, red_relief : Path or None
-        More pictures of the terrain; see `RELIEF` of `products/relief_rasters.py`.
+    **files : path or None
+        The file of each raster that is wanted:
+    {names}
+
+    Raises
+    ------
+    TypeError
+        If there is no raster with such a name.
     """
 
-    dtm: Path | None = None
-    dsm: Path | None = None
-    chm: Path | None = None
-    hillshade: Path | None = None
-    confidence: Path | None = None
-    relief: Path | None = None
-    multi_scale_relief: Path | None = None
-    slope: Path | None = None
-    sky_view: Path | None = None
-    openness: Path | None = None
-    negative_openness: Path | None = None
-    local_dominance: Path | None = None
-    vat: Path | None = None
-    red_relief: Path | None = None
+    files: tuple[tuple[str, Path], ...]
+
+    def __init__(self, **files: Path | str | None) -> None:
+        unknown = ", ".join(files.keys() - RASTERS.keys())
+        if unknown:
+            raise TypeError(f"There is no raster {unknown}, only {', '.join(RASTERS)}.")
+        wanted = tuple((name, Path(files[name] or "")) for name in RASTERS if files.get(name))
+        object.__setattr__(self, "files", wanted)
 
     @property
     def wanted(self) -> dict[str, Path]:
         """The paths of the wanted rasters, by their names."""
-        return {name: Path(path) for name, path in vars(self).items() if path}
+        return dict(self.files)
 
     @property
     def layers(self) -> tuple[str, ...]:
         """The layers from which the wanted rasters are made."""
-        return tuple(dict.fromkeys(each for name in self.wanted for each in RASTERS[name].layers))
+        names = (layer for raster in self.wanted for layer in RASTERS[raster].layers)
+        return tuple(dict.fromkeys(names))
 
     def check(self, others: tuple[Path, ...], per_file: bool = False) -> None:
         """Refuse rasters that could not be written, or would replace another file of the run.
@@ -187,15 +306,20 @@ class RasterFiles:
         BareEarthError
             If a path is unsuitable.
         """
-        paths = list(self.wanted.values())
+        paths = [path for _, path in self.files]
         check_distinct(paths)
-        for each in paths:
-            check_raster_output(each, others)
+        for path in paths:
+            check_raster_output(path, others)
             if per_file:
-                check_output(virtual_of(each), others)
-                folder = folder_of(each)
+                check_output(virtual_of(path), others)
+                folder = folder_of(path)
                 if folder.exists() and not folder.is_dir():
                     raise BareEarthError(f"Cannot write into {folder}: it is a file. Rename it.")
+
+
+RasterFiles.__doc__ = (RasterFiles.__doc__ or "").format(
+    names="\n".join(f"        {name}: {raster.title}." for name, raster in RASTERS.items())
+)
 
 
 def folder_of(raster: Path) -> Path:

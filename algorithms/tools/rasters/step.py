@@ -36,9 +36,8 @@ from ...survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
 from .block import LAYERS, BlockRasters, RasterStep
 from .constraints import NO_CONSTRAINTS, Constraints
 from .fixed_terrain import FixedTerrain, fixed_terrain
+from .parameters import SurfaceModel, TerrainModel
 from .rows import RasterFiles
-from .surface_model import SurfaceModel
-from .terrain_model import TerrainModel
 
 # Points are thinned unless there are so many times as many cells.
 _MOST_THINNED = 10
@@ -76,7 +75,12 @@ class MakeRasters(Step):
     @property
     def needs_ground(self) -> bool:
         """Whether any of the rasters needs ground."""
-        return any(LAYERS[each].of_ground for each in self.files.layers)
+        return any(LAYERS[name].of_ground for name in self.files.layers)
+
+    @property
+    def needs_all(self) -> bool:
+        """Whether any of the rasters needs points that are not ground."""
+        return any(LAYERS[name].of_all for name in self.files.layers)
 
     @property
     def needs_surface(self) -> bool:
@@ -95,8 +99,7 @@ class MakeRasters(Step):
 
     def placed(self, crs: Crs, box: Box | None = None, progress: Progress = SILENT) -> MakeRasters:
         """Return the step for points in a CRS; see `cell_grid`."""
-        unit = crs.horizontal_unit
-        usual = CellGrid(self.model.cell_metres(unit), self.model.cell_in_units(unit))
+        usual = self.model.cells(crs.horizontal_unit)
         return replace(self, cells=cell_grid(self.target, usual, crs, box, progress))
 
     @property
@@ -134,7 +137,7 @@ class MakeRasters(Step):
         if self.covers_ground:
             return Marks(ground | roads, ground, nothing, roads)
         shown = ground | (~np.isin(part.classification, NOISE) & self.ground.used(part))
-        if not any(LAYERS[each].of_all for each in self.files.layers):
+        if not self.needs_all:
             # The others only show where the survey is.
             shown = ground | roads | self._thinned(part, shown)
         top = shown & self.needs_surface & self._is_surface(part, ground)

@@ -1,0 +1,32 @@
+"""Canopy heights, and their pits."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .morphology import median_of_nine
+
+# Pits lie deeper than this below the mean of their eight neighbours, in metres. They are filled in
+# so many passes, since those of several cells are filled from their borders.
+_PIT, PIT_PASSES = 2.0, 3
+
+
+def canopy_height(surface: np.ndarray, terrain: np.ndarray) -> np.ndarray:
+    """Return the height of the surface above the terrain, 0 below it, NaN where one has none."""
+    return np.maximum(surface - terrain, 0.0)
+
+
+def without_pits(canopy: np.ndarray) -> np.ndarray:
+    """Return canopy heights with pits filled, nowhere lower; NaN counts as 0 for neighbours."""
+    # As Ben-Arie et al. (2009), "Development of a pit filling algorithm for LiDAR canopy height
+    # models", Computers & Geosciences 35(9), the Laplacian of the heights finds the pits, and the
+    # median of the neighbours fills them. The median keeps the borders of crowns and buildings. The
+    # result depends on `PIT_PASSES` cells round each cell.
+    filled = np.nan_to_num(canopy, nan=0.0)
+    for _ in range(PIT_PASSES):
+        padded = np.pad(filled, 1, mode="edge")
+        across = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
+        of_nine = across[:-2] + across[1:-1] + across[2:]
+        is_pit = (of_nine - filled) / 8.0 - filled > _PIT
+        filled = np.where(is_pit, np.maximum(median_of_nine(filled), filled), filled)
+    return np.where(np.isnan(canopy), canopy, filled)
