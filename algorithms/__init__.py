@@ -53,11 +53,11 @@ if TYPE_CHECKING:
     from .tools.assess import assess_files as assess  # noqa: F401
     from .tools.check.accuracy import Accuracy as Accuracy
     from .tools.check.checking import CheckOptions as CheckOptions
+    from .tools.check.checking import CheckOutputs as CheckOutputs
     from .tools.check.checking import CheckRequest as CheckRequest
     from .tools.check.checking import check_files as check  # noqa: F401
     from .tools.check.checkpoints import Checkpoints as Checkpoints
-    from .tools.check.checkpoints import read_checkpoints as read_checkpoints
-    from .tools.check.outputs import CheckOutputs as CheckOutputs
+    from .tools.check.reading import read_checkpoints as read_checkpoints
     from .tools.compare_settings import compare_settings as compare_settings
     from .tools.compare_settings.settings import TrialOptions as TrialOptions
     from .tools.contours import Contours as Contours
@@ -129,7 +129,7 @@ _MODULES = {
     "assess": "tools.assess:assess_files",
     "Accuracy": "tools.check.accuracy",
     "CheckOptions": "tools.check.checking",
-    "CheckOutputs": "tools.check.outputs",
+    "CheckOutputs": "tools.check.checking",
     "CheckRequest": "tools.check.checking",
     "check": "tools.check.checking:check_files",
     "Contours": "tools.contours",
@@ -147,7 +147,7 @@ _MODULES = {
     "HeightRaster": "rasters.sampling",
     "Area": "survey.area",
     "Checkpoints": "tools.check.checkpoints",
-    "read_checkpoints": "tools.check.checkpoints",
+    "read_checkpoints": "tools.check.reading",
     "Corrections": "survey.corrections",
     "GroundClasses": "survey.ground_classes",
     "Selection": "survey.selection",

@@ -31,7 +31,7 @@ def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Non
     from ..survey.ground_classes import GroundClasses
     from ..tools.check.accuracy import Accuracy
     from ..tools.check.checking import CheckOptions
-    from ..tools.check.checkpoints import FORMATS
+    from ..tools.check.reading import FORMATS
 
     add_inputs(parser, "a classified file, or ")
     add_crs(parser)
@@ -69,9 +69,8 @@ def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Non
 
 
 def _check(options: argparse.Namespace) -> int:
-    from ..tools.check.checking import CheckOptions, CheckRequest, check_files
-    from ..tools.check.checkpoints import read_checkpoints
-    from ..tools.check.outputs import CheckOutputs
+    from ..tools.check.checking import CheckOptions, CheckOutputs, CheckRequest, check_files
+    from ..tools.check.reading import read_checkpoints
 
     sets = chosen(options)
     if options.checkpoints is None and CheckOptions.among(sets).hold_out is None:

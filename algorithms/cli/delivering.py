@@ -31,7 +31,7 @@ def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..runs.options import TileInput, TileOutput
     from ..survey.selection import Selection
     from ..tools.check.accuracy import Accuracy
-    from ..tools.check.checkpoints import FORMATS
+    from ..tools.check.reading import FORMATS
     from ..tools.contours import Contours
     from ..tools.rasters.parameters import SurfaceModel
 
@@ -75,7 +75,7 @@ def _deliver(options: argparse.Namespace) -> int:
     from ..delivery.request import DeliveryRequest
     from ..survey.corrections import NO_CORRECTIONS
     from ..survey.vector_files import read_corrections
-    from ..tools.check.checkpoints import read_checkpoints
+    from ..tools.check.reading import read_checkpoints
 
     corrections = options.corrections and read_corrections(options.corrections)
     points = options.checkpoints and read_checkpoints(

@@ -20,8 +20,7 @@ from ..runs.options import TileInput
 from ..runs.requests import PointRequest, TerrainRequest
 from ..survey.files import Survey
 from ..survey.overview import overview_of
-from ..tools.check.checking import CheckOptions, CheckRequest, check_files
-from ..tools.check.outputs import CheckOutputs
+from ..tools.check.checking import CheckOptions, CheckOutputs, CheckRequest, check_files
 from ..tools.check.results import Check
 from ..tools.contours import Interval, write_contours
 from ..tools.key_points import FindKeyPoints, KeyPointMark

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from ..survey.feature_files import FORMATS as LINE_FORMATS
 from ..survey.vector_files import FORMATS
-from ..tools.check.checkpoints import FORMATS as POINT_FORMATS
+from ..tools.check.reading import FORMATS as POINT_FORMATS
 from ..tools.declaration import Input
 from ..tools.rasters.rows import RASTERS as _RASTERS
 

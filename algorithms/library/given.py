@@ -119,7 +119,8 @@ def rasters_of(values: SimpleNamespace) -> RasterFiles:
 
 def checkpoints_of(values: SimpleNamespace) -> Checkpoints | None:
     """Return the checkpoints of a file, or of x, y and z in the CRS of the points; or None."""
-    from ..tools.check.checkpoints import Checkpoints, read_checkpoints
+    from ..tools.check.checkpoints import Checkpoints
+    from ..tools.check.reading import read_checkpoints
 
     given = values.checkpoints
     if isinstance(given, (str, Path)):

@@ -234,8 +234,7 @@ def _check() -> Function:
     from ..tools.check.results import Check
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools.check.checking import CheckRequest, check_files
-        from ..tools.check.outputs import CheckOutputs
+        from ..tools.check.checking import CheckOutputs, CheckRequest, check_files
 
         files = (path_of(each) for each in (values.report, values.table, values.residuals))
         request = CheckRequest.of(

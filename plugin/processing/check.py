@@ -6,8 +6,7 @@ from pathlib import Path
 
 from ...algorithms.survey.ground_classes import GroundClasses
 from ...algorithms.tools.check.accuracy import Accuracy
-from ...algorithms.tools.check.checking import CheckOptions, CheckRequest, check_files
-from ...algorithms.tools.check.outputs import CheckOutputs
+from ...algorithms.tools.check.checking import CheckOptions, CheckOutputs, CheckRequest, check_files
 from ..styles import layers
 from . import checkpoints as fields
 from .base import command_line

@@ -21,8 +21,8 @@ from qgis.core import (
     QgsProcessingParameterVectorDestination,
 )
 
-from ...algorithms.tools.check.checkpoints import Checkpoints, read_checkpoints
-from ...algorithms.tools.check.surveyed_points import Record, SurveyedPoints
+from ...algorithms.tools.check.checkpoints import Checkpoints
+from ...algorithms.tools.check.reading import Record, checkpoints_of_rows, read_checkpoints
 from ...algorithms.tools.check.tables import SUFFIXES
 from .. import compat
 from ..i18n import mark, tr
@@ -168,8 +168,7 @@ def checkpoints_of(
     ]
     if not records:
         raise Refusal(mark('The layer "{}" holds no point. Choose one that does.'), "Checkpoints")
-    found = SurveyedPoints.of(names, records, chosen, source.sourceName())
-    return Checkpoints.of_points(found), {}
+    return checkpoints_of_rows(names, records, chosen, source.sourceName()), {}
 
 
 def _table_of(value: Any) -> Path | None:

@@ -10,10 +10,11 @@ from test_checkpoints import CORNER, check, cloud, height, places, write
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.tools.check.accuracy import Accuracy
-from bare_earth.algorithms.tools.check.checkpoints import Checkpoints, read_checkpoints
-from bare_earth.algorithms.tools.check.column_names import ColumnName
-from bare_earth.algorithms.tools.check.height_offsets import offset_in_words
+from bare_earth.algorithms.tools.check.checkpoints import Checkpoints
+from bare_earth.algorithms.tools.check.columns import ColumnName
 from bare_earth.algorithms.tools.check.land_covers import LandCovers
+from bare_earth.algorithms.tools.check.reading import read_checkpoints
+from bare_earth.algorithms.tools.check.residuals import offset_in_words
 
 X, Y, Z = 500010.25, 5600020.5, 51.125
 

@@ -16,10 +16,15 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.products import survey_ground
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.tools.check.accuracy import Accuracy, Figures, statement
-from bare_earth.algorithms.tools.check.checking import CheckOptions, CheckRequest, check_files
-from bare_earth.algorithms.tools.check.checkpoints import Checkpoints, read_checkpoints
+from bare_earth.algorithms.tools.check.checking import (
+    CheckOptions,
+    CheckOutputs,
+    CheckRequest,
+    check_files,
+)
+from bare_earth.algorithms.tools.check.checkpoints import Checkpoints
 from bare_earth.algorithms.tools.check.land_covers import LandCovers
-from bare_earth.algorithms.tools.check.outputs import CheckOutputs
+from bare_earth.algorithms.tools.check.reading import read_checkpoints
 
 pyproj = pytest.importorskip("pyproj")
 EAST, NORTH, SIZE = 500_000.0, 5_600_000.0, 100.0

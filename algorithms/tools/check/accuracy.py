@@ -64,6 +64,15 @@ class Figures:
         """The figures that matter most, in words."""
         return f"RMSE {self.total_rmse:.3f} m, mean {self.mean:+.3f} m, of {self.count:,}"
 
+    @property
+    def line(self) -> str:
+        """All figures, for a terminal."""
+        return (
+            f"{self.count:>6,} RMSE {self.total_rmse:.3f} m, mean {self.mean:+.3f},"
+            f" median {self.median:+.3f}, standard deviation {self.standard_deviation:.3f},"
+            f" {self.minimum:+.3f} to {self.maximum:+.3f}, 95 % within {self.percentile_95:.3f} m"
+        )
+
     @classmethod
     def of(cls, errors: np.ndarray, survey_error: float = 0.0) -> Figures | None:
         """Return the figures of errors in metres, shape (n,); None if there are none."""
@@ -75,7 +84,7 @@ class Figures:
             errors.std(ddof=1) if len(errors) > 1 else 0.0, errors.min(), errors.max(),
             np.percentile(np.abs(errors), 95.0),
         )  # fmt: skip
-        return cls(len(errors), *(round(float(each), 6) for each in values))
+        return cls(len(errors), *(round(float(value), 6) for value in values))
 
 
 def statement(nva: Figures | None, vva: Figures | None, accuracy_class: float | None) -> str:

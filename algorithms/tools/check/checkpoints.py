@@ -1,30 +1,22 @@
-"""Checkpoints: points that were surveyed on the ground, from tables and vector files."""
+"""Checkpoints: points that were surveyed on the ground."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Mapping, Sequence
+from typing import Optional, Sequence, Tuple
 
 import numpy as np
 
 from ...core.errors import BareEarthError
 from ...core.points import Box
 from ...core.progress import SILENT, Progress
-from ...crs.stated import stated_wkt
 from ...crs.unit_names import FOOT, US_FOOT
 from ...survey.shapes import Geometry, Place, Shapes, located
-from ...survey.vector_files import read_points
-from .column_names import columns_in
-from .surveyed_points import OtherHeights, Record, SurveyedPoints
-from .tables import SUFFIXES, places_without_names, read_table
 
-# For the help of options.
-FORMATS = (
-    "CSV and other tables in the CRS of the points, GeoJSON, or with pyogrio GeoPackage, shapefile"
-    " and others, whose CRS is transformed to that of the points"
-)
 _MOST = 100_000
+_UNIT_NAMES: dict[float | None, str] = {1.0: "metres", FOOT: "feet", US_FOOT: "US survey feet"}
+# Where heights stand, the heights, and metres in a unit of them if it is known.
+OtherHeights = Tuple[str, np.ndarray, Optional[float]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,32 +87,10 @@ class Checkpoints(Geometry):
         >>> Checkpoints.of([(1.0, 2.0, 3.0)], covers=["forest"]).names
         ('1',)
         """
-        rows = tuple(np.asarray(each, dtype=np.float64).reshape(1, 3) for each in places)
-        numbers = (str(each) for each in range(1, len(rows) + 1))
+        rows = tuple(np.asarray(places, dtype=np.float64).reshape(len(places), 1, 3))
+        numbers = map(str, range(1, len(rows) + 1))
         none = [""] * len(rows)
         return cls(rows, tuple(names or numbers), tuple(covers or none), tuple(types or none))
-
-    @classmethod
-    def of_points(
-        cls, found: SurveyedPoints, crs: str | None = None, source: str = ""
-    ) -> Checkpoints:
-        """Return what was read from a file or a layer.
-
-        Parameters
-        ----------
-        found : SurveyedPoints
-            The points.
-        crs : str, optional
-            The CRS of x and y; None for that of the points.
-        source : str
-            The file, for messages.
-        """
-        places = Shapes([each.reshape(1, 3) for each in found.places], crs, source)
-        return cls(
-            places, found.names, found.covers, found.types, found.notes,
-            (None if crs else found.units[0], found.units[1]), found.is_ordered,
-            found.others,
-        )  # fmt: skip
 
     @property
     def count(self) -> int:
@@ -158,6 +128,17 @@ class Checkpoints(Geometry):
         found = located(given.places, "the checkpoints", place, progress, near)
         return replace(given, places=found, notes=(), units=(None, None), is_ordered=True)
 
+    def with_heights(self, heights: np.ndarray) -> Checkpoints:
+        """Return them with other heights, shape (n,)."""
+        return self._moved(np.column_stack((self.xyz[:, :2], heights)))
+
+    def _moved(self, xyz: np.ndarray) -> Checkpoints:
+        """Return them at other places of the same CRS."""
+        places, rows = self.places, list(xyz[:, None])
+        if isinstance(places, Shapes):
+            return replace(self, places=Shapes(rows, places.crs, places.source))
+        return replace(self, places=tuple(rows))
+
     def _in_order(self, box: Box, progress: Progress) -> Checkpoints:
         """Return them with x before y, if this can be seen by where the points lie."""
         x, y, _ = self.xyz.T
@@ -178,29 +159,17 @@ class Checkpoints(Geometry):
         progress.info("The columns of the checkpoints have no names: north comes before east.")
         return self._moved(self.xyz[:, [1, 0, 2]])
 
-    def with_heights(self, heights: np.ndarray) -> Checkpoints:
-        """Return them with other heights, shape (n,)."""
-        return self._moved(np.column_stack((self.xyz[:, :2], heights)))
-
-    def _moved(self, rows: np.ndarray) -> Checkpoints:
-        """Return them at other places of the same CRS."""
-        crs, source = (getattr(self.places, each, None) for each in ("crs", "source"))
-        return replace(self, places=Shapes([row.reshape(1, 3) for row in rows], crs, source or ""))
-
     def _in_units(self, place: Place, progress: Progress) -> Checkpoints:
         """Return them in the units of the points, where the names of columns state others."""
         wanted = place.crs.horizontal_unit, place.crs.vertical_unit
-        across, up = map(_factor, self.units, wanted)
-        others = tuple((name, z * _factor(unit, wanted[1]), None) for name, z, unit in self.others)
-        if across == up == 1.0:
-            return replace(self, others=others)
-        what = {"x and y": (across, self.units[0]), "heights": (up, self.units[1])}
-        for name, (factor, unit) in what.items():
+        across, up = factors = tuple(map(_factor, self.units, wanted))
+        for name, factor, unit in zip(("x and y", "heights"), factors, self.units):
             if factor != 1.0:
                 progress.info(
                     f"The {name} of the checkpoints are converted: the name of their column states"
-                    f" {_named(unit)}."
+                    f" {_UNIT_NAMES.get(unit, f'units of {unit:g} m')}."
                 )
+        others = tuple((name, z * _factor(unit, wanted[1]), None) for name, z, unit in self.others)
         return replace(self._moved(self.xyz * (across, across, up)), others=others)
 
 
@@ -208,76 +177,11 @@ def _factor(given: float | None, wanted: float) -> float:
     """Return units of the points in a unit that the name of a column states."""
     feet = (FOOT, US_FOOT)
     # "ft" is said of both feet. The CRS knows which of them.
-    both_feet = given in feet and min(abs(wanted - each) for each in feet) < 1e-9
+    both_feet = given in feet and min(abs(wanted - foot) for foot in feet) < 1e-9
     return 1.0 if given is None or both_feet else given / wanted
-
-
-def _named(unit: float | None) -> str:
-    names = {1.0: "metres", FOOT: "feet", US_FOOT: "US survey feet"}
-    return names.get(unit or 1.0, f"units of {unit:g} m")
 
 
 def _inside(x: np.ndarray, y: np.ndarray, box: Box) -> bool:
     """Return whether a place lies in a box."""
     west, south, east, north = box
     return bool(((x >= west) & (x <= east) & (y >= south) & (y <= north)).any())
-
-
-def read_checkpoints(
-    path: Path | str, columns: str | None = None, crs: str | None = None
-) -> Checkpoints:
-    """Read checkpoints from a table or a vector file.
-
-    Parameters
-    ----------
-    path : Path or str
-        A text file with one point in each row, in UTF-8, UTF-16 or the code page 1252, cells
-        separated by semicolons, tabs, bars, commas or spaces; or a vector file of points as for
-        `read_boundary`, but no .wkt.
-    columns : str, optional
-        Columns or attributes in place of those that are recognised by their names, such as
-        ``x=E,y=N,z=H,cover=Class,type=Use,name=ID``. Those of tables can also be numbers from 1 on.
-        A column for z counts before the z of a geometry.
-    crs : str, optional
-        The CRS of x and y in place of the one that the file states: an EPSG code, such as
-        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text. If none is
-        stated, a table is in the CRS of the points.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read, a column is missing, or a height is.
-    """
-    chosen = columns_in(columns)
-    if Path(path).suffix.lower() == ".wkt":
-        raise BareEarthError(f"{path} holds no names and land covers. Give CSV or GeoJSON.")
-    is_table = Path(path).suffix.lower() in SUFFIXES
-    found, stated = _of_table(Path(path), chosen) if is_table else _of_layer(path, chosen)
-    return Checkpoints.of_points(found, stated_wkt(crs) or stated, str(path))
-
-
-def _of_table(path: Path, chosen: Mapping[str, str]) -> tuple[SurveyedPoints, str | None]:
-    """Return the points of a table, and the CRS that it states."""
-    table = read_table(path)
-    names, usual = table.names, None
-    if names is None:
-        width = max(map(len, table.rows))
-        names = tuple(str(each) for each in range(1, width + 1))
-        usual = places_without_names(table.rows)
-    records = [
-        Record(f"Line {number} of {path}", (*row, *[""] * (len(names) - len(row))))
-        for number, row in zip(table.numbers, table.rows)
-    ]
-    found = SurveyedPoints.of(names, records, chosen, path, usual)
-    return found, stated_wkt(table.crs)
-
-
-def _of_layer(path: Path | str, chosen: Mapping[str, str]) -> tuple[SurveyedPoints, str | None]:
-    """Return the points of a vector file, and the CRS that it states."""
-    points = read_points(Path(path))
-    fields = list(dict.fromkeys(field for _, attributes in points for field in attributes))
-    records = [
-        Record(f"Point {number} of {path}", tuple(map(attributes.get, fields)), place)
-        for number, (place, attributes) in enumerate(points, start=1)
-    ]
-    return SurveyedPoints.of(fields, records, chosen, path), getattr(points, "crs", None)

@@ -13,7 +13,7 @@ from typing import NamedTuple, Sequence
 
 from ...core.progress import Progress
 from .checkpoints import Checkpoints
-from .column_names import parts_of, words_of
+from .columns import parts_of, words_of
 
 NVA, VVA, CONTROL, UNKNOWN = "NVA", "VVA", "control", ""
 
@@ -30,6 +30,11 @@ def _key(word: str) -> str:
 
 def _keys(text: str) -> frozenset[str]:
     return frozenset(map(_key, words_of(text)))
+
+
+def _words(text: str) -> list[str]:
+    """Return the words in what somebody wrote."""
+    return [_key(part) for part in parts_of(text) if part.isalpha()]
 
 
 # Plants and what is covered by them: English, German, French, Dutch, Spanish, some of others.
@@ -129,6 +134,7 @@ _NEGATIONS = _keys(
 _AND = _keys("and und et y e mit avec con met with under unter sous bajo onder beneath")
 _BETWEEN = re.compile(r"[,;/+&()|:]|\s[-\u2013]\s")
 _OF = _keys("of in im am at an dans en de des du del la d van op through durch")
+_FREE = _keys("free frei libre vrij")  # what is named before one of these is not there
 _CONTROL = _keys(
     "control controls gcp gcps calibration passpunkt passpunkte paspunt paspunten appui calage"
     " apoyo appoggio adjustment tiepoint"
@@ -153,40 +159,33 @@ class LandCovers(NamedTuple):
         """Return `NVA`, `VVA`, `CONTROL`, `UNKNOWN` for a land cover that is not known, or None if
         nothing is written, by use, such as Check or NVA, and land cover.
         """
-        used = [_key(each) for each in parts_of(use) if each.isalpha()]
-        named = [_key(each) for each in parts_of(cover) if each.isalpha()]
-        if _is_control(used) or (named and _is_control(named) and {*named} <= _CONTROL | _POINT):
+        used, named = _words(use), _words(cover)
+        if _is_control(used) or (_is_control(named) and {*named} <= _CONTROL | _POINT):
             return CONTROL
-        found = self._land(use) if used else None
-        return found if found in (NVA, VVA) else self._land(cover)
-
-    def named(self, name: str) -> str | None:
-        """Return the kind that the name of a checkpoint states, such as NVA-12; None if none."""
-        return next((_STATED[each] for each in map(_key, parts_of(name)) if each in _STATED), None)
+        return (self._land(use) if used else None) or self._land(cover)
 
     def _land(self, text: str) -> str | None:
         """Return the kind of land that a text names."""
-        words = [_key(each) for each in parts_of(text) if each.isalpha()]
-        explicit = {_STATED[each] for each in words if each in _STATED}
+        words = _words(text)
+        explicit = {_STATED[word] for word in words if word in _STATED}
         if len(explicit) == 1:
             return explicit.pop()
         if not text.strip() or (words and {*words} <= _CHECK | _POINT):
             return None
         if not self.words and not _TALL.isdisjoint(words) and not _LOW_PLANTS.isdisjoint(words):
             return VVA
-        kinds = {self._of_part(each) for each in _parts(text)}
+        kinds = set(map(self._of_part, _parts(text)))
         if VVA in kinds:
             return VVA
         return NVA if NVA in kinds or self.words else UNKNOWN
 
     def _of_part(self, words: list[str]) -> str:
         """Return the kind of land that a few words name together."""
-        kinds = [self._of_word(each) for each in words]
+        kinds = [self._of_word(word) for word in words]
         for place, word in enumerate(words):
-            following = [k for k in range(place + 1, len(words)) if kinds[k] == VVA]
-            if word in _NEGATIONS and following:
-                kinds[following[0]] = NVA
-            if word in ("free", "frei", "libre", "vrij") and place and kinds[place - 1] == VVA:
+            if word in _NEGATIONS and VVA in kinds[place + 1 :]:
+                kinds[kinds.index(VVA, place + 1)] = NVA
+            if word in _FREE and place and kinds[place - 1] == VVA:
                 kinds[place - 1] = NVA
         marked = [place for place, kind in enumerate(kinds) if kind]
         if not marked:
@@ -199,8 +198,7 @@ class LandCovers(NamedTuple):
     def _of_word(self, word: str) -> str:
         """Return the kind of land that a word names."""
         if self.words:
-            is_one = any(_is_same(word, _key(each)) for each in self.words)
-            return VVA if is_one else UNKNOWN
+            return VVA if any(_is_same(word, _key(given)) for given in self.words) else UNKNOWN
         for kind, known in ((VVA, _VEGETATED), (NVA, _OPEN)):
             if not known.isdisjoint(_singular(word)):
                 return kind
@@ -208,7 +206,7 @@ class LandCovers(NamedTuple):
         if without and self._of_word(without[1] or without[2]) == VVA:
             return NVA
         for kind, ends in _ENDS:
-            if any(word.endswith(each) for each in ends.split()):
+            if word.endswith(tuple(ends.split())):
                 return kind
         neutral = _NEUTRAL_ENDS.fullmatch(word)
         return self._of_word(neutral[1]) if neutral else UNKNOWN
@@ -217,13 +215,14 @@ class LandCovers(NamedTuple):
 def kinds_of(
     checkpoints: Checkpoints, covers: LandCovers, progress: Progress
 ) -> tuple[list[str], dict[str, int]]:
-    """Return the kind of each checkpoint, by their names if nothing else is written of any, and the
-    land covers that are not known, which are told.
+    """Return `NVA`, `VVA` or `CONTROL` for each checkpoint, by their names if nothing else is
+    written of any, and the land covers that are not known, which are told.
     """
     uses = checkpoints.types or [""] * checkpoints.count
-    found = [covers.kind(*each) for each in zip(uses, checkpoints.covers)]
+    found = list(map(covers.kind, uses, checkpoints.covers))
     if not any(found) and not any(checkpoints.covers):
-        found = [covers.named(each) for each in checkpoints.names]
+        stated = (map(_STATED.get, map(_key, parts_of(name))) for name in checkpoints.names)
+        found = [next(filter(None, kinds), None) for kinds in stated]
         if any(found):
             progress.info("The names of the checkpoints say which of them are NVA or VVA.")
     unknown = Counter(
@@ -242,7 +241,7 @@ def kinds_of(
             f"{f' and {more:,} more' if more else ''}. If some are, say which: --vegetated, in QGIS"
             " 'Vegetated land covers'."
         )
-    return [NVA if each is None else each for each in found], dict(unknown.most_common())
+    return [kind or NVA for kind in found], dict(unknown.most_common())
 
 
 def _parts(text: str) -> list[list[str]]:
@@ -250,24 +249,22 @@ def _parts(text: str) -> list[list[str]]:
     found: list[list[str]] = []
     for part in _BETWEEN.split(text):
         found.append([])
-        for word in (_key(each) for each in parts_of(part) if each.isalpha()):
+        for word in _words(part):
             if word in _AND:
                 found.append([])
             else:
                 found[-1].append(word)
-    return [each for each in found if each]
+    return list(filter(None, found))
 
 
 def _singular(word: str) -> tuple[str, ...]:
     """Return a word, and what it may be the plural of."""
-    more = (word[:-1],) if word[-1:] in ("s", "x") else ()
-    return (word, *more, *((word[:-2],) if word.endswith("es") else ()))
+    return tuple(word[: len(word) - len(end)] for end in ("", "s", "x", "es") if word.endswith(end))
 
 
 def _is_same(word: str, wanted: str) -> bool:
     """Return whether a word is one that the user gave, or a compound that ends with it."""
-    ends = len(wanted) > 3 and word.endswith(wanted)
-    return ends or wanted in _singular(word)
+    return (len(wanted) > 3 and word.endswith(wanted)) or wanted in _singular(word)
 
 
 def _is_control(words: Sequence[str]) -> bool:

@@ -19,7 +19,9 @@ from ...report.page import (
 )
 from ...survey.files import Survey
 from .accuracy import Figures
-from .results import COLOURS, COUNTED, NOT_COUNTED, REASONS, Check, Residuals, limits_of
+from .hold_out import HoldOut
+from .residuals import Residuals
+from .results import COLOURS, COUNTED, NOT_COUNTED, REASONS, Check, limits_of
 
 _BARS = 15
 _MOST_ROWS = 1000
@@ -39,7 +41,7 @@ def checkpoint_html(check: Check, found: Residuals | None, survey: Survey) -> st
         parts += [*_summary(check), _histogram(check, found), _map(check, found, survey)]
         parts += [_unknown(check), _not_counted(check), _largest(check), _table(found, survey)]
     if check.hold_out is not None:
-        parts.append(_held_out(check))
+        parts.append(_held_out(check.hold_out))
     return page("Check against checkpoints", parts, _STYLE)
 
 
@@ -52,7 +54,6 @@ def _summary(check: Check) -> list[Html]:
     }
     count = 0 if check.nva is None else check.nva.count
     shift = "" if check.shift is None else f"{-check.shift:+.3f} m"
-    quotes = {"": check.statement, "Terrain model: ": check.dtm_statement}
     return [
         paragraph(check.doubt, kind="doubt"),
         paragraph(
@@ -63,7 +64,7 @@ def _summary(check: Check) -> list[Html]:
             shift
             and f"The mean difference would be removed by a shift of {shift}. Nothing was shifted.",
         ),
-        *(element("blockquote", f"{whose}{said}") for whose, said in quotes.items() if said),
+        *(element("blockquote", words) for words in check.statements),
         section(
             "Figures",
             _figures(rows),
@@ -113,41 +114,32 @@ def _histogram(check: Check, found: Residuals) -> Html:
 
 
 def _map(check: Check, found: Residuals, survey: Survey) -> Html:
-    limit, marks = check.scale, []
-    for place, (x, y, _) in enumerate(found.checkpoints.xyz.tolist()):
-        error, state = float(found.errors[place]), found.states[place]
+    marks = []
+    for (x, y, _), name, state, error in zip(
+        found.xyz.tolist(), found.names, found.states, found.errors.tolist()
+    ):
         is_counted = state == COUNTED
-        colour = _colour(error, limit) if is_counted else NOT_COUNTED
+        colour = _colour(error, check.scale) if is_counted else NOT_COUNTED
         what = f"{error:+.3f} m" if is_counted else REASONS[state]
-        marks.append(Mark(x, y, colour, f"{found.checkpoints.names[place]}: {what}"))
+        marks.append(Mark(x, y, colour, f"{name}: {what}"))
     boxes = np.array([tile.outer_box for tile in survey.tiles])
     unit = "m" if survey.crs.horizontal_unit == 1.0 else "units of the CRS"
+    ends = [f"{value:+.3g}" for value in limits_of(check.scale)]
+    ranges = [f"{low} to {high} m" for low, high in zip(ends, ends[1:])]
+    meanings = (f"below {ends[0]} m", *ranges, f"above {ends[-1]} m", "not counted")
     return section(
         "Where the differences are",
         map_of_places("Map of the differences", boxes, marks, unit),
-        paragraph(keys((*COLOURS, NOT_COUNTED), (*_ranges(limit), "not counted"))),
+        paragraph(keys((*COLOURS, NOT_COUNTED), meanings)),
         paragraph("North is up. The rectangles are the files."),
     )
 
 
-def _ranges(limit: float) -> list[str]:
-    """Return what the colours mean."""
-    first, second, third, fourth = (f"{value:+.3g}" for value in limits_of(limit))
-    return [
-        f"below {first} m", f"{first} to {second} m", f"{second} to {third} m",
-        f"{third} to {fourth} m", f"above {fourth} m",
-    ]  # fmt: skip
-
-
 def _unknown(check: Check) -> Html:
     rows = [(name, f"{count:,}") for name, count in (check.unknown_covers or {}).items()]
-    if not rows:
-        return Html("")
-    return section(
-        "Land covers that are not known",
-        paragraph("They count as land without vegetation (NVA)."),
-        table(rows, ("Land cover", "Checkpoints"), "lr"),
-    )
+    told = paragraph("They count as land without vegetation (NVA)." if rows else "")
+    columns = table(rows, ("Land cover", "Checkpoints"), "lr")
+    return section("Land covers that are not known", told, columns)
 
 
 def _not_counted(check: Check) -> Html:
@@ -164,23 +156,26 @@ def _largest(check: Check) -> Html:
 
 
 def _table(found: Residuals, survey: Survey) -> Html:
-    points, rows = found.checkpoints, []
     has_dtm = bool(np.isfinite(found.dtm).any())
-    for place, (x, y, z) in enumerate(points.xyz[:_MOST_ROWS].tolist()):
-        state = found.states[place]
-        values = [found.ground[place], found.errors[place]]
-        if has_dtm:
-            values += [found.dtm[place], found.dtm_errors[place]]
-        row = [points.names[place], found.written[place], found.kinds[place]]
-        row += [f"{x:.2f}", f"{y:.2f}", f"{z:.3f}"]
-        row += ["" if np.isnan(value) else f"{value:.3f}" for value in values]
-        rows.append([*row, "" if state == COUNTED else REASONS[state]])
-    more = len(points.names) - len(rows)
+    columns = [found.ground, found.errors, found.dtm, found.dtm_errors][: 4 if has_dtm else 2]
+    heights = zip(*(values.tolist() for values in columns))
+    rows = [
+        (
+            name, cover, kind, f"{x:.2f}", f"{y:.2f}", f"{z:.3f}",
+            *("" if np.isnan(value) else f"{value:.3f}" for value in values),
+            "" if state == COUNTED else REASONS[state],
+        )
+        for name, cover, kind, (x, y, z), values, state in zip(
+            found.names[:_MOST_ROWS], found.covers, found.kinds, found.xyz.tolist(), heights,
+            found.states,
+        )
+    ]  # fmt: skip
+    more = len(found.names) - len(rows)
     dtm = ["Terrain model", "Difference, m"] if has_dtm else []
     head = ["Name", "Land cover", "Kind", "x", "y", "z", "Ground", "Difference, m"]
     return section(
         "Checkpoints",
-        table(rows, [*head, *dtm, "Not counted"], "lll" + "r" * (5 + len(dtm)) + "l"),
+        table(rows, [*head, *dtm, "Not counted"], "lll" + "r" * (3 + len(columns)) + "l"),
         paragraph(
             f"x, y and heights are in the units of the CRS: {survey.crs.name or 'not stated'}."
         ),
@@ -188,10 +183,7 @@ def _table(found: Residuals, survey: Survey) -> Html:
     )
 
 
-def _held_out(check: Check) -> Html:
-    left = check.hold_out
-    if left is None:
-        return Html("")
+def _held_out(left: HoldOut) -> Html:
     rows = {
         "All": left.all, "Open land": left.open, "Under trees": left.under_trees,
         "Steeper than 20 degrees": left.steep,

@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from typing import Any, NamedTuple, Sequence
-
-import numpy as np
+from typing import Any, Sequence
 
 from .accuracy import NEEDED, Figures
-from .checkpoints import Checkpoints
 from .hold_out import AGREEMENT, HoldOut
-from .land_covers import CONTROL, NVA, VVA
 
 COUNTED = "counted"
 # Colours of errors, from low to high. Blue: the data lie below the checkpoint; red: above it. They
@@ -29,37 +25,6 @@ REASONS = {
     "doubtful": "where the confidence is low",
     "control": "to which the survey was fitted (control)",
 }
-
-
-class Residuals(NamedTuple):
-    """The checkpoints, in the CRS of the points, with their errors, one value for each."""
-
-    checkpoints: Checkpoints
-    vegetated: np.ndarray  # bool, (n,): by their land cover
-    unknown_covers: dict[str, int]  # land covers, and how many checkpoints have them
-    states: tuple[str, ...]  # "counted", or a key of `REASONS`
-    ground: np.ndarray  # float64, (n,): heights of the TIN in the unit of the points; NaN for none
-    dtm: np.ndarray  # the same of the terrain model
-    errors: np.ndarray  # float64, (n,): heights of the TIN minus those of checkpoints, metres
-    dtm_errors: np.ndarray  # the same of the terrain model
-    unit: float  # metres in a unit of the heights
-
-    @property
-    def counted(self) -> np.ndarray:
-        """Which checkpoints are counted; boolean, shape (n,)."""
-        return np.array([each == COUNTED for each in self.states], dtype=bool)
-
-    @property
-    def written(self) -> list[str]:
-        """The land cover of each checkpoint, or else its use."""
-        points = self.checkpoints
-        return [cover or use for cover, use in zip(points.covers, points.types or points.covers)]
-
-    @property
-    def kinds(self) -> list[str]:
-        """NVA, VVA or control, for each checkpoint."""
-        kinds = [VVA if each else NVA for each in self.vegetated]
-        return [CONTROL if each == CONTROL else k for each, k in zip(self.states, kinds)]
 
 
 @dataclass(frozen=True)
@@ -140,8 +105,8 @@ class Check:
             "points NVA": self.nva, "points VVA": self.vva,
             "DTM NVA": self.dtm_nva, "DTM VVA": self.dtm_vva,
         }  # fmt: skip
-        if self.hold_out is not None:
-            left = self.hold_out
+        left = self.hold_out
+        if left is not None:
             rows.append(
                 f"held out          {left.left_out:>6,} ground points, {left.no_height:,} in voids"
             )
@@ -150,17 +115,22 @@ class Check:
                 "held out, all": left.all, "open land": left.open,
                 "under trees": left.under_trees, "steep": left.steep,
             }  # fmt: skip
-        rows += [_line(name, each) for name, each in named.items() if each is not None]
+        rows += [f"{name:<17} {figures.line}" for name, figures in named.items() if figures]
         if self.largest:
-            worst = ", ".join(f"{each['name']} {each['error']:+.3f} m" for each in self.largest)
+            worst = ", ".join(f"{one['name']} {one['error']:+.3f} m" for one in self.largest)
             rows.append(f"largest errors    {worst}")
         if self.shift is not None:
             rows.append(
                 f"mean difference   would be removed by a shift of {-self.shift:+.3f} m; nothing is"
                 " shifted"
             )
-        statements = {"": self.statement, "Terrain model: ": self.dtm_statement}
-        return rows + [f"{whose}{words}" for whose, words in statements.items() if words]
+        return [*rows, *self.statements]
+
+    @property
+    def statements(self) -> list[str]:
+        """What is stated of the points and of the terrain model."""
+        stated = {"": self.statement, "Terrain model: ": self.dtm_statement}
+        return [f"{whose}{words}" for whose, words in stated.items() if words]
 
 
 def listed(names: Sequence[str]) -> str:
@@ -172,12 +142,3 @@ def listed(names: Sequence[str]) -> str:
 def limits_of(scale: float) -> tuple[float, ...]:
     """Return the four errors between the `COLOURS` in metres, given the scale of a `Check`."""
     return tuple(float(f"{share * scale:.3g}") for share in _SHARES)
-
-
-def _line(name: str, figures: Figures) -> str:
-    return (
-        f"{name:<17} {figures.count:>6,} RMSE {figures.total_rmse:.3f} m, mean {figures.mean:+.3f},"
-        f" median {figures.median:+.3f}, standard deviation {figures.standard_deviation:.3f},"
-        f" {figures.minimum:+.3f} to {figures.maximum:+.3f}, 95 % within"
-        f" {figures.percentile_95:.3f} m"
-    )

@@ -5,12 +5,13 @@ from __future__ import annotations
 import csv
 import math
 import re
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any, NamedTuple, Sequence
 
 from ...core.errors import BareEarthError
 from ...las.sources import open_source
-from .column_names import ColumnName, columns_of
+from .columns import ColumnName, columns_of
 
 # Endings of tables; other files are vector files.
 SUFFIXES = (".csv", ".txt", ".tsv", ".tab", ".xyz", ".dat", ".pts")
@@ -55,20 +56,21 @@ def read_table(path: Path) -> Table:
     # lines that begin with #, //, % or ! are skipped; one of those before the first row may hold
     # the names of the columns, or the CRS.
     lines, crs = _lines_of(path)
-    texts = [each.text for each in lines if not each.is_comment]
-    counts = [_count(_cells(texts[:_SAMPLE], each)) for each in _DELIMITERS]
-    if not texts or not max(counts):
+    sample = [line.text for line in lines if not line.is_comment][:_SAMPLE]
+    counts = {sign: sum(map(_is_point, _cells(sample, sign))) for sign in _DELIMITERS}
+    delimiter = max(counts, key=counts.__getitem__)
+    if not counts[delimiter]:
         raise BareEarthError(
             f"{path} holds no table of points: no row has three numbers. Give a text file with the"
             " columns x, y and z, such as CSV."
         )
-    cells = _cells([each.text for each in lines], _DELIMITERS[counts.index(max(counts))])
-    is_row = [_numbers_in(row) >= 3 and not line.is_comment for row, line in zip(cells, lines)]
+    cells = _cells([line.text for line in lines], delimiter)
+    is_row = [_is_point(row) and not line.is_comment for row, line in zip(cells, lines)]
     first = is_row.index(True)
     names, first = _header_of(cells[:first], lines[:first])
     rows, numbers = [], []
     for row, line in zip(cells[first:], lines[first:]):
-        is_header = names is not None and tuple(each.strip() for each in row) == names
+        is_header = names is not None and tuple(map(str.strip, row)) == names
         if any(map(str.strip, row)) and not line.is_comment and not is_header:
             rows.append(row)
             numbers.append(line.number)
@@ -119,9 +121,8 @@ def _with_units(names: list[str], units: list[str]) -> tuple[str, ...]:
 
 def _are_units(row: list[str]) -> bool:
     """Return whether a row below the names holds the units of the columns."""
-    given = [each for each in row if each.strip(" -()[]")]
-    parsed = [ColumnName.of(f"x {each}") for each in given]
-    return bool(given) and all(each.words == ("x",) and each.unit for each in parsed)
+    given = [ColumnName.of(f"x {cell}") for cell in row if cell.strip(" -()[]")]
+    return bool(given) and all(name.words == ("x",) and name.unit for name in given)
 
 
 def _control_points(table: Table) -> Table:
@@ -129,42 +130,37 @@ def _control_points(table: Table) -> Table:
     # A row holds x, y, z, a place in an image, the image, and the name of the point, which may be
     # missing.
     some = table.rows[0]
-    if len(some) < 6 or _numbers_in(some[:5]) < 5 or not _IMAGE.fullmatch(some[5]):
+    if len(some) < 6 or not _is_point(some[:5], 5) or not _IMAGE.fullmatch(some[5]):
         return table
-    points: dict[tuple[str, ...], int] = {}
+    lines: dict[tuple[str, ...], int] = {}
     for row, number in zip(table.rows, table.numbers):
-        x, y, z, *others = [*row, "", "", ""]
-        points.setdefault((x, y, z, others[3] if len(row) > 6 else ""), number)
-    has_checks = any(each[3].upper().startswith(_CHECK) for each in points)
-    rows = [
-        [*each, "check" if each[3].upper().startswith(_CHECK) else "control" * has_checks]
-        for each in points
-    ]
-    names = ("x", "y", "z", "name", "point type")
-    return Table(names, rows, list(points.values()), table.crs)
+        x, y, z = (*row, "", "")[:3]
+        lines.setdefault((x, y, z, row[6] if len(row) > 6 else ""), number)
+    is_check = [point[-1].upper().startswith(_CHECK) for point in lines]
+    usual = "control" if any(is_check) else ""
+    rows = [[*point, "check" if check else usual] for point, check in zip(lines, is_check)]
+    return Table(("x", "y", "z", "name", "point type"), rows, list(lines.values()), table.crs)
 
 
 def places_without_names(rows: Sequence[Sequence[str]]) -> dict[str, int]:
     """Return the places of the columns of a table without a header: name, x, y, z, cover."""
     # The first column is the name if it is no number, or if it holds whole numbers before three
     # other columns of numbers. The cover is the first column of words behind z.
-    some = [row for row in rows[:_SAMPLE] if _numbers_in(row) >= 3]
-    width = min(map(len, some))
-    is_number = [all(number_of(row[each]) is not None for row in some) for each in range(width)]
-    numeric = [each for each in range(width) if is_number[each]]
-    whole = [each for each in numeric if all(row[each].strip().isdigit() for row in some)]
-    named = not is_number[0] or (len(numeric) > 3 and 0 in whole and whole != numeric)
-    axes = [each for each in numeric if each or not named][:3]
+    columns = list(zip(*(row for row in rows[:_SAMPLE] if _is_point(row))))
+    numeric = [place for place, cells in enumerate(columns) if None not in map(number_of, cells)]
+    whole = [place for place in numeric if all(cell.strip().isdigit() for cell in columns[place])]
+    named = 0 not in numeric or (len(numeric) > 3 and 0 in whole and whole != numeric)
+    axes = [place for place in numeric if place or not named][:3]
     places = dict(zip("xyz", axes))
     if named:
         places["name"] = 0
     # Codes may be missing in some rows.
     first = max(axes, default=-1) + 1
-    behind = [row[first:] for row in some]
-    for column in range(max(map(len, behind))):
-        given = [row[column] for row in behind if len(row) > column and row[column].strip()]
-        if given and not all(number_of(each) is not None for each in given):
-            return {**places, "cover": first + column}
+    behind = zip_longest(*(row[first:] for row in rows[:_SAMPLE] if _is_point(row)), fillvalue="")
+    for column, cells in enumerate(behind, start=first):
+        given = [cell for cell in cells if cell.strip()]
+        if None in map(number_of, given):
+            return {**places, "cover": column}
     return places
 
 
@@ -204,10 +200,6 @@ def _cells(lines: Sequence[str], delimiter: str) -> list[list[str]]:
     return [next(csv.reader([line], delimiter=delimiter, skipinitialspace=True)) for line in lines]
 
 
-def _count(rows: Sequence[Sequence[str]]) -> int:
-    """Return how many rows have three numbers."""
-    return sum(_numbers_in(row) >= 3 for row in rows)
-
-
-def _numbers_in(row: Sequence[str]) -> int:
-    return sum(number_of(each) is not None for each in row)
+def _is_point(row: Sequence[str], least: int = 3) -> bool:
+    """Return whether a row has three numbers."""
+    return sum(number_of(cell) is not None for cell in row) >= least

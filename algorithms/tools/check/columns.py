@@ -22,7 +22,7 @@ def words_of(text: str) -> frozenset[str]:
 def without_accents(text: str) -> str:
     """Return a text without accents, such as "Hohe, Strasse" for "Höhe, Straße"."""
     text = unicodedata.normalize("NFKD", text.translate(_LETTERS))
-    return "".join(each for each in text if not unicodedata.combining(each))
+    return "".join(letter for letter in text if not unicodedata.combining(letter))
 
 
 def parts_of(text: str) -> list[str]:
@@ -89,33 +89,29 @@ class ColumnName(NamedTuple):
         """Return the words and the unit of a name: Elevation, NAVD and 0.3048 of "Elevation_NAVD88
         (ft)".
         """
-        text = without_accents(str(name).replace("U.S.", "US"))
         words: list[str] = []
-        for chunk in re.findall(r"[A-Za-z0-9]+", text):
-            is_unit = chunk.lower() in UNITS
-            words += [chunk] if is_unit else _PARTS.findall(chunk)
-        found = [each for each in words if each.lower() in UNITS]
-        if not found or len(words) == 1:
-            unit = None
-        else:
-            unit = UNITS[found[0].lower()]
-            feet = {each.lower() for each in words} & _OF_FEET if unit == FOOT else set()
+        for part in re.findall(r"[A-Za-z0-9]+", without_accents(str(name).replace("U.S.", "US"))):
+            words += [part] if part.lower() in UNITS else _PARTS.findall(part)
+        units = [word for word in words if word.lower() in UNITS]
+        unit = UNITS[units[0].lower()] if units and len(words) > 1 else None
+        if unit is not None:
+            feet = {word.lower() for word in words} & _OF_FEET if unit == FOOT else set()
             unit = US_FOOT if feet & {"us", "survey", "usa", "s"} else unit
-            words = [each for each in words if each not in found and each.lower() not in feet]
-        kept = [each for each in words if not each.isdigit() and each.lower() not in _ANGLES]
+            words = [word for word in words if word not in units and word.lower() not in feet]
+        kept = [word for word in words if not word.isdigit() and word.lower() not in _ANGLES]
         return cls(tuple(kept or words), unit)
 
     @property
     def _lower(self) -> list[str]:
-        return [each.lower() for each in self.words]
+        return [word.lower() for word in self.words]
 
     @property
     def height_kind(self) -> int:
         """0 for a height above the geoid, 2 for one above the ellipsoid, 1 if it is not known."""
         words = set(self._lower)
-        prefixes = [match[1] for each in words if (match := _PREFIX.fullmatch(each))]
-        ellipsoidal = any(each.startswith("el") for each in prefixes)
-        if ellipsoidal or any(each.startswith("ellip") for each in words):
+        prefixes = [match[1] for word in words if (match := _PREFIX.fullmatch(word))]
+        starts = (*(prefix[:2] for prefix in prefixes), *(word[:5] for word in words))
+        if "el" in starts or "ellip" in starts:
             return 2
         if prefixes or not words.isdisjoint(_ORTHOMETRIC) or words >= {"sea", "level"}:
             return 0
@@ -124,14 +120,14 @@ class ColumnName(NamedTuple):
     def rank(self, role: str) -> tuple[int, int] | None:
         """Return how well it names a role, the smaller the better; None if it does not."""
         known = NAMES[role].split()
-        words = [each for each in self._lower if each not in _FILLERS] or self._lower
+        words = [word for word in self._lower if word not in _FILLERS] or self._lower
         if role == "z":
             return self._rank_of_height(known, words)
         joined = ["".join(words), "".join(self._lower)]
-        places = [known.index(each) for each in joined if each in known]
+        places = [known.index(word) for word in joined if word in known]
         # "X_est" of Agisoft is estimated, not east in French.
-        if not places and "est" not in words and all(each in known for each in words):
-            places = [known.index(each) for each in words]
+        if not places and "est" not in words and all(word in known for word in words):
+            places = [known.index(word) for word in words]
         return (0, min(places)) if places else None
 
     def _rank_of_height(self, known: list[str], words: list[str]) -> tuple[int, int] | None:
@@ -146,11 +142,9 @@ class ColumnName(NamedTuple):
                 places.append(len(known))
             elif word not in _ORTHOMETRIC | _ABOVE:
                 return None
-        return (self.height_kind, min(places)) if places else self._of_datum(words)
-
-    def _of_datum(self, words: list[str]) -> tuple[int, int] | None:
-        """Return the rank of the name of a datum alone, such as NHN."""
-        is_datum = len(words) == 1 and words[0] in _ORTHOMETRIC
+        if places:
+            return self.height_kind, min(places)
+        is_datum = len(words) == 1 and words[0] in _ORTHOMETRIC  # NHN alone
         return (0, 0) if is_datum else None
 
 
@@ -176,20 +170,25 @@ def columns_of(
     """Return the columns that can hold each role, the best first, given for some roles the only
     ones, as names or numbers from 1 on; refuse one that is not there.
     """
-    found = {role: [_place_of(each, names, path)] for role, each in chosen.items()}
+    found = {role: [_place_of(column, names, path)] for role, column in chosen.items()}
     used = {places[0] for places in found.values()}
-    parsed = [ColumnName.of(each) for each in names]
+    parsed = [ColumnName.of(name) for name in names]
     for role in NAMES:
-        ranks = {k: each.rank(role) for k, each in enumerate(parsed) if k not in used}
-        good = {k: rank for k, rank in ranks.items() if rank is not None}
-        found.setdefault(role, sorted(good, key=good.__getitem__))
+        ranks = {
+            place: rank
+            for place, name in enumerate(parsed)
+            if place not in used and (rank := name.rank(role)) is not None
+        }
+        found.setdefault(role, sorted(ranks, key=ranks.__getitem__))
     return found
 
 
 def _place_of(wanted: str, names: Sequence[str], path: Path | str) -> int:
     """Return the place of a column that the user gave by its name or number."""
-    exact, lower = [each.strip() for each in names], [each.strip().lower() for each in names]
-    for known, name in ((exact, wanted.strip()), (lower, wanted.strip().lower())):
+    exact = [name.strip() for name in names]
+    for known, name in (
+        (exact, wanted.strip()), ([name.lower() for name in exact], wanted.strip().lower())
+    ):  # fmt: skip
         if name in known:
             return known.index(name)
     if wanted.isdigit() and 1 <= int(wanted) <= len(names):

@@ -1,0 +1,241 @@
+"""Errors of the ground points and of a terrain model at checkpoints, and what makes all alike."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any, Iterator, NamedTuple
+
+import numpy as np
+
+from ...core.errors import BareEarthError, printable
+from ...core.progress import SILENT, Progress
+from ...crs.unit_names import FOOT
+from ...products.survey_ground import SurveyGround
+from ...rasters.sampling import FAR_BELOW, HeightRaster, HeightSampler
+from ...survey.feature_files import Feature, Layer, feature_writer
+from ...survey.files import Survey
+from .checkpoints import Checkpoints
+from .land_covers import CONTROL, LandCovers, kinds_of
+from .results import COUNTED, listed
+
+# Fields of the layer. Heights are in the unit of the points, errors in metres.
+FIELDS: dict[str, type] = {
+    "NAME": str, "COVER": str, "KIND": str, "STATE": str, "Z": float, "GROUND": float,
+    "ERROR": float, "DTM": float, "DTM_ERROR": float,
+}  # fmt: skip
+# An offset that is told is larger than this, in metres, and than so many times its spread.
+_LEAST = 1.0
+_TIMES_SPREAD = 5.0
+# The same for one or two checkpoints, which have no spread.
+_LEAST_OF_FEW = 5.0
+_FEW = 3
+# The largest distances between ellipsoid and geoid in metres, and those that are common on land.
+_UNDULATIONS = 8.0, 110.0
+# A standard deviation in median absolute deviations of normal errors.
+_DEVIATION = 1.4826
+
+
+class Residuals(NamedTuple):
+    """The checkpoints, in the CRS of the points, with their errors, one value for each."""
+
+    xyz: np.ndarray  # float64, (n, 3)
+    names: tuple[str, ...]
+    covers: list[str]  # their land cover, or else their use
+    kinds: list[str]  # NVA, VVA or control
+    states: list[str]  # "counted", or a key of `REASONS`
+    ground: np.ndarray  # float64, (n,): heights of the TIN in the unit of the points; NaN for none
+    dtm: np.ndarray  # the same of the terrain model
+    errors: np.ndarray  # float64, (n,): heights of the TIN minus those of checkpoints, metres
+    dtm_errors: np.ndarray  # the same of the terrain model
+    unit: float  # metres in a unit of the heights
+    unknown_covers: dict[str, int]  # land covers, and how many checkpoints have them
+
+    @property
+    def counted(self) -> np.ndarray:
+        """Which checkpoints are counted; boolean, shape (n,)."""
+        return np.array(self.states) == COUNTED
+
+    def rows(self) -> Iterator[tuple[Any, ...]]:
+        """Yield x, y, and the values of `FIELDS` of each checkpoint."""
+        x, y, z = self.xyz.T.tolist()
+        heights = (self.ground, self.errors, self.dtm, self.dtm_errors)
+        rounded = (np.round(values, 4).tolist() for values in heights)
+        yield from zip(x, y, self.names, self.covers, self.kinds, self.states, z, *rounded)
+
+    def doubt(self, errors: np.ndarray) -> str:
+        """Return what makes the errors alike at all checkpoints that are counted."""
+        known = self.counted & ~np.isnan(errors)
+        points = self.xyz[known, 2] * self.unit
+        return offset_in_words(points + errors[known], points)
+
+
+def residuals_of(
+    ground: SurveyGround,
+    checkpoints: Checkpoints,
+    rasters: tuple[str | None, str | None],  # a terrain model, and its confidence
+    vegetated: tuple[str, ...],  # words
+    max_edge: float,  # metres
+    min_confidence: float,
+    progress: Progress,
+) -> Residuals:
+    """Return the errors at checkpoints."""
+    survey, crs, up = ground.survey, ground.survey.crs, ground.survey.crs.vertical_unit
+    checkpoints = checkpoints.located(ground.place, progress, max_edge)
+    x, y, _ = checkpoints.xyz.T
+    model, confidence = (_raster(source, ground) for source in rasters)
+    dtm = np.full(len(x), np.nan)
+    if model is not None:
+        dtm = HeightSampler(model).heights(x, y) * (model.unit or up) / up
+    sure = np.ones(len(x)) if confidence is None else HeightSampler(confidence).heights(x, y)
+    if model is not None:
+        _tell_of_gaps(checkpoints, np.isnan(dtm), progress)
+    places = np.column_stack((x, y)) * crs.horizontal_unit
+    heights = ground.heights(places, max_edge, progress).heights
+    if model is not None:
+        model.tell(crs, progress)
+        model.tell_of_heights(heights - dtm * up, 1.0, FAR_BELOW, progress)
+    if ground.counts.classes.any():  # else no file is near, and all checkpoints are outside
+        ground.check()
+    kinds, unknown = kinds_of(checkpoints, LandCovers(vegetated), progress)
+    is_void = np.isnan(heights)
+    reasons = {
+        CONTROL: np.array(kinds) == CONTROL,
+        "outside": is_void & ~_touches(survey, x, y),
+        "void": is_void,
+        "doubtful": ~(sure >= min_confidence),
+    }
+    states = np.select(list(reasons.values()), list(reasons), COUNTED)
+    checkpoints = _with_fitting_heights(checkpoints, heights, states == COUNTED, up, progress)
+    z, uses = checkpoints.xyz[:, 2], checkpoints.types or checkpoints.covers
+    return Residuals(
+        checkpoints.xyz, checkpoints.names,
+        [cover or use for cover, use in zip(checkpoints.covers, uses)], kinds, states.tolist(),
+        heights / up, dtm, heights - z * up, (dtm - z) * up, up, unknown,
+    )  # fmt: skip
+
+
+def _with_fitting_heights(
+    checkpoints: Checkpoints,
+    heights: np.ndarray,
+    counted: np.ndarray,
+    up: float,
+    progress: Progress,
+) -> Checkpoints:
+    """Return checkpoints with the heights of another column, if only these can be meant."""
+    # Those of one column are metres off, all alike, and those of the other are not: one of both is
+    # in another unit or above the ellipsoid.
+    columns = [("", checkpoints.xyz[:, 2], None), *checkpoints.others]
+    doubts = [offset_in_words(heights[counted], z[counted] * up) for _, z, _ in columns]
+    if not doubts[0] or all(doubts):
+        return checkpoints
+    name, z, _ = columns[doubts.index("")]
+    progress.warning(f"{doubts[0]} The heights in {name} fit: these are taken instead.")
+    return checkpoints.with_heights(z)
+
+
+def _raster(source: str | None, ground: SurveyGround) -> HeightRaster | None:
+    """Return a raster in the CRS of the points."""
+    if not source:
+        return None
+    raster = HeightRaster.of(source)
+    raster.check(ground.survey.crs, ground.place.name)
+    return raster
+
+
+def _tell_of_gaps(checkpoints: Checkpoints, gaps: np.ndarray, progress: Progress) -> None:
+    """Warn of checkpoints at which the terrain model has no value, or refuse it."""
+    if gaps.all():
+        raise BareEarthError(
+            "The terrain model has no value at any checkpoint. Give one that covers them."
+        )
+    if gaps.any():
+        names = [checkpoints.names[number] for number in np.flatnonzero(gaps)]
+        progress.warning(f"The terrain model has no value at checkpoints {listed(names)}.")
+
+
+def _touches(survey: Survey, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return which places lie in the extent of a file."""
+    inside = np.zeros(len(x), dtype=bool)
+    for tile in survey.tiles:
+        west, south, east, north = tile.outer_box
+        inside |= (x >= west) & (x <= east) & (y >= south) & (y <= north)
+    return inside
+
+
+def offset_in_words(heights: np.ndarray, checkpoints: np.ndarray) -> str:
+    """Return a sentence on what makes all heights, in metres, differ alike from those of
+    checkpoints, such as another unit or vertical datum; empty if nothing does.
+    """
+    errors, count = heights - checkpoints, len(heights)
+    if not count:
+        return ""
+    offset, spread = _middle(errors)
+    if abs(offset) <= (_LEAST if count >= _FEW else _LEAST_OF_FEW):
+        return ""
+    for factor, who, others in (
+        (FOOT, "checkpoints", "data"), (1.0 / FOOT, "data", "checkpoints")
+    ):  # fmt: skip
+        left, still = _middle(heights - checkpoints * factor)
+        # On land that is high, a geoid could be left. On flat land, the spread does not shrink.
+        if abs(left) < min(0.03 * abs(offset), _LEAST) and still <= spread + 0.05:
+            return (
+                f"The heights of the {who} are feet where those of the {others} are metres: they"
+                f" are {1.0 / FOOT:.3f} times as high. US survey feet and international feet look"
+                " the same here. State the unit, as in a column named 'Elevation (ft)', or the CRS"
+                " of the points."
+            )
+    if abs(offset) <= _TIMES_SPREAD * spread:
+        return ""
+    who = "The checkpoint lies" if count == 1 else f"The {count:,} checkpoints lie"
+    alike = f", all alike (spread {spread:.2f} m)" if count >= _FEW else ""
+    side = "above" if offset < 0 else "below"
+    return f"{who} {abs(offset):.2f} m {side} the data{alike}. {_cause(abs(offset))}"
+
+
+def _middle(errors: np.ndarray) -> tuple[float, float]:
+    """Return the median, and the spread round it as a standard deviation."""
+    middle = float(np.median(errors))
+    return middle, _DEVIATION * float(np.median(np.abs(errors - middle)))
+
+
+def _cause(offset: float) -> str:
+    least, most = _UNDULATIONS
+    if offset > most:
+        return "Another unit or another height looks like this. Check the column of the heights."
+    if offset >= least:
+        return (
+            "Heights above the ellipsoid and above the geoid differ like this: one of both is of"
+            " the other kind. Give both in one vertical datum."
+        )
+    return (
+        "Another vertical datum looks like this, or the height of an antenna or a pole that was"
+        " not taken off. Give both in one vertical datum."
+    )
+
+
+def write_layer(
+    target: Path, found: Residuals, survey: Survey, progress: Progress = SILENT
+) -> None:
+    """Write the checkpoints with their errors as a layer of points."""
+    layer = Layer("checkpoints", "Point Z", FIELDS, survey.crs.wkt, survey.crs.epsg)
+    features = (Feature(row[2:], place) for row, place in zip(found.rows(), found.xyz[:, None]))
+    feature_writer(target)(target, features, layer, progress)
+
+
+def write_table(target: Path, found: Residuals) -> None:
+    """Write the checkpoints with their errors as CSV, with empty cells where there is no value."""
+    # Excel knows by the byte order mark that it is UTF-8.
+    with open(target, "w", encoding="utf-8-sig", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["x", "y", *map(str.lower, FIELDS)])
+        for row in found.rows():
+            writer.writerow(["" if cell != cell else _cell(cell) for cell in row])
+
+
+def _cell(value: Any) -> Any:
+    """Return a value for a cell; a name must not look like a formula to a spreadsheet."""
+    if not isinstance(value, str):
+        return value
+    value = printable(value)
+    return f"'{value}" if value[:1] in ("=", "+", "-", "@") else value
