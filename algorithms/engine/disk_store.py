@@ -9,27 +9,17 @@ import mmap
 import os
 import threading
 from pathlib import Path
-from typing import Any, BinaryIO, Callable, Iterator, NamedTuple, Sequence
+from typing import BinaryIO, Callable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
 from ..core.files import write_errors_told
-from ..core.points import Box, Frame
+from ..core.points import Frame
 from ..core.progress import SILENT, Progress
-from ..core.threads import in_threads
 from ..core.unnamed import reach_disk, unnamed_file
 from ..las.cloud import PointCloud
 from .blocks import Blocks
-from .store import (
-    BlockPoints,
-    Corner,
-    LeafIndex,
-    Leaves,
-    Marks,
-    Sorted,
-    gathered,
-    smallest_integers,
-)
+from .store import BlockPoints, Corner, LeafIndex, Marks, Store, smallest_integers
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
 _INDEX = np.dtype("<i4")
@@ -50,28 +40,26 @@ class _StoredPart(NamedTuple):
     size: int
 
 
-class DiskStore:
-    """A `Store` whose points, sorted by leaves part by part, are in temporary files without a name
-    in the folder of `target`; `kind` is the type of the values.
+class DiskStore(Store):
+    """A store whose points, sorted by leaves part by part, are in temporary files without a name in
+    the folder of `target`; `kind` is the type of the values.
     """
 
     # The system removes the files when they are closed or the process ends, even if it is killed.
 
-    leaves: Leaves
+    reads_all = True
 
     def __init__(self, target: Path, frame: Frame, blocks: Blocks, kind: type = np.uint8) -> None:
-        self._kind = np.dtype(kind)
-        self._count, self.has_known = 0, False
-        self._target, self._frame = Path(target), frame
-        self._side, self._start = blocks.leaf_side, blocks.start
+        super().__init__(frame, kind)
+        self._stored = 0  # selected points
+        self._target = Path(target)
         self._lock, self._files = threading.Lock(), contextlib.ExitStack()
         with write_errors_told(self._target):
-            self._records, self._orders, self._values = (self._file() for _ in range(3))
+            self._records, self._orders, self._values = (
+                self._files.enter_context(unnamed_file(self._target.parent)) for _ in range(3)
+            )
         self._parts: list[_StoredPart] = []
-        self._runs = LeafIndex()
-
-    def _file(self) -> BinaryIO:
-        return self._files.enter_context(unnamed_file(self._target.parent))
+        self._runs = LeafIndex(blocks.leaf_side, blocks.start)
 
     def __enter__(self) -> DiskStore:
         return self
@@ -82,10 +70,9 @@ class DiskStore:
 
     def append(self, part: PointCloud, marks: Marks) -> None:
         """Add the selected points of the next part."""
+        super().append(part, marks)
         which = np.flatnonzero(marks.selected)
-        places = part.places(which, self._frame)
-        found = Sorted.of(*(np.floor((axis - self._start) / self._side) for axis in places[::-1]))
-        which = which[found.order]
+        which = which[self._runs.sort(part.places(which, self._frame), self._stored)]
         records = np.empty(len(which), dtype=_RECORD)
         for name in ("x", "y", "z"):
             records[name] = getattr(part, name)[which]
@@ -94,54 +81,28 @@ class DiskStore:
         with write_errors_told(self._target):
             self._records.write(records.tobytes())
             self._orders.write(which.astype(_INDEX).tobytes())
-        self._runs.add(found.codes, found.counts, self._count)
         # By indices, since an empty slice would keep the points in memory.
         nothing = part.take(np.zeros(0, dtype=np.intp))
-        self._parts.append(_StoredPart(nothing, self._count, part.count))
-        self._count += len(which)
+        self._parts.append(_StoredPart(nothing, self._stored, part.count))
+        self._stored += len(which)
 
     def finish(self, progress: Progress = SILENT) -> None:
         """Finish adding points."""
-        rows, columns, totals = self._runs.finish()
-        x, y = (number * self._side + self._start for number in (columns, rows))
-        self.leaves = Leaves(x, y, self._side, totals)
+        self.leaves = self._runs.finish()
         with write_errors_told(self._target):
             reach_disk(self._records)
             reach_disk(self._orders)
-            self._values.truncate(self._count * self._kind.itemsize)
+            self._values.truncate(self._stored * self._value_kind.itemsize)
 
-    def read(
-        self,
-        leaves: np.ndarray,
-        box: Box | None = None,
-        corner: Corner = (0.0, 0.0),
-        progress: Progress = SILENT,
-        ground_only: bool = False,
-    ) -> BlockPoints:
-        """Return the points of some leaves in file order; only those in a box, if given."""
-        runs, read = self._reading(leaves, corner, ground_only)
-        counts, kind = [end - start for start, end in runs], smallest_integers(self._count)
-        return gathered(counts, lambda number: read(runs[number]), box, kind, progress, ground_only)
-
-    def over_pieces(
-        self,
-        leaves: np.ndarray,
-        work: Callable[[BlockPoints], Any],
-        corner: Corner = (0.0, 0.0),
-        progress: Progress = SILENT,
-    ) -> list[Any]:
-        """Return the results of a function of the points of some leaves, piece by piece."""
-        runs, read = self._reading(leaves, corner)
-        return in_threads(lambda run: work(read(run)), runs, progress)
-
-    def _reading(
+    def pieces(
         self, leaves: np.ndarray, corner: Corner, ground_only: bool = False
-    ) -> tuple[list[tuple[int, int]], Callable[[tuple[int, int]], BlockPoints]]:
-        """Return the runs of some leaves, and what reads the points of a run."""
-        starts, kind = [part.start for part in self._parts], smallest_integers(self._count)
-        frame = self._frame.moved(corner)
+    ) -> tuple[list[int], Callable[[int], BlockPoints]]:
+        """Return the numbers of points of runs of some leaves, and what reads a run."""
+        starts, kind = [part.start for part in self._parts], smallest_integers(self.count)
+        frame, runs = self._frame.moved(corner), list(_joined(*self._runs.of(leaves), starts))
 
-        def read(run: tuple[int, int]) -> BlockPoints:
+        def read(number: int) -> BlockPoints:
+            run = runs[number]
             with self._lock:
                 records = _read(self._records, _RECORD, *run)
             positions: np.ndarray = np.arange(*run, dtype=kind)
@@ -156,29 +117,29 @@ class DiskStore:
             known, wanted, roads, several = (records["flags"] & bit > 0 for bit in kinds)
             return BlockPoints(points, known, wanted, positions, roads, several)
 
-        return list(_joined(*self._runs.of(leaves), starts)), read
+        return [end - start for start, end in runs], read
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:
-        """Store the values of points, whose positions must ascend."""
+        """Store the values of points, whose positions ascend."""
         if not len(positions):
             return
-        cuts = np.flatnonzero(np.diff(positions) > _GAP) + 1
+        kind, cuts = self._value_kind, np.flatnonzero(np.diff(positions) > _GAP) + 1
         with write_errors_told(self._target):
             for where, some in zip(np.split(positions, cuts), np.split(values, cuts)):
                 first, last = int(where[0]), int(where[-1]) + 1
-                stored = _read(self._values, self._kind, first, last).copy()
+                stored = _read(self._values, kind, first, last).copy()
                 stored[where - first] = some
-                self._values.seek(first * self._kind.itemsize)
+                self._values.seek(first * kind.itemsize)
                 self._values.write(stored.tobytes())
             reach_disk(self._values)
 
     def values(self, number: int) -> np.ndarray:
         """Return the values of all points of a part."""
         part = self._parts[number]
-        values = np.zeros(part.size, dtype=self._kind)
-        ends = [*(later.start for later in self._parts[number + 1 :]), self._count]
-        which = _read(self._orders, _INDEX, part.start, ends[0])
-        values[which] = _read(self._values, self._kind, part.start, ends[0])
+        values = np.zeros(part.size, dtype=self._value_kind)
+        end = [*(later.start for later in self._parts[number + 1 :]), self._stored][0]
+        which = _read(self._orders, _INDEX, part.start, end)
+        values[which] = _read(self._values, self._value_kind, part.start, end)
         return values
 
 

@@ -22,9 +22,9 @@ from ..survey.shapes import Place
 from .disk_store import DiskStore, ValuesOnDisk
 from .memory import GIGABYTE, GivingBack, Resources
 from .memory_store import MemoryStore
-from .step import PointStep, Step
-from .store import Marks, Store
-from .values import StoreValues, numbered
+from .step import Step
+from .store import Store
+from .values import numbered
 
 # Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
 _BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
@@ -72,8 +72,6 @@ class FilePoints:
         self._target, self._needs_records = target, needs_records
         self._files, self._is_told = contextlib.ExitStack(), False
         self._mapped: list[ValuesOnDisk] = []
-        # Points of each part that a store gets.
-        self._part_counts = [self.count]
         if not self.is_in_memory:
             left = max(self.memory_left, resources.bytes // 2)
             self.resources = Resources.of(resources.threads, min(left, _MOST_FOR_BLOCKS))
@@ -183,48 +181,24 @@ class FilePoints:
         """Return a store of the points that each step, given with its counts, needs of the parts,
         whose classes may have changed; refuse a step without points.
         """
-        gather = self._in_memory if self.is_in_memory else self._on_disk
-        return gather(steps, parts, progress)
-
-    def _in_memory(
-        self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress
-    ) -> list[Store]:
-        every = [Marks(*(np.zeros(self.count, dtype=bool) for _ in range(4))) for _ in steps]
+        stores = [self._store(step) for step, _ in steps]
         for where, part in parts:
-            for (step, counts), marks in zip(steps, every):
-                for mine, some in zip(marks, step.marks(part, counts)):
-                    if some is not None:
-                        mine[where] = some
-        stores, shares = [], progress.shares(*[1.0] * len(steps))
-        for (step, counts), marks, part in zip(steps, every, shares):
-            step.tell(counts, self.path, progress)
-            frame = survey_frame(self.cloud.crs, step.origin)
-            store = MemoryStore(frame, step.blocks, step.kind)
-            store.append(self.cloud, marks)
-            store.finish(part)
-            stores.append(store)
-        return stores
-
-    def _on_disk(
-        self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress
-    ) -> list[Store]:
-        crs = read_crs(self.file)
-        stores = [
-            self._files.enter_context(
-                DiskStore(self._target, survey_frame(crs, step.origin), step.blocks, step.kind)
-            )
-            for step, _ in steps
-        ]
-        self._part_counts = []
-        for _, part in parts:
-            self._part_counts.append(part.count)
+            # The classes need not stay in memory.
+            points = self.cloud.take(where) if self.is_in_memory else part
             for (step, counts), store in zip(steps, stores):
-                store.append(part, step.marks(part, counts))
-        for (step, counts), store in zip(steps, stores):
+                store.append(points, step.marks(part, counts))
+        for (step, counts), store, share in zip(
+            steps, stores, progress.shares(*[1.0] * len(steps))
+        ):
             step.tell(counts, self.path, progress)
-            store.finish()
+            store.finish(share)
         return stores
 
-    def values(self, step: PointStep, store: Store) -> StoreValues:
-        """Return the values that a step has stored in a store of `gathered`."""
-        return StoreValues(step, store, self._part_counts)
+    def _store(self, step: Step) -> Store:
+        """Return an empty store for a step."""
+        if self.is_in_memory:
+            frame = survey_frame(self.cloud.crs, step.origin)
+            return MemoryStore(frame, step.blocks, step.kind)
+        frame = survey_frame(read_crs(self.file), step.origin)
+        store = DiskStore(self._target, frame, step.blocks, step.kind)
+        return self._files.enter_context(store)

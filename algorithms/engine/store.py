@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Callable, NamedTuple, Protocol, Sequence, TypeVar
+from typing import Callable, NamedTuple, Sequence, TypeVar
 
 import numpy as np
 
-from ..core.points import Box, Points
+from ..core.points import Box, Frame, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from ..las.cloud import PointCloud
@@ -79,25 +79,38 @@ class BlockPoints(NamedTuple):
             which = np.flatnonzero(which)  # faster than to use the mask six times
         return BlockPoints(self.points.take(which), *(flags[which] for flags in self[1:]))
 
-    def within(self, box: Box) -> BlockPoints:
-        """Return the points in a box, without those on its largest x and y."""
-        inside = self.points.within(box)
-        return self if inside.all() else self.take(inside)
 
-
-class Store(Protocol):
-    """Holds points, added part by part from any number of files and after `finish` read by the
-    squares in which they lie, and a value for each.
+class Store:
+    """Points, added part by part from any number of files and after `finish` read by the squares in
+    which they lie, and a value for each.
     """
 
     leaves: Leaves  # after `finish`
-    has_known: bool  # whether any point is known ground
+    # Whether reading only the ground reads all points first.
+    reads_all = False
+
+    def __init__(self, frame: Frame, kind: type) -> None:
+        self._frame, self._value_kind = frame, np.dtype(kind)
+        self.has_known = False  # whether any point is known ground
+        self.count = 0  # points of all parts
+        self.starts: list[int] = []  # index of the first point of each part
 
     def append(self, part: PointCloud, marks: Marks) -> None:
         """Add the selected points of the next part."""
+        self.starts.append(self.count)
+        self.count += part.count
 
     def finish(self, progress: Progress = SILENT) -> None:
         """Finish adding points."""
+        raise NotImplementedError
+
+    def pieces(
+        self, leaves: np.ndarray, corner: Corner, ground_only: bool = False
+    ) -> tuple[Sequence[int], Callable[[int], BlockPoints]]:
+        """Return the numbers of points of pieces of some leaves, small enough for the processor's
+        cache, and what reads a piece by its number; see `read`.
+        """
+        raise NotImplementedError
 
     def read(
         self,
@@ -111,6 +124,23 @@ class Store(Protocol):
         box; if `ground_only`, those that are ground, or are where they lie on it.
         """
         # Several threads may call this.
+        counts, piece = self.pieces(leaves, corner, ground_only)
+        starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
+        whole = BlockPoints.empty(starts[-1], smallest_integers(self.count))
+        numbers = range(len(counts))
+        if box is None and not (ground_only and self.reads_all):
+            in_threads(lambda number: whole.put(starts[number], piece(number)), numbers, progress)
+            return whole
+        end = 0
+        for number in numbers:
+            some = piece(number)
+            if box is not None:
+                inside = some.points.within(box)
+                some = some if inside.all() else some.take(inside)
+            whole.put(end, some)
+            end += some.points.count
+            progress(starts[number + 1] / starts[-1])
+        return whole.take(slice(end))
 
     def over_pieces(
         self,
@@ -122,43 +152,18 @@ class Store(Protocol):
         """Return results of a function of the points of some leaves, relative to a corner, piece by
         piece, so that not all need be in memory together.
         """
+        counts, piece = self.pieces(leaves, corner)
+        return in_threads(lambda number: work(piece(number)), range(len(counts)), progress)
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:
-        """Store the values of points; only one thread may call this."""
+        """Store the values of points, whose positions ascend; only one thread may call this."""
+        raise NotImplementedError
 
     def values(self, number: int) -> np.ndarray:
         """Return the values of all points of the part that was added after `number` others, in its
         order; 0 where none was stored.
         """
-
-
-def gathered(
-    counts: Sequence[int],
-    read: Callable[[int], BlockPoints],
-    box: Box | None = None,
-    kind: type = np.int64,
-    progress: Progress = SILENT,
-    may_be_fewer: bool = False,
-) -> BlockPoints:
-    """Return the points, in a box if there is one, of pieces that are small enough for the
-    processor's cache and are read by number, in several threads.
-    """
-    # `kind` is the type of integer for the positions. If `may_be_fewer`, a piece can have fewer
-    # points than `counts` says.
-    starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
-    whole = BlockPoints.empty(starts[-1], kind)
-    if box is None and not may_be_fewer:
-        in_threads(
-            lambda number: whole.put(starts[number], read(number)), range(len(counts)), progress
-        )
-        return whole
-    end = 0
-    for number in range(len(counts)):
-        some = read(number) if box is None else read(number).within(box)
-        whole.put(end, some)
-        end += some.points.count
-        progress(starts[number + 1] / starts[-1])
-    return whole.take(slice(end))
+        raise NotImplementedError
 
 
 # Row and column of a square are packed into one number, each with an offset since it can be
@@ -176,48 +181,45 @@ def row_and_column(codes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return (codes >> _SHIFT) - _HALF, (codes & ((1 << _SHIFT) - 1)) - _HALF
 
 
-class Sorted(NamedTuple):
-    """Some points sorted by the leaves that hold them."""
+class LeafIndex:
+    """Where the points of each leaf of a store are: runs of points that follow each other."""
 
-    order: np.ndarray  # intp, (n,): indices of the points; those of one leaf in their former order
-    codes: np.ndarray  # int64, (m,): the leaves that hold points
-    counts: np.ndarray  # int64, (m,): points of each leaf
+    def __init__(self, side: float, start: float) -> None:
+        # Metres: side of a leaf, and where leaves begin beside the multiples of it.
+        self._side, self._start = side, start
+        self._added: list[np.ndarray] = []
 
-    @classmethod
-    def of(cls, row: np.ndarray, column: np.ndarray) -> Sorted:
-        """Sort points, given row and column of the leaf of each, float64 of shape (n,)."""
+    def add(self, *runs: np.ndarray | int) -> None:
+        """Add runs: the codes of their leaves, the indices of their first points, their lengths."""
+        self._added.append(np.column_stack(runs))  # in any order, by any thread
+
+    def sort(self, places: Sequence[np.ndarray], first: int) -> np.ndarray:
+        """Add some points, given x and y, of which the first has index `first` in the store, and
+        return the order in which they are there: by leaves.
+        """
+        column, row = (np.floor((axis - self._start) / self._side) for axis in places)
         codes = code_of(row, column)
         # Most points lie in the same leaf as the point before, and then a stable sort is fastest.
         order = np.argsort(codes, kind="stable")
         codes = codes[order]
         starts = np.flatnonzero(np.concatenate(([True], codes[1:] != codes[:-1]))[: len(codes)])
-        return cls(order, codes[starts], np.diff(starts, append=len(codes)))
+        counts = np.diff(starts, append=len(codes))
+        self.add(codes[starts], starts + first, counts)
+        return order
 
-
-class LeafIndex:
-    """The runs of all leaves of a store."""
-
-    def __init__(self) -> None:
-        self._added: list[np.ndarray] = []
-        # Index of the first run of each leaf, and the number of all runs.
-        self._bounds = np.zeros(1, dtype=np.intp)
-        self._starts = self._counts = np.zeros(0, dtype=np.int64)
-
-    def add(self, codes: np.ndarray, counts: np.ndarray, start: int) -> None:
-        """Add points that were sorted together; `start` is the index of the first in the store."""
-        starts = start + np.cumsum(counts) - counts
-        self._added.append(np.column_stack((codes, starts, counts)).astype(np.int64))
-
-    def finish(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Finish adding, and return row, column and number of points of each leaf."""
+    def finish(self) -> Leaves:
+        """Finish adding, and return the leaves."""
         added = np.concatenate([np.zeros((0, 3), np.int64), *self._added])
         self._added = []
         added = added[np.argsort(added[:, 0], kind="stable")]
         codes, first = np.unique(added[:, 0], return_index=True)
+        # Index of the first run of each leaf, and the number of all runs.
         self._bounds = np.append(first, len(added))
         self._starts, self._counts = added[:, 1].copy(), added[:, 2].copy()
         totals = np.add.reduceat(self._counts, first) if len(codes) else codes
-        return (*row_and_column(codes), totals)
+        row, column = row_and_column(codes)
+        x, y = (number * self._side + self._start for number in (column, row))
+        return Leaves(x, y, self._side, totals)
 
     def of(self, leaves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the starts of the runs of some leaves, ascending, and the lengths of the runs."""

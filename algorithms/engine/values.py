@@ -5,12 +5,10 @@ Each step of a run sees the points with what the steps before it have found.
 
 from __future__ import annotations
 
-import bisect
-import itertools
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Mapping, Protocol, Sequence
+from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -26,16 +24,17 @@ from .store import Store
 _FAILURE = "no ground"
 
 
-class PointValues(Protocol):
+class PointValues:
     """The value that a step found for each point of a file."""
 
     step: PointStep
-    failure: str  # why some points have none; empty if all have
+    failure = ""  # why some points have none; empty if all have
     # bool, (k,): which points that `of` was last asked for lie in blocks that failed
-    lost: np.ndarray | None
+    lost: np.ndarray | None = None
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
         """Return the values of the next points, given their indices in the file."""
+        raise NotImplementedError
 
 
 def numbered(parts: Iterable[PointCloud]) -> Iterator[tuple[slice, PointCloud]]:
@@ -64,20 +63,15 @@ def applied(values: Sequence[PointValues], where: slice, part: PointCloud) -> Po
     return part
 
 
-class StoreValues:
-    """The values that a store holds, which has all parts of one file, with `counts` points each."""
+class StoreValues(PointValues):
+    """The values in a store of all parts of one file."""
 
-    failure, lost = "", None
-
-    def __init__(self, step: PointStep, store: Store, counts: Sequence[int]) -> None:
+    def __init__(self, step: PointStep, store: Store) -> None:
         self.step, self._store = step, store
-        self._starts = [0, *itertools.accumulate(counts)]
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
-        """Return the values of some points, all of which are of one part."""
-        number = bisect.bisect_right(self._starts, where.start) - 1
-        start = self._starts[number]
-        return self._store.values(number)[where.start - start : where.stop - start]
+        """Return the values of the points of a part."""
+        return self._store.values(self._store.starts.index(where.start))
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,15 +101,13 @@ class BlockFiles:
             np.savez(temporary, **content)
 
 
-class BlockValues:
+class BlockValues(PointValues):
     """The values of a file as the blocks stored them; points in blocks that are not there, unless
     `are_all`, have the value 0.
     """
 
     def __init__(self, found: BlockFiles, las: LasFile, are_all: bool = True) -> None:
         self.step, self._grid, self._las, self._are_all = found.step, found.grid, las, are_all
-        self.failure = ""
-        self.lost: np.ndarray | None = None
         self._left: dict[int, np.ndarray] = {}
         self._not_done: list[int] = []
         for place, file in found.files.items():

@@ -22,7 +22,7 @@ from ..engine.memory import Resources
 from ..engine.step import PointStep, Step, located
 from ..engine.store import Store
 from ..engine.tile_result import TileResult, copies_all_else
-from ..engine.values import PointValues, with_values
+from ..engine.values import PointValues, StoreValues, with_values
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
@@ -124,7 +124,7 @@ class _FileRun:
                 self.size = self._draw(step, store, share)
             else:
                 step.work(store, points.resources, share)
-                self._values.append(points.values(step, store))
+                self._values.append(StoreValues(step, store))
 
     @property
     def _reads_once(self) -> bool:
