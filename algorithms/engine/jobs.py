@@ -27,7 +27,6 @@ from .file_points import FilePoints, memory_of_file
 from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
 from .memory_store import MemoryStore
-from .step import PointStep
 from .tile_result import TileResult, copies_all_else
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, applied
@@ -70,8 +69,10 @@ class BlockJob:
     sources: tuple[Path, ...]  # that may have points for these blocks
     count: float  # of points in the blocks, estimated
     before: tuple[BlockFiles, ...]  # what the steps before have found round these blocks
-    finished: frozenset[Path]  # those of the sources that hold this already
     unpacking: Unpacking | None  # where sources wait uncompressed
+    step: Any  # that works in these blocks
+    # those of the sources that hold already what was found
+    finished: frozenset[Path] = frozenset()
 
     @property
     def needs(self) -> list[Path]:
@@ -138,8 +139,6 @@ class BlockJob:
 @dataclass(frozen=True, eq=False)
 class PointJob(BlockJob):
     """A job that finds a value for each point of some blocks, and stores it by block and file."""
-
-    step: PointStep
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""

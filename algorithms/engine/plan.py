@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections import defaultdict
+from functools import cached_property
+from operator import attrgetter
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Iterable, Iterator, Mapping, NamedTuple, Sequence
+from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, survey_frame
 from ..las.lasfile import LasFile
@@ -30,18 +31,62 @@ from .block_grid import (
     sources_of,
 )
 from .jobs import BlockJob, PointJob, TileJob
-from .manifest import Fingerprint, block_file, fingerprint_of, read_record, remove_record, stamp_of
+from .manifest import (
+    Fingerprint,
+    Stamp,
+    block_file,
+    fingerprint_of,
+    read_record,
+    remove_record,
+    stamp_of,
+)
 from .step import PointStep
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, numbered, with_values
 from .workers import Workers
 
 
-class _Wanted(NamedTuple):
-    """A block of one of the steps, which are counted from 0."""
+class _PlannedBlock:
+    """A block of one of the steps of a plan, which are counted from 0, and what it depends on."""
 
-    step: int
-    place: BlockIndex
+    def __init__(self, plan: Plan, step: int, place: BlockIndex) -> None:
+        self._plan, self.step, self.place = plan, step, place
+        self._grid, self._survey = plan.grids[step], plan.surveys[step]
+
+    @property
+    def key(self) -> tuple[int, BlockIndex]:
+        """What blocks are sorted by."""
+        return self.step, self.place
+
+    @cached_property
+    def sources(self) -> list[Path]:
+        """The files with points that it may need."""
+        return sources_of(self._grid, self._survey, self.place)
+
+    @cached_property
+    def needs(self) -> frozenset[_PlannedBlock]:
+        """The blocks of earlier steps, of those that change classes, whose results it needs."""
+        box, plan = self._grid.window([self.place]), self._plan
+        found = []
+        for number in filter(plan.gives_classes, range(self.step)):
+            columns, rows = plan.grids[number].places_in(box)
+            for tile in plan.seen.touching(box):
+                for block in plan.blocks_of(tile, number):
+                    if block.place.column in columns and block.place.row in rows:
+                        found.append(block)
+        return frozenset(found)
+
+    @cached_property
+    def inputs(self) -> frozenset[Path]:
+        """The files that affect its result."""
+        return frozenset(self.sources).union(*(block.inputs for block in self.needs))
+
+    @cached_property
+    def file(self) -> Path:
+        """The file for its result."""
+        plan, end = self._plan, self.step + 1
+        stamps = plan.stamps_of(self.inputs)
+        return block_file(plan.grids[:end], plan.steps[:end], plan.folder, self.place, stamps)
 
 
 class Plan:
@@ -55,28 +100,27 @@ class Plan:
         folder: Path,
         progress: Progress = SILENT,
     ) -> None:
-        self._survey, self._targets, self._steps, self._folder = survey, targets, steps, folder
+        self.steps, self.folder, self._targets = steps, folder, targets
         frame = survey_frame(survey.crs)
-        self._grids = [BlockGrid(frame, step.blocks, survey.stated) for step in steps]
-        # Taken before any of them is read.
+        self.grids = [BlockGrid(frame, step.blocks, survey.stated) for step in steps]
+        # Before any of them is read.
         self._stamps = {tile.path: stamp_of(tile.path) for tile in survey.tiles}
-        self._places: dict[tuple[int, Path], list[BlockIndex]] = {}
-        self._needed: dict[_Wanted, frozenset[_Wanted]] = {}
-        self._inputs: dict[_Wanted, frozenset[Path]] = {}
-        # Those of several blocks, which many small files share.
-        self._together: dict[tuple[_Wanted, ...], list[Path]] = {}
-        self._files: dict[_Wanted, Path] = {}
+        self._blocks: dict[tuple[int, BlockIndex], _PlannedBlock] = {}
+        self._blocks_of: dict[tuple[Path, int], list[_PlannedBlock]] = {}
+        # The files that affect those in several blocks, which many small files share.
+        self._inputs: dict[tuple[_PlannedBlock, ...], list[Path]] = {}
         self.kept: list[Any] = []  # summaries of the outputs that an earlier run finished
         self.failures: dict[Path, str] = {}  # why files cannot be done
-        skipped = {tile.path for tile in survey.tiles if any(step.skips(tile) for step in steps)}
-        # files of which no point is to be written, by their headers
-        self.empty_count = len(skipped)
-        # Their points take part only in the first step.
-        self._seen = dataclasses.replace(
-            survey, tiles=tuple(tile for tile in survey.tiles if tile.path not in skipped)
+        self.seen = dataclasses.replace(
+            survey,
+            tiles=tuple(t for t in survey.tiles if not any(step.skips(t) for step in steps)),
         )
+        # files of which no point is to be written, by their headers
+        self.empty_count = len(survey.tiles) - len(self.seen.tiles)
+        # Their points take part only in the first step.
+        self.surveys = [survey, *[self.seen] * (len(steps) - 1)]
         self.todo: list[LasFile] = []  # the files that are to be done
-        for number, tile in enumerate(self._seen.tiles, start=1):
+        for number, tile in enumerate(self.seen.tiles, start=1):
             try:
                 for step in steps:
                     step.check_tile(tile)
@@ -84,7 +128,41 @@ class Plan:
                 self.todo.append(tile)
             except BareEarthError as error:
                 self.failures[tile.path] = str(error)
-            progress(number / len(self._seen.tiles))
+            progress(number / len(self.seen.tiles))
+
+    def gives_classes(self, number: int) -> bool:
+        """Return whether a step changes classes, so that others must see what it found."""
+        return self.steps[number].gives_classes
+
+    def stamps_of(self, paths: Iterable[Path]) -> list[Stamp]:
+        """Return what shows whether some inputs have changed."""
+        return [self._stamps[path] for path in sorted(paths)]
+
+    def blocks_of(self, tile: LasFile, number: int) -> list[_PlannedBlock]:
+        """Return the blocks of a step that may hold points of a file."""
+        key = tile.path, number
+        if key not in self._blocks_of:
+            self._blocks_of[key] = [
+                self._blocks.setdefault((number, place), _PlannedBlock(self, number, place))
+                for place in places_of(self.grids[number], tile)
+            ]
+        return self._blocks_of[key]
+
+    def _wanted(self, tile: LasFile) -> list[_PlannedBlock]:
+        """Return the blocks of all steps that may hold points of a file."""
+        return [block for step in range(len(self.steps)) for block in self.blocks_of(tile, step)]
+
+    def _inputs_of(self, tile: LasFile) -> list[Path]:
+        """Return the files that affect the output of a file."""
+        together = tuple(self._wanted(tile))
+        if together not in self._inputs:
+            self._inputs[together] = sorted(set().union(*(block.inputs for block in together)))
+        return self._inputs[together]
+
+    def _fingerprint(self, tile: LasFile) -> Fingerprint:
+        """Return what the output of a file is made from."""
+        stamps, target = self.stamps_of(self._inputs_of(tile)), self._targets[tile.path]
+        return fingerprint_of(self.grids, self.steps, tile.path, stamps, target)
 
     def keep_finished(self, resume: bool, progress: Progress) -> None:
         """Remove files whose outputs an earlier run finished from those to do, if `resume`."""
@@ -93,7 +171,7 @@ class Plan:
             target = self._targets[tile.path]
             before = read_record(target) if resume else None
             if before is not None and before[0] == self._fingerprint(tile):
-                self.kept.append(self._steps[0].summary_type(**before[1]))
+                self.kept.append(self.steps[0].summary_type(**before[1]))
                 continue
             changed += before is not None
             remove_record(target)
@@ -115,142 +193,76 @@ class Plan:
         """
         missing = self._missing()
         least = [
-            least_memory(self._grids[number], self._survey, place) for number, place in missing
+            least_memory(self.grids[block.step], self.surveys[block.step], block.place)
+            for block in missing.values()
         ]
         workers.start(outputs, max(least, default=0), len(missing), len(self.todo))
         blocks: list[BlockJob] = []
-        for number, step in enumerate(self._steps):
-            grid, survey = self._grids[number], self._survey if number == 0 else self._seen
-            places = [wanted.place for wanted in missing if wanted.step == number]
-            groups = grouped(grid, survey, places, workers.at_once, workers.share.bytes)
-            for group in groups:
-                wanted = [_Wanted(number, place) for place in group]
-                files = tuple(map(self._file, wanted))
-                sources = tuple(sorted({path for block in wanted for path in self._sources(block)}))
-                needed = set().union(*map(self._needs, wanted))
+        for number, (step, grid, survey) in enumerate(zip(self.steps, self.grids, self.surveys)):
+            places = [place for of_step, place in missing if of_step == number]
+            for group in grouped(grid, survey, places, workers.at_once, workers.share.bytes):
+                some = [missing[number, place] for place in group]
                 blocks.append(
                     PointJob(
-                        grid, tuple(group), files, sources, points_in(survey, grid.window(group)),
-                        self._block_files(needed), frozenset(), unpacking, step,
+                        grid=grid,
+                        places=tuple(group),
+                        files=tuple(block.file for block in some),
+                        sources=tuple(sorted({path for block in some for path in block.sources})),
+                        count=points_in(survey, grid.window(group)),
+                        before=self._files_of(set().union(*(block.needs for block in some))),
+                        unpacking=unpacking,
+                        step=step,
                     )
-                )  # fmt: skip
+                )
         tiles = [
             TileJob(
-                tile, self._targets[tile.path], self._block_files(self._wanted(tile)),
+                tile, self._targets[tile.path], self._files_of(self._wanted(tile)),
                 self._fingerprint(tile), unpacking,
             )
             for tile in self.todo
         ]  # fmt: skip
         return blocks, tiles
 
-    def _missing(self) -> list[_Wanted]:
-        """Return the blocks whose results are needed and not there."""
-        todo = {wanted for tile in self.todo for wanted in self._wanted(tile)}
-        missing = set()
+    def _missing(self) -> dict[tuple[int, BlockIndex], _PlannedBlock]:
+        """Return the blocks whose results are needed and not there, sorted by their keys."""
+        todo = {block for tile in self.todo for block in self._wanted(tile)}
+        missing = {}
         while todo:
-            wanted = todo.pop()
-            if wanted not in missing and not self._file(wanted).exists():
-                missing.add(wanted)
-                todo |= self._needs(wanted)
-        return sorted(missing)
+            block = todo.pop()
+            if block.key not in missing and not block.file.exists():
+                missing[block.key] = block
+                todo |= block.needs
+        return dict(sorted(missing.items()))
 
-    def _block_files(self, some: Iterable[_Wanted]) -> tuple[BlockFiles, ...]:
+    def _files_of(self, some: Iterable[_PlannedBlock]) -> tuple[BlockFiles, ...]:
         """Return the files of some blocks, by their steps."""
         files: dict[int, dict[BlockIndex, Path]] = defaultdict(dict)
-        for wanted in sorted(some):
-            files[wanted.step][wanted.place] = self._file(wanted)
+        for block in sorted(some, key=attrgetter("key")):
+            files[block.step][block.place] = block.file
         return tuple(
-            BlockFiles(self._grids[number], self._steps[number], files[number]) for number in files
+            BlockFiles(self.grids[number], self.steps[number], files[number]) for number in files
         )
 
-    def _wanted(self, tile: LasFile) -> list[_Wanted]:
-        """Return the blocks of all steps that may hold points of a file."""
-        steps = range(len(self._steps))
-        return [_Wanted(step, place) for step in steps for place in self._touched(step, tile)]
-
-    def _touched(self, number: int, tile: LasFile) -> list[BlockIndex]:
-        """Return the blocks of a step that may hold points of a file."""
-        key = number, tile.path
-        if key not in self._places:
-            self._places[key] = places_of(self._grids[number], tile)
-        return self._places[key]
-
-    def _sources(self, wanted: _Wanted) -> list[Path]:
-        """Return the files with points that a block may need."""
-        survey = self._survey if wanted.step == 0 else self._seen
-        return sources_of(self._grids[wanted.step], survey, wanted.place)
-
-    def _needs(self, wanted: _Wanted) -> frozenset[_Wanted]:
-        """Return the blocks of earlier steps whose results a block needs."""
-        if wanted not in self._needed:
-            window = self._grids[wanted.step].window([wanted.place])
-            self._needed[wanted] = frozenset(self._round(window, wanted.step))
-        return self._needed[wanted]
-
-    def _round(self, box: Box, before: int) -> Iterator[_Wanted]:
-        """Yield the blocks of steps that change classes, before one of them, within a box."""
-        tiles = self._seen.touching(box)
-        for number in range(before):
-            if self._steps[number].gives_classes:
-                columns, rows = self._grids[number].places_in(box)
-                for tile in tiles:
-                    for place in self._touched(number, tile):
-                        if place.column in columns and place.row in rows:
-                            yield _Wanted(number, place)
-
-    def _inputs_of(self, tile: LasFile) -> list[Path]:
-        """Return the files that affect the output of a file."""
-        together = tuple(self._wanted(tile))
-        if together not in self._together:
-            every = set().union(*map(self._all_sources, together))
-            self._together[together] = sorted(every)
-        return self._together[together]
-
-    def _all_sources(self, wanted: _Wanted) -> frozenset[Path]:
-        """Return the files that affect the result of a block."""
-        if wanted not in self._inputs:
-            earlier = map(self._all_sources, self._needs(wanted))
-            self._inputs[wanted] = frozenset(self._sources(wanted)).union(*earlier)
-        return self._inputs[wanted]
-
-    def _file(self, wanted: _Wanted) -> Path:
-        """Return the file for the result of a block."""
-        if wanted not in self._files:
-            stamps = map(self._stamps.__getitem__, sorted(self._all_sources(wanted)))
-            self._files[wanted] = block_file(
-                self._grids[: wanted.step + 1], self._steps[: wanted.step + 1], self._folder,
-                wanted.place, stamps,
-            )  # fmt: skip
-        return self._files[wanted]
-
-    def _fingerprint(self, tile: LasFile) -> Fingerprint:
-        """Return what the output of a file is made from."""
-        stamps = map(self._stamps.__getitem__, self._inputs_of(tile))
-        return fingerprint_of(self._grids, self._steps, tile.path, stamps, self._targets[tile.path])
+    def _with_classes(self, tile: LasFile) -> list[_PlannedBlock]:
+        """Return the blocks of a file whose results further steps and rasters need."""
+        return [block for block in self._wanted(tile) if self.gives_classes(block.step)]
 
     def files_kept(self) -> list[Path]:
         """Return the results of blocks that rasters need after all files are written."""
-        return [
-            self._file(wanted)
-            for tile in self.todo
-            for wanted in set(self._wanted(tile))
-            if self._steps[wanted.step].gives_classes
-        ]
+        return [block.file for tile in self.todo for block in self._with_classes(tile)]
 
     def results(self, outputs: Survey) -> Results:
         """Return where to read the points that rasters are made from."""
-        inputs = {self._targets[tile.path].name: tile for tile in self._seen.tiles}
-        wanted, read_from = set(), {}
+        inputs = {self._targets[tile.path].name: tile for tile in self.seen.tiles}
+        needed, read_from = set(), {}
         for output in outputs.tiles:
             tile = inputs[output.path.name]
-            needed = [
-                block for block in self._wanted(tile) if self._steps[block.step].gives_classes
-            ]
+            blocks = self._with_classes(tile)
             # Of a file that an earlier run finished there is only the output.
-            if all(self._file(block).exists() for block in needed):
+            if all(block.file.exists() for block in blocks):
                 read_from[output.path] = tile
-                wanted.update(needed)
-        return Results(outputs, read_from, self._block_files(wanted))
+                needed.update(blocks)
+        return Results(outputs, read_from, self._files_of(needed))
 
 
 class Results:

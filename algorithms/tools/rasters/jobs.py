@@ -42,8 +42,6 @@ from .step import MakeRasters
 class RasterJob(BlockJob):
     """A job that makes the rasters of some blocks."""
 
-    step: MakeRasters
-
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
         step, counts, has_points = self.step, self.step.counts(), False
@@ -214,11 +212,17 @@ def _jobs(
         before = tuple(found.within(window) for found in results.found)
         jobs.append(
             RasterJob(
-                grid, tuple(group), tuple(files[place] for place in group), sources,
-                points_in(survey, window), before, results.finished.intersection(sources),
-                unpacked, step,
+                grid=grid,
+                places=tuple(group),
+                files=tuple(files[place] for place in group),
+                sources=sources,
+                count=points_in(survey, window),
+                before=before,
+                finished=results.finished.intersection(sources),
+                unpacking=unpacked,
+                step=step,
             )
-        )  # fmt: skip
+        )
     return jobs
 
 
