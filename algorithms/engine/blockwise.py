@@ -1,12 +1,15 @@
-"""Runs a function on the blocks of a store, as many at a time as threads and memory allow."""
+"""Runs a function on the blocks of a store, as many at a time as threads and memory allow; the loop
+of all jobs.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import itertools
 import threading
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from functools import partial
-from typing import Any, Callable, Iterator, Sequence
+from typing import Any, Callable, Collection, Iterator, Sequence
 
 import numpy as np
 
@@ -15,11 +18,12 @@ from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads, shared_threads
 from .blocks import Block, Blocks
 from .memory import GIGABYTE, GivingBack, Resources, give_back
-from .polling import ended
 from .store import BlockPoints, Corner, Store
 
 # Blocks that take so many bytes give their memory back to the system when they are done.
 _MUCH = 100_000_000
+# Seconds between two looks at running jobs.
+_POLL = 0.1
 
 
 def over_blocks(
@@ -42,7 +46,8 @@ def over_blocks(
         blocks.memory(count, len(touched) * store.leaves.side**2)
         for count, touched in zip(counts, leaves)
     ]
-    at_once = _at_once(len(todo), max(memory), resources)
+    fitting = resources.bytes // max(*memory, 1)
+    at_once = max(1, min(len(todo), resources.thread_count, fitting))
     jobs = [partial(work, block, len(todo) == 1) for block in todo]
     if max(memory) > max(resources.bytes, _MUCH):
         progress.info(
@@ -79,17 +84,8 @@ def fill(
         store.put(positions, values)
 
 
-def _at_once(number: int, largest: int, resources: Resources) -> int:
-    """Return how many blocks can be computed at once; the largest takes `largest` bytes."""
-    fitting = resources.bytes // max(largest, 1)
-    return int(max(1, min(number, resources.thread_count, fitting)))
-
-
-Job = Callable[[Progress], Any]
-
-
 def run_jobs(
-    jobs: Sequence[Job],
+    jobs: Sequence[Callable[[Progress], Any]],
     weights: Sequence[float],
     at_once: int,
     threads: int,
@@ -102,22 +98,12 @@ def run_jobs(
     # one of `SharedThreads`, the jobs use these, otherwise `threads` in all, at least one each.
     # `weights` are the shares of the jobs in the whole.
     outer = shared_threads()
-    with contextlib.nullcontext() if outer is None else outer.lent():
-        yield from _run(jobs, weights, at_once, outer or SharedThreads(threads), progress)
-
-
-def _run(
-    jobs: Sequence[Job],
-    weights: Sequence[float],
-    at_once: int,
-    shared: SharedThreads,
-    progress: Progress,
-) -> Iterator[tuple[int, Any]]:
+    shared, at_once = outer or SharedThreads(threads), max(1, at_once)
     stop, done, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
     talks: dict[int, JobProgress] = {}
     running: dict[Future[Any], int] = {}
     waiting = iter(range(len(jobs)))
-    pool = ThreadPoolExecutor(max(1, at_once), thread_name_prefix="block")
+    pool = ThreadPoolExecutor(at_once, thread_name_prefix="block")
 
     def run(number: int) -> Any:
         with shared.used():
@@ -125,10 +111,7 @@ def _run(
 
     def start() -> list[Future[Any]]:
         # Not all at once, since results that were not fetched yet would fill the memory.
-        while len(running) < max(1, at_once):
-            number = next(waiting, None)
-            if number is None:
-                break
+        for number in itertools.islice(waiting, at_once - len(running)):
             talks[number] = JobProgress(stop)
             running[pool.submit(run, number)] = number
         return list(running)
@@ -139,16 +122,31 @@ def _run(
         under_way = sum(talk.fraction * weights[number] for number, talk in talks.items())
         progress((done + under_way) / total)
 
-    try:
-        for future in ended(start, look):
-            number = running.pop(future)
-            result = future.result()
-            del talks[number]
-            done += weights[number]
-            yield number, result
-    finally:
-        stop.set()
-        pool.shutdown(wait=False, cancel_futures=True)
+    with contextlib.nullcontext() if outer is None else outer.lent():
+        try:
+            for future in ended(start, look):
+                number = running.pop(future)
+                result = future.result()
+                del talks[number]
+                done += weights[number]
+                yield number, result
+        finally:
+            stop.set()
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def ended(
+    start: Callable[[], Collection[Future[Any]]], look: Callable[[], None]
+) -> Iterator[Future[Any]]:
+    """Yield jobs as they end until none runs; `start` begins what may run and returns what runs,
+    `look` is called ten times a second and ends the loop if it raises.
+    """
+    # Threads, processes and the workers of a cluster all have such futures. `look` is called in the
+    # calling thread, also when a job ends, before it is yielded.
+    while running := start():
+        done, _ = wait(running, _POLL, FIRST_COMPLETED)
+        look()
+        yield from (future for future in running if future in done)
 
 
 class JobProgress(Notes):

@@ -20,9 +20,9 @@ from ..core.temporary import make_temporary, remove_temporary
 from ..core.threads import SharedThreads
 from ..las.backends import require
 from .blockwise import JobProgress
-from .jobs import JobResult, Share, attempt
+from .jobs import Job, JobResult, Share, attempt
 from .memory import Resources, free_memory
-from .workers import SCHEDULER_GONE, Job, Running, Workers
+from .workers import SCHEDULER_GONE, Running, Workers
 
 if TYPE_CHECKING:
     from distributed import Client

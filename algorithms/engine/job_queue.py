@@ -12,10 +12,10 @@ from typing import Any, Collection, Sequence
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..core.temporary import remove
-from .jobs import BlockJob, JobCost, JobResult, TileJob
+from .blockwise import ended
+from .jobs import BlockJob, Job, JobCost, JobResult, TileJob
 from .memory import GIGABYTE
-from .polling import ended
-from .workers import SCHEDULER_GONE, Job, Running, Workers
+from .workers import SCHEDULER_GONE, Running, Workers
 
 # A point takes so many times as long in a block as for reading and writing.
 _BLOCK_WEIGHT = 2.0
@@ -82,17 +82,14 @@ class JobQueue:
     def work(self) -> None:
         """Run all jobs, and stop the workers; raise an error if the workers are gone."""
         try:
-            self._run()
+            for future in ended(self._start, self._look):
+                running = next((run for run in self._running if run.future is future), None)
+                if running is not None:  # otherwise it is suspected meanwhile
+                    self._end(running)
+            self._tell()
+            self._tell_of_memory()
         finally:
             self._workers.stop()
-
-    def _run(self) -> None:
-        for future in ended(self._start, self._look):
-            running = next((run for run in self._running if run.future is future), None)
-            if running is not None:  # otherwise it is suspected meanwhile
-                self._end(running)
-        self._tell()
-        self._tell_of_memory()
 
     def _look(self) -> None:
         """Check the workers, and report progress."""

@@ -60,7 +60,33 @@ class Share(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class BlockJob:
+class Job:
+    """Base of the jobs."""
+
+    before: tuple[BlockFiles, ...]  # what the steps before have found round its points
+    unpacking: Unpacking | None  # where inputs wait uncompressed
+
+    @property
+    def needs(self) -> list[Path]:
+        """The files that must be there before it starts."""
+        return [file for found in self.before for file in found.files.values()]
+
+    @property
+    def title(self) -> str:
+        """What it is called in reports."""
+        return "blocks"
+
+    def planned(self, resources: Resources) -> int:
+        """Return the bytes of memory that it takes at most, as far as is known before."""
+        raise NotImplementedError
+
+    def run(self, share: Share, progress: Progress) -> Any:
+        """Do it, and return a summary of what it wrote."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, eq=False)
+class BlockJob(Job):
     """A job that works on the points of some blocks."""
 
     grid: BlockGrid
@@ -68,16 +94,9 @@ class BlockJob:
     files: tuple[Path, ...]  # for the result of each block
     sources: tuple[Path, ...]  # that may have points for these blocks
     count: float  # of points in the blocks, estimated
-    before: tuple[BlockFiles, ...]  # what the steps before have found round these blocks
-    unpacking: Unpacking | None  # where sources wait uncompressed
     step: Any  # that works in these blocks
     # those of the sources that hold already what was found
     finished: frozenset[Path] = frozenset()
-
-    @property
-    def needs(self) -> list[Path]:
-        """The files that must be there before it starts."""
-        return [file for found in self.before for file in found.files.values()]
 
     def split(self) -> list[BlockJob]:
         """Return one job for each block."""
@@ -87,15 +106,6 @@ class BlockJob:
             before = tuple(found.within(window) for found in self.before)
             jobs.append(replace(self, places=(place,), files=(file,), count=count, before=before))
         return jobs
-
-    def run(self, share: Share, progress: Progress) -> None:
-        """Do it."""
-        raise NotImplementedError
-
-    @property
-    def title(self) -> str:
-        """What it is called in reports."""
-        return "blocks"
 
     def planned(self, resources: Resources) -> int:
         """Return the bytes of memory that it takes at most, as far as is known before."""
@@ -142,11 +152,24 @@ class PointJob(BlockJob):
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
-        failure = ""
+        # Files, and for each of their points the number of its block, from 1 on, or 0.
+        parts: list[tuple[Path, np.ndarray]] = []
+        counts, failure, has_work = self.step.counts(), "", False
+        codes = [code(place) for place in self.places]
         with self.store(share, self.step.kind) as store:
-            parts = self._fill(store, progress.part(0.0, 0.3))
+            for cloud in self.clouds(progress.part(0.0, 0.3)):
+                of_points = self.grid.codes(cloud)
+                blocks = np.zeros(cloud.count, dtype=np.uint8)
+                for number, block in enumerate(codes, start=1):
+                    blocks[of_points == block] = number
+                marks, wanted = self.step.marks(cloud, counts), blocks > 0
+                if marks.wanted is not None:
+                    wanted &= marks.wanted
+                has_work |= bool((wanted & marks.selected).any())
+                store.append(cloud, marks._replace(wanted=wanted))
+                parts.append((cloud.path, blocks))
             store.finish(progress.part(0.3, 0.35))
-            if any(part.has_work for part in parts):
+            if has_work:
                 try:
                     self.step.work(store, share.resources, progress.part(0.35, 0.95))
                 except BareEarthError as error:
@@ -154,61 +177,20 @@ class PointJob(BlockJob):
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
             found = BlockFiles(self.grid, self.step, dict(zip(self.places, self.files)))
             for number, place in enumerate(self.places, start=1):
-                found.write(place, self._values(number, parts, store, failure), failure)
-
-    def _fill(self, store: MemoryStore | DiskStore, progress: Progress) -> list[_SourcePoints]:
-        """Add the points that the blocks need to a store; return what else is known of them."""
-        parts, counts = [], self.step.counts()
-        here = np.array([code(place) for place in self.places])
-        for cloud in self.clouds(progress):
-            codes = self.grid.codes(cloud)
-            places = np.zeros(cloud.count, dtype=np.uint8)
-            for number, block in enumerate(here.tolist(), start=1):
-                places[codes == block] = number
-            marks = self.step.marks(cloud, counts)
-            wanted = places > 0
-            if marks.wanted is not None:
-                wanted &= marks.wanted
-            store.append(cloud, marks._replace(wanted=wanted))
-            parts.append(_SourcePoints(cloud.path, places, bool((wanted & marks.selected).any())))
-        return parts
-
-    def _values(
-        self, number: int, parts: list[_SourcePoints], store: MemoryStore | DiskStore, failure: str
-    ) -> dict[Path, np.ndarray]:
-        """Return the values of a block: for each file those of its points in it, in file order."""
-        found = {}
-        for which, part in enumerate(parts):
-            here = part.places == number
-            if failure:
-                found[part.path] = np.zeros(np.count_nonzero(here), dtype=self.step.kind)
-            else:
-                found[part.path] = store.values(which)[here]
-        return found
-
-
-class _SourcePoints(NamedTuple):
-    """What a job knows of a file, beside the points that its store holds."""
-
-    path: Path
-    places: np.ndarray  # uint8, (n,): number of the block of each point from 1, or 0
-    has_work: bool  # whether any point is to get a value
+                of_files = {}
+                for which, (path, blocks) in enumerate(parts):
+                    values = store.values(which)[blocks == number]
+                    of_files[path] = np.zeros_like(values) if failure else values
+                found.write(place, of_files, failure)
 
 
 @dataclass(frozen=True, eq=False)
-class TileJob:
-    """A job that writes a file with the values that were found for its points."""
+class TileJob(Job):
+    """A job that writes a file with what the steps found in the blocks that may hold its points."""
 
     tile: LasFile
     target: Path
-    values: tuple[BlockFiles, ...]  # of each step, in the blocks that may hold its points
     fingerprint: Fingerprint  # what the output is made from; written after the output
-    unpacking: Unpacking | None  # where the input waits uncompressed
-
-    @property
-    def needs(self) -> list[Path]:
-        """The files that must be there before it starts."""
-        return [file for found in self.values for file in found.files.values()]
 
     @property
     def title(self) -> str:
@@ -221,10 +203,10 @@ class TileJob:
 
     def run(self, share: Share, progress: Progress) -> Any:
         """Write the file; return the summary of the step, or None if there is nothing to write."""
-        las, steps = self.tile, [found.step for found in self.values]
+        las, steps = self.tile, [found.step for found in self.before]
         if self.unpacking is not None:
             las = self.unpacking.of(las, progress.part(0.0, 0.3))
-        values, counts = [BlockValues(found, las) for found in self.values], steps[0].counts()
+        values, counts = [BlockValues(found, las) for found in self.before], steps[0].counts()
         needs_records = not copies_all_else(las, self.target, steps)
         reading, resources = progress.part(0.3, 0.4).quiet(), share.resources
         with FilePoints.opened(las, self.target, resources, needs_records, reading) as points:
@@ -244,7 +226,7 @@ class TileJob:
         return summary
 
 
-def attempt(job: BlockJob | TileJob, share: Share, progress: Progress) -> JobResult:
+def attempt(job: Job, share: Share, progress: Progress) -> JobResult:
     """Run a job and return its errors in the result instead of raising them."""
     notes = _JobMessages(progress)
     begun, memory = time.monotonic(), PeakMemory() if share.is_alone else None

@@ -216,8 +216,8 @@ class Plan:
                 )
         tiles = [
             TileJob(
-                tile, self._targets[tile.path], self._files_of(self._wanted(tile)),
-                self._fingerprint(tile), unpacking,
+                self._files_of(self._wanted(tile)), unpacking, tile, self._targets[tile.path],
+                self._fingerprint(tile),
             )
             for tile in self.todo
         ]  # fmt: skip

@@ -10,12 +10,12 @@ import threading
 import time
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from pathlib import Path
-from typing import NamedTuple, Union
+from typing import NamedTuple
 
 from ..core.temporary import remove_leftovers
 from ..core.threads import Counter, SharedThreads
 from .blockwise import JobProgress
-from .jobs import BlockJob, JobResult, Share, TileJob, attempt
+from .jobs import Job, JobResult, Share, attempt
 from .manifest import folders_of
 from .memory import Resources
 
@@ -23,8 +23,6 @@ from .memory import Resources
 _PATIENCE = 0.7
 
 SCHEDULER_GONE = "The scheduler is gone. Start it again, and continue with --resume."
-
-Job = Union[BlockJob, TileJob]
 
 
 class Running(NamedTuple):
