@@ -1,8 +1,11 @@
-"""The points of one file while a run works on them: in memory, or read anew part by part."""
+"""One file while a run works on it: its points, in memory or read anew part by part, and what the
+steps of the run found for them, which is its output.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Sequence
 
@@ -13,18 +16,21 @@ from ..core.progress import SILENT, Progress
 from ..core.unnamed import unnamed_file
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
+from ..las.edits import Edits
+from ..las.extrabytes import REMEMBERED, ExtraDimension, remembers
 from ..las.lasfile import LasFile
 from ..las.reading import read_cloud, read_parts
 from ..las.records import needed
 from ..las.unpacked import has_room, unpack
-from ..survey.point_counts import PointCounts
+from ..las.writing import layers_kept, write_changed
+from ..survey.point_counts import PointCounts, by_class, count_classes
 from ..survey.shapes import Place
 from .disk_store import DiskStore, ValuesOnDisk
 from .memory import GIGABYTE, GivingBack, Resources
 from .memory_store import MemoryStore
-from .step import Step
+from .step import PointStep, Step
 from .store import Store
-from .values import numbered
+from .values import PointValues, numbered
 
 # Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
 _BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
@@ -202,3 +208,71 @@ class FilePoints:
         frame = survey_frame(read_crs(self.file), step.origin)
         store = DiskStore(self._target, frame, step.blocks, step.kind)
         return self._files.enter_context(store)
+
+
+def copies_all_else(las: LasFile, target: Path, steps: Sequence[PointStep]) -> bool:
+    """Return whether only the layers of classes are written anew, and all other bytes copied."""
+    if remembers(las) or not all(step.only_classes for step in steps):
+        return False
+    return layers_kept(las, target) is not None
+
+
+class TileResult:
+    """What the steps of a run found for the points of a file, in the order of the steps."""
+
+    def __init__(self, points: FilePoints, values: Sequence[PointValues]) -> None:
+        self._points, self._values = points, values
+        steps = [found.step for found in values]
+        # what each step found beside the classes
+        self.results = [step.result(points.path, points.allocate) for step in steps]
+        self.classification: np.ndarray | None = None
+        if any(step.gives_classes for step in steps):
+            self.classification = points.allocate(np.uint8)
+        self._remembered: np.ndarray | None = None
+        # int64, (256,): points of each class in the output
+        self.class_counts = np.zeros(256, dtype=np.int64)
+
+    def add(self, where: slice, part: PointCloud) -> None:
+        """Add the next points of the file."""
+        for result, found in zip(self.results, self._values):
+            part = result.add(where, part, found.of(where, part))
+        if self.classification is not None:
+            self.classification[where] = part.classification
+            if part.remembered is not None:
+                if self._remembered is None:
+                    self._remembered = self._points.allocate(np.uint8)
+                self._remembered[where] = part.remembered
+        classes, kept = part.classification, self.results[0].kept
+        self.class_counts += count_classes(classes if kept is None else classes[kept[where]])
+
+    def check(self) -> None:
+        """Refuse a file without a result, with the reason."""
+        for result, found in zip(self.results, self._values):
+            result.check(found.failure)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether no point is to be written."""
+        return self.results[0].is_empty
+
+    def edits(self, progress: Progress = SILENT) -> Edits:
+        """Return all changes of the file, or refuse a file that cannot hold them."""
+        edits = Edits(classification=self.classification)
+        if self._remembered is not None:
+            dimension = ExtraDimension(REMEMBERED, "Before changes by hand", self._remembered)
+            edits = dataclasses.replace(edits, remembered=dimension)
+        for result in self.results:
+            found = vars(result.edits(self._points.cloud, progress))
+            given = {name: value for name, value in found.items() if value is not None}
+            edits = dataclasses.replace(edits, **given)
+        return edits
+
+    def write(self, target: Path, progress: Progress) -> None:
+        """Write the output."""
+        points, edits = self._points, self.edits(progress)
+        progress = points.sparing(progress)
+        write_changed(points.file, target, edits, progress, points.cloud, points.memory_left)
+
+    def summary(self, name: str) -> Any:
+        """Return the summary of the output `name`, that of the first step."""
+        return self.results[0].summary(name, by_class(self.class_counts))

@@ -23,11 +23,10 @@ from ..las.opening import open_las
 from ..survey.window import may_touch, read_window
 from .block_grid import BlockGrid, BlockIndex, code, memory_of
 from .disk_store import DiskStore
-from .file_points import FilePoints, memory_of_file
+from .file_points import FilePoints, TileResult, copies_all_else, memory_of_file
 from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
 from .memory_store import MemoryStore
-from .tile_result import TileResult, copies_all_else
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, applied
 

@@ -17,11 +17,10 @@ from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import import_early, may_use
 from ..crs.measurable import require_measurable
-from ..engine.file_points import FilePoints
+from ..engine.file_points import FilePoints, TileResult, copies_all_else
 from ..engine.memory import Resources
 from ..engine.step import PointStep, Step, located
 from ..engine.store import Store
-from ..engine.tile_result import TileResult, copies_all_else
 from ..engine.values import PointValues, StoreValues, with_values
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
