@@ -95,8 +95,8 @@ class SurveyGround:
         self.counts = GroundCounts()
         tiles = list(self.survey.tiles)
         if near is not None and len(tiles) > 1:
-            tiles = [each for each in tiles if self._is_near(each, near, reach)]
-        for tile, part in zip(tiles, progress.shares(*[max(each.count, 1) for each in tiles])):
+            tiles = [tile for tile in tiles if self._is_near(tile, near, reach)]
+        for tile, part in zip(tiles, progress.shares(*[max(tile.count, 1) for tile in tiles])):
             for cloud in read_parts(tile, part.quiet()):
                 yield cloud, self.ground.of(cloud, self.counts)
 
@@ -105,7 +105,7 @@ class SurveyGround:
         self.ground.check(self.counts, Path(self.place.name))
 
     def _is_near(self, tile: LasFile, places: np.ndarray, reach: float) -> bool:
-        west, south, east, north = (each * self.frame.horizontal_unit for each in tile.outer_box)
+        west, south, east, north = np.multiply(tile.outer_box, self.frame.horizontal_unit).tolist()
         x, y = places.T
         inside = (x >= west - reach) & (x <= east + reach)
         return bool((inside & (y >= south - reach) & (y <= north + reach)).any())
@@ -153,7 +153,7 @@ class SurveyGround:
             if chooser is not None:
                 points = points.take(chooser(points.x, points.y))
             waiting.append(points)
-            if sum(each.count for each in waiting) >= _TOGETHER:
+            if sum(points.count for points in waiting) >= _TOGETHER:
                 yield Points(*map(np.concatenate, zip(*waiting)))
                 waiting = []
         if waiting:
@@ -164,27 +164,17 @@ class _CellsRound:
     """The square cells round places, to leave out most of the other points quickly."""
 
     def __init__(self, places: np.ndarray, size: float) -> None:
-        self._size = size
-        column, row = np.floor(places.T / size).astype(np.int64)
-        self._start = int(column.min()) - 1, int(row.min()) - 1
-        self._columns = int(column.max()) - self._start[0] + 2
-        self._rows = int(row.max()) - self._start[1] + 2
-        across = np.arange(-1, 2)
-        columns = np.add.outer(column, np.tile(across, 3)).ravel()
-        self._codes = np.unique(
-            self._code(columns, np.add.outer(row, np.repeat(across, 3)).ravel())
-        )
-
-    def _code(self, column: np.ndarray, row: np.ndarray) -> np.ndarray:
-        return (row - self._start[1]) * self._columns + column - self._start[0]
+        self._size, around = size, np.arange(-1, 2)
+        self._low, self._high = places.min(axis=0) - 2 * size, places.max(axis=0) + 2 * size
+        columns, rows = np.add.outer(np.floor(places.T / size).astype(np.int64), around)
+        self._cells = np.unique((columns[:, :, None] << 32) + rows[:, None, :])
 
     def hold(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return which points lie in the cells."""
-        column = np.floor(x / self._size).astype(np.int64)
-        row = np.floor(y / self._size).astype(np.int64)
-        inside = (column >= self._start[0]) & (column < self._start[0] + self._columns)
-        inside &= (row >= self._start[1]) & (row < self._start[1] + self._rows)
-        inside[inside] = np.isin(self._code(column[inside], row[inside]), self._codes)
+        (west, south), (east, north) = self._low, self._high
+        inside = (x >= west) & (x <= east) & (y >= south) & (y <= north)
+        column, row = np.floor(np.stack((x[inside], y[inside])) / self._size).astype(np.int64)
+        inside[inside] = np.isin((column << 32) + row, self._cells)
         return inside
 
 
