@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from .runs.requests import ClassifyRequest as ClassifyRequest
     from .runs.requests import PointRequest as PointRequest
     from .runs.requests import TerrainRequest as TerrainRequest
-    from .steps.output import Output as Output
     from .survey.area import Area as Area
     from .survey.corrections import Corrections as Corrections
     from .survey.ground_classes import GroundClasses as GroundClasses
@@ -62,6 +61,7 @@ if TYPE_CHECKING:
     from .tools.compare_settings.settings import TrialOptions as TrialOptions
     from .tools.contours import Contours as Contours
     from .tools.contours import write_contours as write_contours
+    from .tools.ground.output import Output as Output
     from .tools.heights import HeightOutput as HeightOutput
     from .tools.heights import MeasureHeights as MeasureHeights
     from .tools.key_points import FindKeyPoints as FindKeyPoints
@@ -108,7 +108,7 @@ _MODULES = {
     "RasterOutput": "runs.options",
     "TileInput": "runs.options",
     "TileOutput": "runs.options",
-    "Output": "steps.output",
+    "Output": "tools.ground.output",
     "QualityOptions": "tools.quality.measuring",
     "QualityRequest": "tools.quality.measuring",
     "quality": "tools.quality.measuring:survey_quality",

@@ -25,8 +25,8 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.runs.terrain_maps import MapFiles, MapRequest, make_maps
-from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.tools.assess import AssessmentOptions, assess_files
+from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.rasters.step import RasterFiles
 
 _RASTERS = ("dtm", "dsm", "chm", "hillshade", "confidence")

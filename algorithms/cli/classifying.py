@@ -32,10 +32,10 @@ if TYPE_CHECKING:
 def _add_classify(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
     from ..runs.options import RasterOutput, TileInput, TileOutput
-    from ..steps.output import Output
     from ..survey.selection import Selection
     from ..tools.above_ground.classes import ThenAboveGround
     from ..tools.contours import Contours
+    from ..tools.ground.output import Output
     from ..tools.rasters.parameters import SurfaceModel, TerrainModel
 
     add_inputs(parser)

@@ -10,7 +10,6 @@ from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..filters import DEFAULT_METHOD, METHODS
 from ..rasters.cell_grid import ANYWHERE, RasterTarget
 from ..runs.requests import ClassifyRequest, Request
-from ..steps.output import Output
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
@@ -19,6 +18,7 @@ from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.check.accuracy import Accuracy
 from ..tools.check.checkpoints import Checkpoints
 from ..tools.contours import Contours
+from ..tools.ground.output import Output
 from ..tools.quality.measuring import QualityOptions
 from ..tools.quality.specifications import SPECIFICATIONS
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints

@@ -69,8 +69,8 @@ def _contours_after(
 
 def _classify() -> Function:
     from ..runs.one_file import Summary
-    from ..steps.output import Output
     from ..tools.above_ground.classes import ThenAboveGround
+    from ..tools.ground.output import Output
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         from ..runs.entry import classify

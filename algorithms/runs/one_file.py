@@ -28,10 +28,10 @@ from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.writing import check_cloud
 from ..rasters.writing import check_raster_output, raster_file
-from ..steps.labelling import LabelGround
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.selection import Selection
+from ..tools.ground.step import LabelGround
 from ..tools.rasters.output import RasterSize, write_rasters
 from ..tools.rasters.step import MakeRasters
 from .requests import ClassifyRequest, PointRequest, RunOptions, TerrainRequest

@@ -13,9 +13,6 @@ from ..engine.memory import Resources
 from ..engine.step import PointStep
 from ..filters import DEFAULT_METHOD, METHODS
 from ..rasters.cell_grid import ANYWHERE, RasterTarget
-from ..steps.explanation import Explanation
-from ..steps.labelling import LabelGround
-from ..steps.output import Output
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
@@ -23,6 +20,9 @@ from ..survey.selection import Selection
 from ..tools.above_ground import ClassifyAboveGround
 from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.declaration import PointTool
+from ..tools.ground.explanation import Explanation
+from ..tools.ground.output import Output
+from ..tools.ground.step import LabelGround
 from ..tools.heights import MeasureHeights
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
 from ..tools.rasters.parameters import Gaps, SurfaceModel, TerrainModel

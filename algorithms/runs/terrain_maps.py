@@ -11,10 +11,10 @@ from ..core.files import Outputs, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..las.writing import check_cloud
 from ..rasters.writing import raster_file
-from ..steps.output import Output
 from ..survey.feature_files import check_features, files_beside
 from ..survey.files import is_one_file
 from ..tools.contours import Contours, Interval, write_contours
+from ..tools.ground.output import Output
 from ..tools.rasters.parameters import MapTerrain
 from ..tools.rasters.rows import RasterFiles
 from .entry import classify

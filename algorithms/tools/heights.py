@@ -22,13 +22,14 @@ from ..grids.height_above_ground import GroundSurface, with_roads
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
 from ..las.edits import Edits
+from ..las.extrabytes import ExtraDimension
 from ..las.lasfile import LasFile
 from ..rasters.sampling import FAR_ABOVE, HeightRaster, HeightSampler
-from ..steps.output import HEIGHT_DIMENSION, height_dimension
 from ..survey.area import Area
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from .declaration import CANOPY, CLOUD, TIN, Input, PointTool
 
+HEIGHT_DIMENSION = "HeightAboveGround"
 # The buffer of a block in metres, and the memory that it takes.
 _BLOCKS = Blocks.of(100.0, Cost(150.0, 50.0))
 _INTEGERS = np.iinfo(np.int32)
@@ -206,6 +207,14 @@ class HeightsOfPoints(PointResult):
         unit = unit_name(self._unit), self._unit
         count = len(self.heights)
         return HeightSummary(name, count, self._ground_count, *extremes, *unit, class_counts)
+
+
+def height_dimension(cloud: PointCloud, heights: np.ndarray) -> ExtraDimension:
+    """Return heights above ground as an extra dimension."""
+    unit = unit_name(cloud.crs.vertical_unit)
+    return ExtraDimension(
+        HEIGHT_DIMENSION, f"Above ground, {unit}", heights.astype(np.float32, copy=False)
+    )
 
 
 def _above_raster(part: PointCloud, raster: HeightSampler) -> np.ndarray:

@@ -24,7 +24,7 @@ _PARTS = {
     "algorithms/las/writing.py": "writing",
     # Where the main thread waits for the threads of the blocks.
     "algorithms/engine/": "filtering",
-    "algorithms/steps/": "filtering",
+    "algorithms/tools/ground/": "filtering",
     "algorithms/runs/": "filtering",
     "algorithms/filters/": "filtering",
     "algorithms/grids/": "filtering",

@@ -14,8 +14,8 @@ from qgis.core import (
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
 from ...algorithms.rasters.cell_grid import ANYWHERE, RasterTarget
-from ...algorithms.steps.output import Output
 from ...algorithms.survey.area import Area, Polygon
+from ...algorithms.tools.ground.output import Output
 from .. import compat
 from .constraints import add_constraints, constraints_of
 from .corrections import add_corrections, corrections_of

@@ -10,9 +10,9 @@ from qgis.core import QgsProcessingContext, QgsProcessingOutputNumber
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
 from ...algorithms.filters import METHODS
-from ...algorithms.steps.output import Output
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.above_ground.classes import ThenAboveGround
+from ...algorithms.tools.ground.output import Output
 from ...algorithms.tools.rasters.parameters import Gaps, TerrainModel
 from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line

@@ -2,9 +2,9 @@
 
 from ...algorithms.engine import memory
 from ...algorithms.runs import options
-from ...algorithms.steps import output
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.above_ground.classes import ThenAboveGround
+from ...algorithms.tools.ground import output
 from ...algorithms.tools.rasters.parameters import Gaps, TerrainModel
 from ..i18n import mark
 from .area import add_area, add_limits, area_options, given_options, limits_of

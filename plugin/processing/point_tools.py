@@ -11,11 +11,11 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
 from ...algorithms.engine.memory import Resources
 from ...algorithms.las.writing import check_cloud
-from ...algorithms.steps.output import HEIGHT_DIMENSION
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
 from ...algorithms.tools import point_tool
 from ...algorithms.tools.declaration import Input
+from ...algorithms.tools.heights import HEIGHT_DIMENSION
 from .. import compat
 from ..i18n import mark
 from ..styles import layers

@@ -30,9 +30,9 @@ from bare_earth.algorithms.runs import many_files
 from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.options import RasterOutput, TileInput, TileOutput
 from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
-from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 from bare_earth.algorithms.tools.rasters.step import RasterFiles
 

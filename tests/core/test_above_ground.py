@@ -15,7 +15,6 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.runs.entry import classify
 from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.runs.requests import ClassifyRequest
-from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.selection import Selection
@@ -26,6 +25,7 @@ from bare_earth.algorithms.tools.above_ground.classes import (
     classes_above_ground,
 )
 from bare_earth.algorithms.tools.above_ground.local_planes import LocalPlanes
+from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from benchmarks import scenes
 from benchmarks.scenes.simple import scatter

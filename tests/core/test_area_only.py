@@ -14,10 +14,11 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.runs.entry import classify
 from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.runs.requests import ClassifyRequest
-from bare_earth.algorithms.steps.output import HEIGHT_DIMENSION, Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.vpc import read_vpc
+from bare_earth.algorithms.tools.ground.output import Output
+from bare_earth.algorithms.tools.heights import HEIGHT_DIMENSION
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 EAST, NORTH = 500_000.0, 5_700_000.0

@@ -20,9 +20,9 @@ from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import cloud as cloud_module
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.runs.one_file import classify_cloud
-from bare_earth.algorithms.steps import ground, labelling
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.ground import labelling, step
 from benchmarks.scenes.simple import village
 
 EAST, NORTH = 500_000.0, 5_700_000.0
@@ -109,7 +109,7 @@ def watched(monkeypatch, result=None, takes_known_ground=False):
     method = METHODS["slope"]._replace(
         pipeline=lambda *_: Pipeline((Watch(),)), takes_known_ground=takes_known_ground
     )
-    for module in (labelling, ground):
+    for module in (step, labelling):
         monkeypatch.setattr(module, "method_of", lambda parameters: method)
     return given
 

@@ -16,13 +16,13 @@ from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.runs import entry as runs
 from bare_earth.algorithms.runs.one_file import Summary
-from bare_earth.algorithms.steps.explanation import (
+from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.ground.explanation import (
     ExplainedCells,
     Explanation,
     described,
     rules_in,
 )
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from benchmarks.scenes.simple import village

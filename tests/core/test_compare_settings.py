@@ -14,9 +14,9 @@ from test_assessment import Tags
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las.writing import write_classified
-from bare_earth.algorithms.steps.labelling import LabelGround
 from bare_earth.algorithms.tools.compare_settings import compare_settings
 from bare_earth.algorithms.tools.compare_settings.settings import SETTINGS, TrialOptions
+from bare_earth.algorithms.tools.ground.step import LabelGround
 
 ORIGIN = (500_000.0, 5_700_000.0)
 SIDE = 120.0

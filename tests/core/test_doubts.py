@@ -12,7 +12,7 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.runs.one_file import classify_cloud
-from bare_earth.algorithms.steps.ground import label_ground
+from bare_earth.algorithms.tools.ground.labelling import label_ground
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 METHODS_BY_TYPE = {method.parameters: method for method in METHODS.values()}

@@ -11,9 +11,9 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
-from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 

@@ -15,7 +15,7 @@ from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.runs.one_file import classify_cloud
-from bare_earth.algorithms.steps.ground import blocks_of, label_ground
+from bare_earth.algorithms.tools.ground.labelling import blocks_of, label_ground
 
 PARAMETERS, LONG = (TinDensification(), GridMinimum(), SlopeFilter()), pytest.mark.long
 COLUMNS = ("x", "y", "z", "classification", "return_number", "number_of_returns", "withheld")

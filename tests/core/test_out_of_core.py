@@ -23,10 +23,10 @@ from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import copc, copc_octree, copc_points, reading
 from bare_earth.algorithms.las.reading import inspect
 from bare_earth.algorithms.las.writing import write_classified
-from bare_earth.algorithms.steps import labelling
-from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.ground import step
+from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.heights import HeightOutput
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 
@@ -44,7 +44,7 @@ def small(monkeypatch):
     monkeypatch.setattr(reading, "_CHUNK", 1700)
     monkeypatch.setattr(disk_store, "_GAP", 50)
     blocks = Blocks(80.0, 30.0, most_points=2500)
-    monkeypatch.setattr(labelling, "blocks_of", lambda parameters: blocks)
+    monkeypatch.setattr(step, "blocks_of", lambda parameters: blocks)
 
 
 @pytest.fixture
@@ -262,7 +262,7 @@ import sys
 from pathlib import Path
 import numpy as np
 from bare_earth.algorithms import cli
-from bare_earth.algorithms.steps import {module}
+from bare_earth.algorithms.tools.ground import {module}
 def late(*arguments, **options):
     print("begun", flush=True)
     {wait}
@@ -273,13 +273,13 @@ sys.exit(cli.main(sys.argv[1:]))
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without telling it")
 @pytest.mark.parametrize(
-    ("module", "number"), [("ground", signal.SIGTERM), ("labelling", signal.SIGKILL)]
+    ("module", "number"), [("labelling", signal.SIGTERM), ("step", signal.SIGKILL)]
 )
 def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path):
     # In the middle of the blocks, and when they are about to begin.
-    name = "_labels" if module == "ground" else "label_ground"
+    name = "_labels" if module == "labelling" else "label_ground"
     wait = "import time; [time.sleep(0.1) or arguments[-1](0.5) for _ in range(300)]"
-    if module == "labelling":
+    if module == "step":
         wait = "import time; time.sleep(30)"
     source, out = write(tmp_path / "in.las", 9000), tmp_path / "out"
     out.mkdir()

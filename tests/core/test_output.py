@@ -13,7 +13,8 @@ from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.writing import write_changed
-from bare_earth.algorithms.steps.output import HEIGHT_DIMENSION, Output
+from bare_earth.algorithms.tools.ground.output import Output
+from bare_earth.algorithms.tools.heights import HEIGHT_DIMENSION
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]

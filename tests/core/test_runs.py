@@ -23,10 +23,10 @@ from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.runs import entry as runs_module
 from bare_earth.algorithms.runs.many_files import write_files
 from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
-from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools import point_tool
+from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 SLOPE = SlopeFilter(preset="whitebox")

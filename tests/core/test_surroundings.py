@@ -14,8 +14,8 @@ from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.grids.cells import spacing
 from bare_earth.algorithms.las.cloud import survey_frame
-from bare_earth.algorithms.steps.ground import blocks_of, label_ground
-from bare_earth.algorithms.steps.surroundings import near, tell_spacing, thinned
+from bare_earth.algorithms.tools.ground.labelling import blocks_of, label_ground
+from bare_earth.algorithms.tools.ground.surroundings import near, tell_spacing, thinned
 
 BOX = near((0.0, 0.0, 100.0, 100.0))
 

@@ -47,13 +47,13 @@ from bare_earth.algorithms.las import reading as reading_module
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.runs.options import TileInput, TileMethod, TileOutput
-from bare_earth.algorithms.steps.ground import Label, label_ground
-from bare_earth.algorithms.steps.labelling import LabelGround
-from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
+from bare_earth.algorithms.tools.ground.labelling import Label, label_ground
+from bare_earth.algorithms.tools.ground.output import Output
+from bare_earth.algorithms.tools.ground.step import LabelGround
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())

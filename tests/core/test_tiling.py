@@ -25,9 +25,9 @@ from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.runs.one_file import classify_cloud
-from bare_earth.algorithms.steps import ground as ground_module
-from bare_earth.algorithms.steps.ground import blocks_of, label_ground
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.ground import labelling as ground_module
+from bare_earth.algorithms.tools.ground.labelling import blocks_of, label_ground
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 ORIGIN = (500_000.0, 5_700_000.0, 50.0)

@@ -24,8 +24,8 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.records import needed, read_records
-from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.window import read_window
+from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 FAST = SlopeFilter(preset="whitebox")

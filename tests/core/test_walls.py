@@ -30,24 +30,21 @@ FLOORS = {
     "report": "core grids",
     "products": "core crs grids las survey rasters filters report",
     "engine": "core crs las survey",
-    "steps": "core crs grids las survey rasters filters products engine",
-    "tools": "core crs grids las survey rasters report products engine steps",
-    "runs": "core crs grids las survey rasters filters products engine steps tools",
+    "tools": "core crs grids las survey rasters report products engine",
+    "tools/ground": "core crs grids las survey rasters filters engine",
+    "runs": "core crs grids las survey rasters filters products engine tools",
     "tools/compare_settings": (
-        "core crs grids las survey filters report products engine steps tools runs"
+        "core crs grids las survey filters report products engine tools runs"
     ),
     "delivery": "core crs grids las survey rasters filters report products engine steps tools runs",
     "library": (
         "core crs grids las survey rasters filters products engine steps tools runs delivery"
     ),
     "cli": (
-        "core crs grids las survey rasters filters products engine steps tools runs delivery"
-        " library"
+        "core crs grids las survey rasters filters products engine tools runs delivery library"
     ),
     "__main__": "cli",
-    "__init__": (
-        "core crs grids las survey rasters filters products engine steps tools runs delivery"
-    ),
+    "__init__": ("core crs grids las survey rasters filters products engine tools runs delivery"),
 }
 
 

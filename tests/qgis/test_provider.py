@@ -17,9 +17,9 @@ from qgis.PyQt.QtGui import QIcon
 from support import ALGORITHM, ROOT
 
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.steps.output import Output
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.above_ground.classes import ThenAboveGround
+from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.rasters.parameters import Gaps, TerrainModel
 from bare_earth.plugin.processing.classification import ClassificationAlgorithm
 

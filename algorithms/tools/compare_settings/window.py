@@ -25,11 +25,11 @@ from ...las.crs_records import read_crs
 from ...las.lasfile import LasFile
 from ...las.opening import open_las
 from ...report.units import Units
-from ...steps.labelling import LabelGround
 from ...survey.area import Area
 from ...survey.files import is_one_file, open_survey
 from ...survey.middle import middle_window, nearest_window
 from ...survey.window import may_touch, read_window
+from ...tools.ground.step import LabelGround
 from .settings import Setting
 
 # Metres. A wider window would take long.

@@ -4,15 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from ..core.errors import BareEarthError
-from ..core.parameters import ParameterSet, parameter
-from ..crs.system import unit_name
-from ..las.cloud import PointCloud
-from ..las.extrabytes import ExtraDimension
-
-HEIGHT_DIMENSION = "HeightAboveGround"
+from ...core.errors import BareEarthError
+from ...core.parameters import ParameterSet, parameter
+from ..heights import HEIGHT_DIMENSION
 
 
 @dataclass(frozen=True)
@@ -56,11 +50,3 @@ class Output(ParameterSet):
             raise BareEarthError(
                 "Give an extent or a boundary to write the points of the area only, or write all."
             )
-
-
-def height_dimension(cloud: PointCloud, heights: np.ndarray) -> ExtraDimension:
-    """Return heights above ground as an extra dimension."""
-    unit = unit_name(cloud.crs.vertical_unit)
-    return ExtraDimension(
-        HEIGHT_DIMENSION, f"Above ground, {unit}", heights.astype(np.float32, copy=False)
-    )

@@ -7,13 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.points import Frame, Points
-from ..core.progress import Progress
-from ..engine.store import Corner
-from ..filters.method import NOT_GROUND, Decisions
-from ..rasters.geotiff import RasterGrid
-from ..rasters.writing import write_geotiff
+from ...core.errors import BareEarthError
+from ...core.points import Frame, Points
+from ...core.progress import Progress
+from ...engine.store import Corner
+from ...filters.method import NOT_GROUND, Decisions
+from ...rasters.geotiff import RasterGrid
+from ...rasters.writing import write_geotiff
 
 # What the description of the band begins with; a list of the rules follows.
 _MEANING = f"rule that decided (+{NOT_GROUND}: not ground): "

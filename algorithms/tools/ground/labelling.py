@@ -9,21 +9,21 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.parameters import ParameterSet
-from ..core.points import Box
-from ..core.progress import SILENT, Notes, Progress
-from ..engine.blocks import Block, Blocks
-from ..engine.blockwise import over_blocks
-from ..engine.memory import Resources
-from ..engine.store import BlockPoints, Store
-from ..filters import method_of
-from ..filters.method import Decisions, warn_of_extent, warn_of_little_ground
-from ..filters.stages.outliers import below_ground
-from ..grids.bridge_decks import bridge_decks
-from ..grids.cells import apart
-from ..grids.high_groups import HighGroups
-from ..survey.selection import Selection
+from ...core.errors import BareEarthError
+from ...core.parameters import ParameterSet
+from ...core.points import Box
+from ...core.progress import SILENT, Notes, Progress
+from ...engine.blocks import Block, Blocks
+from ...engine.blockwise import over_blocks
+from ...engine.memory import Resources
+from ...engine.store import BlockPoints, Store
+from ...filters import method_of
+from ...filters.method import Decisions, warn_of_extent, warn_of_little_ground
+from ...filters.stages.outliers import below_ground
+from ...grids.bridge_decks import bridge_decks
+from ...grids.cells import apart
+from ...grids.high_groups import HighGroups
+from ...survey.selection import Selection
 from .explanation import ExplainedCells, Explanation
 from .surroundings import EVERYWHERE, near, tell_spacing, thinned
 

@@ -9,27 +9,27 @@ from typing import Sequence
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.parameters import ParameterSet
-from ..core.points import Box
-from ..core.progress import SILENT, Progress
-from ..core.words import counted
-from ..engine.blocks import Blocks
-from ..engine.memory import Resources
-from ..engine.step import Allocate, PointResult, PointStep, with_classes
-from ..engine.store import Marks, Store
-from ..filters import method_of
-from ..las.cloud import PointCloud
-from ..las.edits import Edits
-from ..las.lasfile import LasFile
-from ..survey.area import Area
-from ..survey.corrections import NO_CORRECTIONS, ByHand, Corrections
-from ..survey.kept_classes import overlapping
-from ..survey.point_chooser import PointChooser
-from ..survey.point_counts import PointCounts, by_class, count_classes
-from ..survey.selection import Selection
+from ...core.errors import BareEarthError
+from ...core.parameters import ParameterSet
+from ...core.points import Box
+from ...core.progress import SILENT, Progress
+from ...core.words import counted
+from ...engine.blocks import Blocks
+from ...engine.memory import Resources
+from ...engine.step import Allocate, PointResult, PointStep, with_classes
+from ...engine.store import Marks, Store
+from ...filters import method_of
+from ...las.cloud import PointCloud
+from ...las.edits import Edits
+from ...las.lasfile import LasFile
+from ...survey.area import Area
+from ...survey.corrections import NO_CORRECTIONS, ByHand, Corrections
+from ...survey.kept_classes import overlapping
+from ...survey.point_chooser import PointChooser
+from ...survey.point_counts import PointCounts, by_class, count_classes
+from ...survey.selection import Selection
 from .explanation import Explanation
-from .ground import Label, blocks_of, label_ground
+from .labelling import Label, blocks_of, label_ground
 from .output import Output
 
 

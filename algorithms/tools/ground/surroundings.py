@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.points import Box, Points
-from ..engine.store import BlockPoints
-from ..grids.cells import Cells, keep_spacing
+from ...core.points import Box, Points
+from ...engine.store import BlockPoints
+from ...grids.cells import Cells, keep_spacing
 
 # The box that all points are in.
 EVERYWHERE = (-np.inf, -np.inf, np.inf, np.inf)

@@ -1,1 +1,0 @@
-"""Steps: what a run can compute from the points of a survey."""
