@@ -24,7 +24,6 @@ from qgis.PyQt.QtGui import QColor, QPainter
 
 from ...algorithms.crs.system import unit_size
 from ...algorithms.rasters.looks import Categories, Picture, Ramp, Steps, Stops, Style
-from ...algorithms.steps.explanation import rules_in
 from ...algorithms.tools.ground.explanation import rules_in
 from .. import compat
 from ..i18n import tr

@@ -36,7 +36,7 @@ FLOORS = {
     "tools/compare_settings": (
         "core crs grids las survey filters report products engine tools runs"
     ),
-    "delivery": "core crs grids las survey rasters filters report products engine steps tools runs",
+    "delivery": "core crs grids las survey rasters filters report products engine tools runs",
     "library": (
         "core crs grids las survey rasters filters products engine steps tools runs delivery"
     ),

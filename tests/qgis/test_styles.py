@@ -28,7 +28,6 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import NOT_GROUND
-from bare_earth.algorithms.steps.explanation import described
 from bare_earth.algorithms.tools.ground.explanation import described
 from bare_earth.plugin.styles import clouds, layers, rasters, rules
 
