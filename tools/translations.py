@@ -51,6 +51,8 @@ def asked_texts() -> set[str]:
     from qgis.core import QgsApplication
     from qgis.PyQt.QtCore import QCoreApplication, QTranslator
 
+    from bare_earth.plugin import i18n
+
     asked = set()
 
     class Recorder(QTranslator):
@@ -64,6 +66,7 @@ def asked_texts() -> set[str]:
     provider = QgsApplication.processingRegistry().providerById("bareearth")
     for algorithm in provider.algorithms():
         visible_texts(algorithm.create())
+        i18n.tr(getattr(algorithm, "run_name", ""))  # of a group of layers
     QCoreApplication.removeTranslator(recorder)
     return asked
 

@@ -9,7 +9,7 @@ import traceback
 from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
-from ..tools import POINT_TOOLS
+from ..tools import FILE_TOOLS, POINT_TOOLS
 from . import checking, classifying, comparing, delivering, odm, products
 from .command import FAILED, USAGE
 from .options import UsageError
@@ -85,7 +85,7 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
         "--verbose", action="store_true", help="print what is done, and where an error arose"
     )
     names = {each.name for each in _COMMANDS}
-    further = (command_of(name) for name in POINT_TOOLS if name not in names)
+    further = (command_of(name) for name in (*POINT_TOOLS, *FILE_TOOLS) if name not in names)
     for each in (*_COMMANDS, *further):
         its_parser = commands.add_parser(
             each.name, parents=[common], help=each.help, description=each.description, epilog=_EMPTY

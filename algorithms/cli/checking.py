@@ -9,21 +9,8 @@ from typing import Sequence
 
 from .command import DONE, Command
 from .options import UsageError, add_crs, add_inputs, add_json, add_parameters, chosen
+from .surveys import add_checkpoints, checkpoints_of
 from .terminal import Terminal
-
-
-def add_columns(parser: argparse.ArgumentParser) -> None:
-    """Add the options that say how checkpoints are read."""
-    parser.add_argument(
-        "--columns", metavar="x=E,y=N,z=H,cover=Class,type=Use,name=ID",
-        help="the columns or attributes of the checkpoints, by name or by number from 1 on; those"
-        " that are not given are recognised by their names",
-    )  # fmt: skip
-    parser.add_argument(
-        "--checkpoints-crs", metavar="CRS",
-        help="the CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file"
-        " states, or the CRS of the points",
-    )  # fmt: skip
 
 
 def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -35,10 +22,7 @@ def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Non
 
     add_inputs(parser, "a classified file, or ")
     add_crs(parser)
-    parser.add_argument(
-        "--checkpoints", metavar="FILE", help=f"points that were surveyed on the ground ({FORMATS})"
-    )
-    add_columns(parser)
+    add_checkpoints(parser, f"points that were surveyed on the ground ({FORMATS})")
     parser.add_argument(
         "--vegetated", metavar="WORD", nargs="+", default=(),
         help="land covers with one of these words are vegetated, and no others (default: words such"
@@ -70,16 +54,12 @@ def _add_check(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Non
 
 def _check(options: argparse.Namespace) -> int:
     from ..tools.check.checking import CheckOptions, CheckOutputs, CheckRequest, check_files
-    from ..tools.check.reading import read_checkpoints
 
     sets = chosen(options)
     if options.checkpoints is None and CheckOptions.among(sets).hold_out is None:
         raise UsageError("Give --checkpoints, or a share of the ground points with --hold-out.")
-    points = options.checkpoints and read_checkpoints(
-        options.checkpoints, options.columns, options.checkpoints_crs
-    )
     request = CheckRequest.of(
-        sets, checkpoints=points, dtm=options.dtm, confidence=options.confidence,
+        sets, checkpoints=checkpoints_of(options), dtm=options.dtm, confidence=options.confidence,
         vegetated=tuple(options.vegetated), crs=options.crs,
         outputs=CheckOutputs(options.report, options.table, options.residuals),
     )  # fmt: skip

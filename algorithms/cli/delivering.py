@@ -7,16 +7,17 @@ import json
 from pathlib import Path
 from typing import Sequence
 
-from .checking import add_columns
 from .classifying import add_method
 from .command import DONE, FAILED, Command
 from .options import KEPT, add_crs, add_inputs, add_json, add_parameters, chosen
 from .surveys import (
     add_area,
+    add_checkpoints,
     add_constraints,
     add_raster_target,
     add_scheduler,
     area_of,
+    checkpoints_of,
     constraints_of,
     raster_target_of,
     workers_of,
@@ -44,11 +45,9 @@ def _add(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
         help="the folder for all outputs: a new or empty one, or that of an earlier delivery, which"
         " is replaced",
     )  # fmt: skip
-    parser.add_argument(
-        "--checkpoints", metavar="FILE",
-        help=f"points that were surveyed on the ground ({FORMATS}); see 'bare-earth check'",
-    )  # fmt: skip
-    add_columns(parser)
+    add_checkpoints(
+        parser, f"points that were surveyed on the ground ({FORMATS}); see 'bare-earth check'"
+    )
     parser.add_argument(
         "--corrections", metavar="FILE", type=Path,
         help="polygons in which you know the class; see 'bare-earth classify'",
@@ -75,15 +74,11 @@ def _deliver(options: argparse.Namespace) -> int:
     from ..delivery.request import DeliveryRequest
     from ..survey.corrections import NO_CORRECTIONS
     from ..survey.vector_files import read_corrections
-    from ..tools.check.reading import read_checkpoints
 
     corrections = options.corrections and read_corrections(options.corrections)
-    points = options.checkpoints and read_checkpoints(
-        options.checkpoints, options.columns, options.checkpoints_crs
-    )
     request = DeliveryRequest.of(
-        chosen(options), delivery=options.delivery, checkpoints=points, crs=options.crs,
-        corrections=corrections or NO_CORRECTIONS, area=area_of(options),
+        chosen(options), delivery=options.delivery, checkpoints=checkpoints_of(options),
+        corrections=corrections or NO_CORRECTIONS, area=area_of(options), crs=options.crs,
         constraints=constraints_of(options, finds_water=True),
         raster_target=raster_target_of(options),
     )  # fmt: skip

@@ -18,10 +18,10 @@ class UsageError(BareEarthError):
     """The command line contains a value that is not allowed."""
 
 
-def add_inputs(parser: argparse.ArgumentParser, first: str = "") -> None:
+def add_inputs(parser: argparse.ArgumentParser, first: str = "", name: str = "input") -> None:
     """Add the argument for the input point clouds; `first` starts its help."""
     parser.add_argument(
-        "input", metavar="INPUT", type=Path, nargs="+",
+        name, metavar="INPUT", type=Path, nargs="+",
         help=first + "files, folders, virtual point clouds (.vpc), or lists of files (.txt); all"
         " of them together are one survey",
     )  # fmt: skip

@@ -26,73 +26,6 @@ from .terminal import Terminal, tell
 from .tools import command_of
 
 
-def _add_remove_objects(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..tools.off_terrain import OffTerrain
-
-    parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
-    parser.add_argument("output", metavar="OUTPUT", type=Path, help="a GeoTIFF (.tif) to write")
-    add_json(parser)
-    add_parameters(parser, OffTerrain)
-
-
-def _remove_objects(options: argparse.Namespace) -> int:
-    from ..tools.off_terrain import OffTerrain, remove_objects_file
-
-    how = OffTerrain.among(chosen(options))
-    with Terminal(options.verbose) as progress:
-        removal = remove_objects_file(options.input, options.output, how, progress)
-    tell(options, removal, f"{options.output}: {removal.text}")
-    return DONE
-
-
-def _add_contours(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..survey.feature_files import FORMATS
-    from ..tools.contours import Contours
-
-    parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
-    parser.add_argument(
-        "output", metavar="OUTPUT", type=Path,
-        help=f"the lines to write ({', '.join(FORMATS)}); all but .geojson need pyogrio",
-    )  # fmt: skip
-    add_json(parser)
-    add_parameters(parser, Contours)
-    parser.add_argument(
-        "--interval", dest="contour_interval", metavar="N", default=argparse.SUPPRESS,
-        help="the same as --contour-interval",
-    )  # fmt: skip
-
-
-def _contours(options: argparse.Namespace) -> int:
-    from ..tools.contours import Contours, write_contours
-
-    how = Contours.among(chosen(options))
-    with Terminal(options.verbose) as progress:
-        interval = write_contours(options.input, options.output, how, progress)
-    tell(options, interval, f"{options.output}: one contour line every {interval.text()}")
-    return DONE
-
-
-def _add_relief(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..tools.relief import KINDS, ReliefPictures
-
-    parser.add_argument("input", metavar="INPUT", help="a raster that GDAL reads")
-    parser.add_argument("output", metavar="OUTPUT", type=Path, help="a GeoTIFF (.tif) to write")
-    parser.add_argument(
-        "--kind", choices=list(KINDS), default="local-relief",
-        help="what to make (default: %(default)s)",
-    )  # fmt: skip
-    add_parameters(parser, ReliefPictures)
-
-
-def _relief(options: argparse.Namespace) -> int:
-    from ..tools.relief import ReliefPictures, write_relief
-
-    how = ReliefPictures.among(chosen(options))
-    with Terminal(options.verbose) as progress:
-        write_relief(options.input, options.output, options.kind, how, progress)
-    return DONE
-
-
 def _add_terrain(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..engine.memory import Resources
     from ..runs.options import RasterOutput, TileInput
@@ -165,14 +98,7 @@ def _water(options: argparse.Namespace) -> int:
 
 # Tools that are not named here follow at the end of the list of all commands.
 COMMANDS = (
-    Command(
-        "remove-off-terrain-objects",
-        "remove buildings and trees from an elevation raster",
-        "Removes buildings, trees and other steep-sided objects from an elevation raster, and"
-        " fills the gaps smoothly.",
-        _add_remove_objects,
-        _remove_objects,
-    ),
+    command_of("remove-off-terrain-objects"),
     command_of("height"),
     command_of("above-ground"),
     command_of("key-points"),
@@ -184,22 +110,8 @@ COMMANDS = (
         _add_terrain,
         _terrain,
     ),
-    Command(
-        "contours",
-        "draw contour lines of a terrain model",
-        "Draws contour lines of an elevation raster, of its heights smoothed for the lines only.",
-        _add_contours,
-        _contours,
-    ),
-    Command(
-        "relief",
-        "make pictures of the relief of a terrain model",
-        "Makes a raster (GeoTIFF) that shows the relief of an elevation raster: local relief,"
-        " sky-view factor, openness, local dominance, slope, hillshade, or a picture of several of"
-        " them (vat, red-relief). They show mounds, walls, ditches and old paths.",
-        _add_relief,
-        _relief,
-    ),
+    command_of("contours"),
+    command_of("relief"),
     Command(
         "water",
         "find lakes and rivers in classified points",

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ..rasters.cell_grid import RasterTarget
     from ..runs.many_files import SurveySummary
     from ..survey.area import Area
+    from ..tools.check.checkpoints import Checkpoints
     from ..tools.rasters.constraints import Constraints
     from ..tools.rasters.rows import RasterFiles
 
@@ -194,6 +195,30 @@ def constraints_of(options: argparse.Namespace, finds_water: bool = False) -> Co
             read = read_lines if attribute in ("breaklines", "rivers") else read_boundary
             found[attribute] = read(path)
     return Constraints(**found)
+
+
+def add_checkpoints(parser: argparse.ArgumentParser, text: str) -> None:
+    """Add the options for checkpoints; `text` is the help of the first one."""
+    parser.add_argument("--checkpoints", metavar="FILE", help=text)
+    parser.add_argument(
+        "--columns", metavar="x=E,y=N,z=H,cover=Class,type=Use,name=ID",
+        help="the columns or attributes of the checkpoints, by name or by number from 1 on; those"
+        " that are not given are recognised by their names",
+    )  # fmt: skip
+    parser.add_argument(
+        "--checkpoints-crs", metavar="CRS",
+        help="the CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file"
+        " states, or the CRS of the points",
+    )  # fmt: skip
+
+
+def checkpoints_of(options: argparse.Namespace) -> Checkpoints | None:
+    """Return the checkpoints of the options, or None if there are none."""
+    from ..tools.check.reading import read_checkpoints
+
+    if options.checkpoints is None:
+        return None
+    return read_checkpoints(options.checkpoints, options.columns, options.checkpoints_crs)
 
 
 def add_scheduler(parser: argparse.ArgumentParser) -> None:

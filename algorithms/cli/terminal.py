@@ -67,8 +67,13 @@ def _progress_bar() -> Any:
 
 
 def tell(options: argparse.Namespace, summary: Any, text: str, always: bool = False) -> None:
-    """Print the result as JSON, or as a sentence in a terminal, or with `always` or `verbose`."""
+    """Print the result as JSON, or as a sentence if that is wanted, or with `always`."""
     if options.json:
         print(json.dumps(dataclasses.asdict(summary)))
-    elif always or options.verbose or sys.stdout.isatty():
+    elif always or is_told(options):
         print(text)
+
+
+def is_told(options: argparse.Namespace) -> bool:
+    """Return whether what was done is told: in a terminal, or with `verbose`."""
+    return bool(options.verbose) or sys.stdout.isatty()

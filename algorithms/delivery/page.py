@@ -91,7 +91,7 @@ def _figures(
             rows.append((f"{name} in a square metre", shown))
     rows.append(("Cell size of the terrain model", cell_text(request, made, units)))
     if made.interval is not None:
-        rows.append(("Contour interval", made.interval.text()))
+        rows.append(("Contour interval", made.interval.in_words()))
     if made.water is not None:
         rows.append(("Water", made.water.text))
     return rows + _accuracy(request, made)

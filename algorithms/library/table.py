@@ -385,10 +385,12 @@ def _remove_objects() -> Function:
     from ..tools.off_terrain import OffTerrain, Removal
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools.off_terrain import remove_objects_file
+        from ..tools import file_tool
+        from ..tools.running import run
 
-        progress = progress_of(values.progress)
-        return remove_objects_file(values.source, Path(values.output), sets[0], progress)
+        given, progress = {"source": values.source}, progress_of(values.progress)
+        tool = file_tool("remove-off-terrain-objects")
+        return run(tool, given, {"output": values.output}, sets, progress)
 
     return Function(
         "remove_off_terrain_objects",

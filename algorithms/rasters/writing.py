@@ -96,6 +96,11 @@ def write_geotiff(
 def check_raster_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
     """Refuse, before any work is done, a raster that could not be written at the end."""
     check_output(target, sources)
+    check_raster(target)
+
+
+def check_raster(target: Path) -> None:
+    """Refuse a raster that has the name of another format, or that no library writes."""
     if target.suffix.lower() not in (".tif", ".tiff"):
         raise BareEarthError(
             f"Cannot write {target}: rasters are written as GeoTIFF, name it .tif."

@@ -13,7 +13,7 @@ from ..las.writing import check_cloud
 from ..rasters.writing import raster_file
 from ..survey.feature_files import check_features, files_beside
 from ..survey.files import is_one_file
-from ..tools.contours import Contours, Interval, write_contours
+from ..tools.contours import Contours, Interval, draw_contours
 from ..tools.ground.output import Output
 from ..tools.rasters.parameters import MapTerrain
 from ..tools.rasters.rows import RasterFiles
@@ -86,7 +86,7 @@ def make_maps(
         summary = _classified(sources, cloud, request.classify(RasterFiles(**maps)), part, is_one)
         if files.contours:
             lines = outputs.files(files.contours, files_beside(files.contours))
-            interval = write_contours(maps["dtm"], lines, request.contours, tracing)
+            interval = draw_contours(maps["dtm"], lines, request.contours, tracing)
             summary = summary._replace(contour_interval=interval)
     return summary._replace(cloud=files.cloud) if files.cloud and is_one else summary
 

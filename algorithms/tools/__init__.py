@@ -7,10 +7,11 @@ from this declaration; see `declaration.py`.
 from __future__ import annotations
 
 import importlib
+from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from .declaration import PointTool
+    from .declaration import FileTool, PointTool
 
 
 class Listed(NamedTuple):
@@ -29,10 +30,27 @@ POINT_TOOLS = {
         "water_classes", "give classes to ground points in water and beside its shore"
     ),
 }
+# The tools that read files and write others.
+FILE_TOOLS = {
+    "remove-off-terrain-objects": Listed(
+        "off_terrain", "remove buildings and trees from an elevation raster"
+    ),
+    "contours": Listed("contours", "draw contour lines of a terrain model"),
+    "relief": Listed("relief", "make pictures of the relief of a terrain model"),
+}
 
 
 def point_tool(command: str) -> PointTool:
-    """Return the declaration of a tool, given its command."""
-    module = importlib.import_module(f".{POINT_TOOLS[command].file}", __name__)
-    tool: PointTool = module.TOOL
+    """Return the declaration of a tool for points, given its command."""
+    tool: PointTool = _module(POINT_TOOLS[command]).TOOL
     return tool
+
+
+def file_tool(command: str) -> FileTool:
+    """Return the declaration of a tool for files, given its command."""
+    tool: FileTool = _module(FILE_TOOLS[command]).TOOL
+    return tool
+
+
+def _module(listed: Listed) -> ModuleType:
+    return importlib.import_module(f".{listed.file}", __name__)

@@ -10,14 +10,15 @@ from typing import Iterator, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import Outputs
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
 from ..grids.morphology import within_square
 from ..rasters.rows import RowsOfRaster
-from ..survey.feature_files import Feature, Layer, check_features, feature_writer, files_beside
+from ..survey.feature_files import FORMATS, Feature, Layer, feature_writer
+from .declaration import FileTool, Input, Output
+from .running import run
 
 # A map with about so many lines is easy to read.
 _LINES = 20
@@ -105,9 +106,14 @@ class Interval:
     height: float  # in the unit of the raster
     unit: str = ""  # symbol of that unit; empty if the raster does not state it
 
-    def text(self, lines: int = 1) -> str:
+    def in_words(self, lines: int = 1) -> str:
         """Return the height between a number of lines, with its unit, such as 10 m."""
         return f"{lines * self.height:g} {self.unit}".rstrip()
+
+    @property
+    def text(self) -> str:
+        """What was drawn, in words."""
+        return f"one contour line every {self.in_words()}"
 
 
 def write_contours(
@@ -139,29 +145,29 @@ def write_contours(
         If the raster cannot be read, a library is missing, or the lines cannot be written; nothing
         is left behind.
     """
-    target = Path(target)
-    check_features(target, (Path(source),))
-    write = feature_writer(target)
+    return run(TOOL, {"source": source}, {"output": target}, [contours], progress)
+
+
+def draw_contours(
+    source: str | Path, output: Path, contours: Contours = Contours(), progress: Progress = SILENT
+) -> Interval:
+    """Write the contour lines of a raster into a new file; see `write_contours`."""
     raster = RowsOfRaster.of(source)
     low, high = _range_of(raster, progress.part(0.0, 0.2))
     height = contours.interval(low, high, raster.frame.vertical_unit)
     interval = Interval(height, raster.unit)
     if (high - low) / height > _MOST_LEVELS:
         raise BareEarthError(
-            f"An interval of {interval.text()} would give more than {_MOST_LEVELS:,} heights of"
+            f"An interval of {interval.in_words()} would give more than {_MOST_LEVELS:,} heights of"
             " contour lines. Choose a larger one."
         )
-    with Outputs() as outputs:
-        lines = _lines_of(raster, contours, height, progress.part(0.2, 1.0))
-        layer = Layer("contours", "LineString", _FIELDS, raster.frame.wkt, raster.epsg)
-        features = (
-            Feature((number, each.height, int(each.is_index)), each.corners)
-            for number, each in enumerate(lines)
-        )
-        file = outputs.files(target, files_beside(target))
-        count = write(file, features, layer, progress)
-        progress.info(f"{count:,} contour lines, one every {interval.text()}")
-        progress(1.0)
+    layer = Layer("contours", "LineString", _FIELDS, raster.frame.wkt, raster.epsg)
+    lines = enumerate(_lines_of(raster, contours, height, progress.part(0.2, 1.0)))
+    features = (
+        Feature((number, line.height, int(line.is_index)), line.corners) for number, line in lines
+    )
+    count = feature_writer(output)(output, features, layer, progress)
+    progress.info(f"{count:,} contour lines, one every {interval.in_words()}")
     return interval
 
 
@@ -222,3 +228,22 @@ def _is_level(heights: np.ndarray, half: int) -> np.ndarray:
 def _is_speck(line: Isoline, corners: np.ndarray, least: float) -> bool:
     """Return whether a line is closed and shorter than `least` metres."""
     return line.is_closed and float(np.hypot(*np.diff(corners, axis=0).T).sum()) < least
+
+
+TOOL = FileTool(
+    work=draw_contours,
+    sets=(Contours,),
+    inputs=(Input("source", "raster", help="a raster that GDAL reads", named="INPUT"),),
+    outputs=(
+        Output(
+            "output",
+            "features",
+            help=f"the lines to write ({', '.join(FORMATS)}); all but .geojson need pyogrio",
+            is_main=True,
+        ),
+    ),
+    flags={"contour_interval": "interval"},
+    command="contours",
+    command_about="Draws contour lines of an elevation raster, of its heights smoothed for the"
+    " lines only.",
+)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Callable, Sequence
+from typing import Any, Callable, Mapping, Sequence
 
 from ..core.parameters import ParameterSet
 from ..core.progress import Progress
@@ -13,51 +13,161 @@ from ..survey.ground_classes import GroundClasses
 
 # Search words of the toolbox that several tools share; each text is translated as a whole.
 CLOUD = "lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud"
+GROUND = (
+    "ground,bare earth,ground filter,ground classification,classify ground,extract ground,"
+    "ground points,noise,outliers,vegetation removal,smrf,pmf,csf,mcc,lasground,classifyground"
+)
 TERRAIN = "terrain,terrain model,elevation model,dtm,dem,dsm,hillshade,relief"
 CANOPY = "chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight"
 TIN = "tin,triangulation"
+RASTER = "grid,raster,rasterize,interpolate"
 
 
 @dataclass(frozen=True)
 class Input:
-    """A further input of a tool, beside the points."""
+    """An input of a tool; of one for points, one beside the points.
 
-    name: str  # of the field of the step and of the option, and in upper case of the dialog
-    kind: str  # "area", "polygons" or "raster" (a file)
-    # Makes the value of the field of the polygons, or of the path of the raster and the progress.
-    of: Callable[..., Any]
-    help: str  # of the option; of an area, what starts the help; {formats} are those of vectors
-    more: str = ""  # of an area: what ends the help of its options
+    Its kind is one of these; in brackets, what a tool gets.
+
+    - "cloud": a point cloud file (a path); "clouds": files of a survey (paths)
+    - "raster": a file with a band of heights (a path, or another name that GDAL knows)
+    - "crs": the CRS of the points, if the user states it (text)
+    - "area": a rectangle and polygons; "polygons"; of tools for points only (what `of` makes)
+    - "extent": a rectangle in the CRS of the points (a `Box`)
+    - "checkpoints": a layer or a table of points (`Checkpoints`)
+    - "words": several words (a tuple of text)
+    """
+
+    name: str  # of the argument of the work, or the field of the step, and of the option
+    kind: str
+    # Makes the value of the field of a step from polygons, or from a raster and the progress.
+    of: Callable[..., Any] = lambda value, *progress: value
+    help: str = ""  # of the option; of areas and clouds, what starts it; {formats}: of vectors
+    more: str = ""  # what ends the help of the options of an area or extent
     label: str = ""  # of the field in the dialog; empty if there is none
     field_help: str = ""
-    is_last: bool = False  # whether the field is below the outputs
+    named: str = ""  # the field and the argument, if not as the name in upper case
+    optional: bool = False  # otherwise a cloud or a raster is an argument of the command
+    advanced: bool = False
+    is_last: bool = False  # whether the field is below the parameters
     # Finds the value where the user gives no polygons, or the word automatic: given files, which of
     # their points are ground, their CRS if it is stated, and the progress.
     found: Callable[[Sequence[Path], GroundClasses, str | None, Progress], Any] | None = None
 
+    @property
+    def field_name(self) -> str:
+        """The name of the field in the dialog, and of the argument in the help of the command."""
+        return self.named or self.name.upper()
+
+
+# The CRS of the points, as most tools have it.
+CRS = Input("crs", "crs", label="CRS of the points", optional=True, advanced=True)
+
 
 @dataclass(frozen=True)
-class PointTool:
-    """A tool that writes classified files with a value or a class of each point."""
+class Output:
+    """A file that a tool writes, or a folder of rasters.
 
-    step: type[PointStep]  # its fields are the parameter sets, and the inputs by their names
-    sets: tuple[type[ParameterSet], ...]  # in the order of the command
+    Its kind is "raster", "features", "page", "table" or "folder". All outputs are checked before
+    the work begins, and get their names together when it ends.
+    """
+
+    name: str  # of the argument of the work, which gets a temporary path, and of the option
+    kind: str
+    help: str  # of the option
+    label: str = ""  # of the field in the dialog; empty if there is none
+    field_help: str = ""
+    named: str = ""  # the field and the argument, if not as the name in upper case
+    flag: str = ""  # of the command, if it is not made of the name
+    is_main: bool = False  # whether the command needs it, as an argument without a flag
+    optional: bool = True  # whether the dialog can do without it
+    by_default: bool = True  # whether the dialog makes it unless the user says no
+    look: str = ""  # how QGIS shows it: a name in `LOOKS` of plugin/styles/layers.py
+    needs: str = ""  # the input without which the dialog does not make it
+    # Of a folder: the rasters that the tool writes, by their names, in the folder that the user
+    # gives, or that file alone. The work gets their temporary paths by name.
+    files: Callable[[Path, Sequence[ParameterSet]], dict[str, Path]] | None = None
+    # Names and labels of these rasters that models in QGIS can use.
+    layers: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def field_name(self) -> str:
+        """The name of the field in the dialog, and of the argument in the help of the command."""
+        return self.named or self.name.upper()
+
+    @property
+    def option(self) -> str:
+        """The option of the command, without dashes."""
+        return self.flag or self.name.replace("_", "-")
+
+    def paths(self, path: Path, sets: Sequence[ParameterSet]) -> dict[str, Path]:
+        """Return the files that are written, by their names: of a folder several."""
+        return {self.name: path} if self.files is None else self.files(path, sets)
+
+    @property
+    def file_kind(self) -> str:
+        """The kind of its files."""
+        return self.kind if self.files is None else "raster"
+
+
+@dataclass(frozen=True)
+class Tool:
+    """What all tools declare."""
 
     command: str
     command_about: str  # its help; one line on it is in the list of all tools
-    writes: str  # what its function in the library does, after "Write classified files with"
+    sets: tuple[type[ParameterSet], ...]  # in the order of the command
 
-    identifier: str  # second half of the id in the toolbox, which never changes
-    title: str
-    summary: str  # the tooltip
-    about: str  # first paragraphs of the help
-    page: str  # in the folder docs
-    words: tuple[str, ...]  # for the search of the toolbox, separated by commas
-    output_label: str
-    output_help: str
+    identifier: str = ""  # second half of the id in the toolbox, which never changes; may be empty
+    title: str = ""
+    section: str = "Products"  # of the toolbox
+    summary: str = ""  # the tooltip
+    about: str = ""  # first paragraphs of the help
+    page: str = ""  # in the folder docs
+    words: tuple[str, ...] = ()  # for the search of the toolbox, separated by commas
+    run_name: str = ""  # of the group of layers, if it is not the title
     # Outputs that are numbers: their names, in lower case those of fields of the summary, and
     # labels.
-    numbers: tuple[tuple[str, str], ...]
+    numbers: tuple[tuple[str, str], ...] = ()
     inputs: tuple[Input, ...] = ()
-    dialog_sets: tuple[type[ParameterSet], ...] = ()  # if the dialog has another order
+    # If the dialog has another order, or other defaults: derived classes of those of the command.
+    dialog_sets: tuple[type[ParameterSet], ...] = ()
+    shown: tuple[str, ...] | None = (
+        None  # parameters not advanced in the dialog, if not as declared
+    )
+
+    @property
+    def sets_of_dialog(self) -> tuple[type[ParameterSet], ...]:
+        """The parameter sets in the order of the dialog."""
+        return self.dialog_sets or self.sets
+
+
+@dataclass(frozen=True)
+class PointTool(Tool):
+    """A tool that writes classified files with a value or a class of each point."""
+
+    step: type[PointStep] = PointStep  # its fields are the sets, and the inputs by their names
+    writes: str = ""  # what its function in the library does, after "Write classified files with"
+    output_label: str = ""
+    output_help: str = ""
     shows: str = "classes"  # how QGIS shows the output: "classes", "key points" or "heights"
+
+
+def _nothing(**given: Any) -> None:
+    """Do nothing."""
+
+
+@dataclass(frozen=True)
+class FileTool(Tool):
+    """A tool that reads files and writes others, or only tells what it finds."""
+
+    # Gets inputs and outputs by their names, None for those that are not given, the sets by the
+    # types of its defaults, and `progress`; returns what to tell: a dataclass or an object with
+    # `as_dict`, with `text` (a sentence) or `lines` (figures, which are always printed).
+    work: Callable[..., Any] = _nothing
+    outputs: tuple[Output, ...] = ()
+    titles: tuple[str, ...] = ()  # of the sets, in the help of the command
+    # Further flags of parameters, which take one value.
+    flags: Mapping[str, str] = field(default_factory=dict)
+    json: str = "what was done"  # what --json prints; empty if there is nothing to tell
+    always_tells: bool = False  # whether the command prints the text, not only with --verbose

@@ -289,6 +289,7 @@ TOOL = PointTool(
             "dtm",
             "raster",
             HeightRaster.of,
+            optional=True,
             help="measure the heights above this raster, in the CRS of the points, and not above"
             " the ground points; the points need no classes",
             label="Terrain model",

@@ -18,7 +18,8 @@ from ..core.progress import SILENT, Progress
 from ..grids.inpaint import inpaint
 from ..grids.morphology import opening
 from ..rasters.geotiff import NODATA, read_raster
-from ..rasters.writing import check_raster_output, write_geotiff
+from ..rasters.writing import write_geotiff
+from .declaration import RASTER, TERRAIN, FileTool, Input, Output
 
 # One direction of each opposite pair to the eight neighbours.
 _DIRECTIONS = ((0, 1), (1, -1), (1, 0), (1, 1))
@@ -75,7 +76,7 @@ class Removal:
 
 def remove_objects_file(
     source: str | Path,
-    target: Path,
+    output: Path,
     parameters: OffTerrain = OffTerrain(),
     progress: Progress = SILENT,
 ) -> Removal:
@@ -83,7 +84,6 @@ def remove_objects_file(
     GeoTIFF of float32 with the same grid, CRS and unit.
     """
     # An error says if the raster has no heights, or its CRS is geographic.
-    check_raster_output(target, (Path(source),))
     raster = read_raster(source, parameters.band, progress)
     progress(0.1)
     known = ~np.isnan(raster.heights)
@@ -96,8 +96,7 @@ def remove_objects_file(
     # Other heights are written as they were, not converted back and forth.
     heights = np.where(removed, heights / unit, raster.heights)
     values = np.where(known, heights, NODATA).astype(np.float32)
-    progress(1.0)  # the last moment to cancel: after this the file is there
-    write_geotiff(target, values, raster, NODATA, progress, "Height, {unit}")
+    write_geotiff(output, values, raster, NODATA, progress, "Height, {unit}")
     return Removal(int(np.count_nonzero(known)), int(np.count_nonzero(removed)))
 
 
@@ -171,3 +170,48 @@ def _grown_back(
         ground[front] = True
         progress(0.6)
     return ground.reshape(rows + 2, columns + 2)[1:-1, 1:-1]
+
+
+TOOL = FileTool(
+    work=remove_objects_file,
+    sets=(OffTerrain,),
+    inputs=(
+        Input(
+            "source",
+            "raster",
+            help="a raster that GDAL reads",
+            label="Elevation raster",
+            field_help="A surface model: a raster file with a band of heights.",
+            named="INPUT",
+        ),
+    ),
+    outputs=(
+        Output(
+            "output",
+            "raster",
+            help="a GeoTIFF (.tif) to write",
+            label="Without objects",
+            field_help="The same raster, with the terrain in place of the objects.",
+            is_main=True,
+            look="without objects",
+        ),
+    ),
+    command="remove-off-terrain-objects",
+    command_about="Removes buildings, trees and other steep-sided objects from an elevation raster,"
+    " and fills the gaps smoothly.",
+    identifier="removeoffterrainobjects",
+    title="Remove off-terrain objects",
+    summary="Removes buildings, trees and other steep-sided objects from an elevation raster.",
+    about="Makes a terrain model from a surface model, if there is no point cloud. Removes what"
+    " stands above the terrain around it, has steep edges on all sides and is not wider than the"
+    " maximum object size. Fills the gaps smoothly. Hills and slopes stay.\n"
+    "The output has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS.",
+    page="remove-off-terrain-objects",
+    words=(
+        TERRAIN,
+        RASTER,
+        "bare earth,surface,buildings,trees,vegetation,off-terrain objects,oto,whitebox,"
+        "lindsay,top-hat",
+    ),
+    numbers=(("CELL_COUNT", "Cells with a height"), ("REMOVED_COUNT", "Cells of objects")),
+)

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterable, Iterator
+from typing import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.files import Outputs, new_folder
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.progress import SILENT, Progress
 from ..core.threads import available_cpus, may_use
 from ..rasters.geotiff import NO_CELLS, NODATA, Raster, read_raster
-from ..rasters.writing import Rows, check_raster_output, raster_file, write_geotiff
+from ..rasters.writing import Rows, write_geotiff
+from .declaration import RASTER, TERRAIN, FileTool, Input, Output
 from .rasters.parameters import MapTerrain, TerrainModel
 from .rasters.rows import RASTERS, How
 from .rasters.rows import Raster as Row
+from .running import run
 
 # Cells that are worked on at a time.
 _CELLS = 4_000_000
@@ -34,12 +34,21 @@ class ReliefKinds(ParameterSet):
     """The kinds of relief to make."""
 
     kinds: tuple[str, ...] = parameter(
-        ("vat", "sky-view", "local-relief"),
+        ("local-relief",),
         kind="choices",
         label="Kinds of relief",
         choices={kind: RASTERS[name].title for kind, name in KINDS.items()},
         help="What to make, a raster for each. Archaeological topography (VAT) shows the most in"
         " one picture.",
+    )
+
+
+@dataclass(frozen=True)
+class FolderKinds(ReliefKinds):
+    """The kinds of relief to make in a folder, whatever its name is."""
+
+    kinds: tuple[str, ...] = parameter_of(
+        ReliefKinds, "kinds", default=("vat", "sky-view", "local-relief")
     )
 
 
@@ -65,7 +74,6 @@ def write_relief(
     kind: str = "local-relief",
     parameters: ReliefPictures = ReliefPictures(),
     progress: Progress = SILENT,
-    nodata: float = NODATA,
 ) -> None:
     """Write a picture of the relief of a terrain model, which need not fit into memory.
 
@@ -81,48 +89,40 @@ def write_relief(
         The size of the features, and the light.
     progress : Progress
         Receives progress and messages.
-    nodata : float
-        The value of cells without data; 0 where cells are bytes.
 
     Raises
     ------
     BareEarthError
         If there is no such kind, the raster cannot be read, or the output cannot be written.
     """
-    if kind not in KINDS:
-        raise BareEarthError(
-            f"There is no kind of relief '{kind}'. Choose one of {', '.join(KINDS)}."
-        )
-    check_raster_output(target, (Path(source),))
-    row = RASTERS[KINDS[kind]]
-    raster, nodata = read_raster(source, progress=progress, window=NO_CELLS), row.nodata(nodata)
-    strips = _strips(source, raster, row, parameters.terrain, nodata, progress)
-    rows = Rows(raster.whole, row.kind, strips, row.bands)
-    with may_use(available_cpus()):
-        write_geotiff(target, rows, raster, nodata, progress, row.shows)
-    progress(1.0)
+    sets = [ReliefKinds((kind,)), parameters]
+    run(TOOL, {"source": source}, {"output": target}, sets, progress)
 
 
-def write_reliefs(
-    source: str | Path,
-    folder: Path,
-    kinds: Iterable[str],
+def draw_reliefs(
+    source: str,
+    output: Mapping[str, Path],
     parameters: ReliefPictures = ReliefPictures(),
     progress: Progress = SILENT,
-) -> dict[str, Path]:
-    """Write pictures of the relief of a terrain model, of kinds as in `write_relief`, into a folder
-    that need not exist, all or none, and return their files, such as vat.tif.
-    """
-    targets = {kind: Path(folder) / f"{kind}.tif" for kind in kinds}
-    shares = progress.shares(*[1.0] * len(targets))
-    with Outputs() as outputs:
-        outputs.enter_context(new_folder(Path(folder)))
-        for target in targets.values():
-            check_raster_output(target, (Path(source),))
-        for (kind, target), part in zip(targets.items(), shares):
-            temporary = raster_file(outputs, target)
-            write_relief(source, temporary, kind, parameters, part)
-    return targets
+) -> None:
+    """Write pictures of the relief of a terrain model into new files, by the rasters."""
+    raster = read_raster(source, progress=progress, window=NO_CELLS)
+    for (name, path), part in zip(output.items(), progress.shares(*[1.0] * len(output))):
+        row = RASTERS[name]
+        nodata = row.nodata(NODATA)
+        strips = _strips(source, raster, row, parameters.terrain, nodata, part)
+        rows = Rows(raster.whole, row.kind, strips, row.bands)
+        with may_use(available_cpus()):
+            write_geotiff(path, rows, raster, nodata, part, row.shows)
+
+
+def files_of(output: Path, sets: Sequence[ParameterSet]) -> dict[str, Path]:
+    """Return the rasters to make: one file, or several in a folder, such as vat.tif."""
+    kinds = ReliefKinds.among(sets)
+    is_file = len(kinds.kinds) == 1 and output.suffix and not output.is_dir()
+    if is_file and not isinstance(kinds, FolderKinds):
+        return {KINDS[kinds.kinds[0]]: output}
+    return {KINDS[kind]: output / f"{kind}.tif" for kind in kinds.kinds}
 
 
 def _strips(
@@ -144,3 +144,55 @@ def _strips(
         made = row.rows(metres, how=how, unit=unit, nodata=nodata)
         yield made[..., start - first : start - first + rows, :]
         progress(0.05 + 0.85 * min(start + rows, count) / count)
+
+
+TOOL = FileTool(
+    work=draw_reliefs,
+    sets=(ReliefKinds, ReliefPictures),
+    dialog_sets=(FolderKinds, ReliefPictures),
+    inputs=(
+        Input(
+            "source",
+            "raster",
+            help="a raster that GDAL reads",
+            label="Terrain model",
+            field_help="A raster file with a band of heights.",
+            named="INPUT",
+        ),
+    ),
+    outputs=(
+        Output(
+            "output",
+            "folder",
+            help="a GeoTIFF (.tif) to write, or a folder if there are several kinds",
+            label="Folder of the rasters",
+            field_help="The folder for the rasters (GeoTIFF). They are named after what they show,"
+            " such as vat.tif and sky-view.tif.",
+            named="OUTPUT_FOLDER",
+            is_main=True,
+            files=files_of,
+            layers={name: RASTERS[name].title for name in KINDS.values()},
+        ),
+    ),
+    flags={"kinds": "kind"},
+    json="",
+    command="relief",
+    command_about="Makes a raster (GeoTIFF) that shows the relief of an elevation raster: local"
+    " relief, sky-view factor, openness, local dominance, slope, hillshade, or a picture of several"
+    " of them (vat, red-relief). They show mounds, walls, ditches and old paths.",
+    identifier="relief",
+    title="Relief of a terrain model",
+    summary="Shows mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.",
+    about="Makes pictures of the relief of any elevation raster, on the same grid: sky-view factor,"
+    " openness, local dominance, local relief, slope, hillshade, archaeological topography (VAT)"
+    " and red relief. They show small features that a hillshade of one light hides.\n"
+    "For walls and banks make the terrain model in cells of 0.25 to 0.5 m.",
+    page="relief",
+    run_name="relief",
+    words=(
+        TERRAIN,
+        RASTER,
+        "sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,"
+        "rrim,slope,archaeology,rvt,relief visualization toolbox,visualization",
+    ),
+)

@@ -2846,6 +2846,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>{} ist kein bekanntes KBS. Wählen Sie eines aus der Liste.</translation>
     </message>
     <message>
+        <source>{} is not a file. Export it as GeoTIFF first.</source>
+        <translation>{} ist keine Datei. Exportieren Sie das Raster zuerst als GeoTIFF.</translation>
+    </message>
+    <message>
         <source>{} is not a folder. Check the path.</source>
         <translation>{} ist kein Ordner. Prüfen Sie den Pfad.</translation>
     </message>

@@ -2846,6 +2846,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>{} n'est pas un SCR connu. Choisissez-en un dans la liste.</translation>
     </message>
     <message>
+        <source>{} is not a file. Export it as GeoTIFF first.</source>
+        <translation>{} n'est pas un fichier. Exportez d'abord le raster en GeoTIFF.</translation>
+    </message>
+    <message>
         <source>{} is not a folder. Check the path.</source>
         <translation>{} n'est pas un dossier. Vérifiez le chemin.</translation>
     </message>

@@ -1,6 +1,6 @@
 """The Processing algorithms: thin wrappers of the classifier.
 
-Those of the tools for points are made of the declarations of `algorithms/tools/`.
+Those of tools are made of the declarations of `algorithms/tools/`.
 """
 
 from .assess import AssessAlgorithm
@@ -10,8 +10,6 @@ from .compare_settings import CompareSettingsAlgorithm
 from .ground_filters import GROUND_FILTERS
 from .point_cloud_to_terrain import PointCloudToTerrainAlgorithm
 from .quality import QualityAlgorithm
-from .relief import ReliefAlgorithm
-from .remove_off_terrain_objects import RemoveOffTerrainObjectsAlgorithm
 from .terrain_model import TerrainModelAlgorithm
 from .water import WaterAlgorithm
 
@@ -25,6 +23,4 @@ ALGORITHMS = (
     AssessAlgorithm,
     CheckAlgorithm,
     QualityAlgorithm,
-    ReliefAlgorithm,
-    RemoveOffTerrainObjectsAlgorithm,
 )

@@ -21,12 +21,13 @@ from qgis.core import (
     QgsProcessingParameterVectorDestination,
 )
 
+from ...algorithms.core.progress import Progress
 from ...algorithms.tools.check.checkpoints import Checkpoints
 from ...algorithms.tools.check.reading import Record, checkpoints_of_rows, read_checkpoints
 from ...algorithms.tools.check.tables import SUFFIXES
 from .. import compat
 from ..i18n import mark, tr
-from .feedback import FeedbackProgress, Refusal
+from .feedback import Refusal
 from .inputs import CloudCrs, features_of, raster_of
 from .outputs import do_not_load
 
@@ -138,7 +139,7 @@ def checkpoints_of(
     parameters: dict[str, Any],
     context: QgsProcessingContext,
     crs: CloudCrs,
-    progress: FeedbackProgress,
+    progress: Progress,
 ) -> tuple[Checkpoints | None, dict[str, Any]]:
     """Return the checkpoints in the CRS of the points, and the options for the command line; a
     message says how to give a layer there.

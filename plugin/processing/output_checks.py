@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Callable, Sequence
+from typing import Any, Sequence
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -13,18 +13,11 @@ from qgis.core import (
 )
 
 from ...algorithms.core.errors import OutputInUse
-from ...algorithms.core.files import check_output
-from ...algorithms.las.writing import check_cloud
-from ...algorithms.rasters.writing import check_raster_output
-from ...algorithms.report.page import check_page
-from ...algorithms.survey.feature_files import FORMATS as LINE_FORMATS
-from ...algorithms.survey.feature_files import check_features
-from ...algorithms.survey.files import is_one_file
-from ...algorithms.survey.vpc import SUFFIX, check_vpc
+from ...algorithms.survey.feature_files import FORMATS
+from ...algorithms.survey.outputs import check_kind
+from ...algorithms.survey.vpc import SUFFIX
 from ..styles import loaded
 from .outputs import given_path
-
-Check = Callable[[Path, "tuple[Path, ...]"], None]
 
 
 def check_outputs(
@@ -39,7 +32,7 @@ def check_outputs(
         if path is None:
             continue
         try:
-            _check_of(output)(path, tuple(sources))
+            check_kind(_kind_of(output), path, sources)
         except OutputInUse:
             # Layers let go of their files before the run, which asks again.
             is_main = loaded.in_main_thread()
@@ -47,38 +40,10 @@ def check_outputs(
                 raise
 
 
-def _check_of(output: QgsProcessingParameterDefinition) -> Check:
-    """Return the check for the kind of an output."""
+def _kind_of(output: QgsProcessingParameterDefinition) -> str:
+    """Return the kind of an output."""
     if isinstance(output, QgsProcessingParameterFolderDestination):
-        return _check_folder
+        return "folder"
     ending = f".{output.defaultFileExtension()}"
-    if ending in LINE_FORMATS:
-        return check_features
-    checks: dict[str, Check] = {
-        ".html": check_page,
-        ".tif": check_raster_output,
-        SUFFIX: _check_list,
-    }
-    return checks.get(ending, _check_points)
-
-
-def _check_points(path: Path, sources: tuple[Path, ...]) -> None:
-    """Check a point cloud; for many files, it is a folder, or gets another name."""
-    if is_one_file(sources):
-        check_cloud(sources[0], path)
-    else:
-        _check_folder(path, sources)
-
-
-def _check_folder(path: Path, sources: tuple[Path, ...]) -> None:
-    """Check a folder, which is made if its own folder exists."""
-    if not path.exists():
-        check_output(path)
-
-
-def _check_list(path: Path, sources: tuple[Path, ...]) -> None:
-    """Check a virtual point cloud, which may be in the folder that the run makes."""
-    check_vpc(path)
-    if path.parent.parent.is_dir() and not path.parent.exists():
-        return
-    check_output(path, sources)
+    kinds = {".html": "page", ".tif": "raster", SUFFIX: "list"}
+    return "features" if ending in FORMATS else kinds.get(ending, "cloud")

@@ -71,6 +71,6 @@ class QualityAlgorithm(ProductAlgorithm):
         progress.info("\n".join(found.text()))
         for name, path in raster_paths(Path(folder)).items() if folder else ():
             compat.load_raster(str(path), context)
-            self.show(str(path), layers.of_quality(name))
+            self.show(str(path), layers.look_of(name))
         results = {"PAGE": page, "FOLDER": folder, **self.numbers_of(found)}
         return {name: it for name, it in results.items() if it not in (None, "")}

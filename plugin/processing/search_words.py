@@ -7,16 +7,13 @@ from typing import Iterable
 from ...algorithms.filters import METHODS
 from ...algorithms.tools.declaration import CANOPY as _CANOPY
 from ...algorithms.tools.declaration import CLOUD as _CLOUD
+from ...algorithms.tools.declaration import GROUND as _GROUND
+from ...algorithms.tools.declaration import RASTER as _RASTER
 from ...algorithms.tools.declaration import TERRAIN as _TERRAIN
 from ...algorithms.tools.declaration import TIN as _TIN
 from ..i18n import mark, tr
 
-_GROUND = mark(
-    "ground,bare earth,ground filter,ground classification,classify ground,extract ground,"
-    "ground points,noise,outliers,vegetation removal,smrf,pmf,csf,mcc,lasground,classifyground"
-)
 _TILES = mark("vpc,tiles,batch,survey,folder,many files")
-_RASTER = mark("grid,raster,rasterize,interpolate")
 
 # Groups of words, by the second half of the id.
 _WORDS = {
@@ -53,20 +50,6 @@ _WORDS = {
     "assess": (
         _CLOUD,
         mark("ground,accuracy,quality,error,validation,kappa,confusion matrix,reference"),
-    ),
-    "removeoffterrainobjects": (
-        _TERRAIN, _RASTER,
-        mark(
-            "bare earth,surface,buildings,trees,vegetation,off-terrain objects,oto,whitebox,"
-            "lindsay,top-hat"
-        ),
-    ),
-    "relief": (
-        _TERRAIN, _RASTER,
-        mark(
-            "sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,"
-            "rrim,slope,archaeology,rvt,relief visualization toolbox,visualization"
-        ),
     ),
     "terraincontours": (_CLOUD, _GROUND, _TERRAIN, mark("contours,workflow")),
     "cloudheights": (_CLOUD, _GROUND, _CANOPY, mark("height,extra bytes")),

@@ -73,6 +73,13 @@ _OTHERS = {
     "EXPLANATION": Look(mark("Deciding rules"), 6, rasters.rules, 1),
     "TERRAIN_WITH_BUILDINGS": _drawn(mark("Terrain with buildings"), _SURFACE),
 }
+# Of outputs of tools that are not rasters with a row, by the names in their declarations.
+_LOOKS: dict[str, Look | Callable[[Any], Look]] = {
+    "without objects": BARE,
+    "water": WATER,
+    "breaklines": BREAKLINES,
+    "residuals": lambda found: residuals(found.scale),
+}
 
 
 def raster_looks() -> dict[str, Look]:
@@ -81,9 +88,14 @@ def raster_looks() -> dict[str, Look]:
     return {**rows, **_OTHERS}
 
 
-def of_quality(name: str) -> Look:
-    """Return the look of a raster of the quality of a survey."""
-    row = QUALITY_RASTERS[name]
+def look_of(name: str, found: Any = None) -> Look:
+    """Return the look with the name of a raster, or of `_LOOKS`, which may depend on the result of
+    a tool.
+    """
+    if name in _LOOKS:
+        look = _LOOKS[name]
+        return look if isinstance(look, Look) else look(found)
+    row = RASTERS.get(name) or QUALITY_RASTERS[name]
     return _drawn(row.title, row.look)
 
 

@@ -48,7 +48,7 @@ def contours(interval: Interval) -> Callable[[QgsVectorLayer], None]:
         rule = is_index
         for properties, lines in ((_THICK, INDEX), (_THIN, 1)):
             symbol = QgsLineSymbol.createSimple(properties)
-            words = tr("Every {}").format(interval.text(lines))
+            words = tr("Every {}").format(interval.in_words(lines))
             each = QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, words)
             root.appendChild(each)
             rule = "ELSE"

@@ -236,10 +236,11 @@ def test_without_a_crs_metres_are_taken_with_a_warning(tmp_path):
     assert "taken as metres" in heard.warnings[0]
 
 
-def test_the_input_is_not_overwritten(tmp_path):
-    write(tmp_path / "a.tif", terrain())
-    with pytest.raises(BareEarthError, match="same file"):
-        remove_objects_file(tmp_path / "a.tif", tmp_path / "a.tif")
+def test_the_input_is_not_overwritten(tmp_path, capsys):
+    path = str(tmp_path / "a.tif")
+    write(path, terrain())
+    assert main(["remove-off-terrain-objects", path, path]) == 1
+    assert "same file" in capsys.readouterr().err
 
 
 def test_a_missing_library_is_told(tmp_path, monkeypatch):

@@ -419,7 +419,7 @@ def test_a_picture_is_no_terrain(tmp_path, capsys):
 
 
 def test_an_unknown_kind_is_refused(tmp_path):
-    with pytest.raises(Exception, match="no kind of relief 'shadow'"):
+    with pytest.raises(Exception, match="Kinds of relief must be one of hillshade"):
         write_relief(tmp_path / "dtm.tif", tmp_path / "out.tif", "shadow")
 
 

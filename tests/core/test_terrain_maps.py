@@ -37,8 +37,8 @@ def test_the_interval_of_contours_is_a_round_number_for_about_twenty_lines(low, 
 
 
 def test_an_interval_tells_its_unit_if_it_has_one():
-    assert Interval(2.5, "US survey ft").text(5) == "12.5 US survey ft"
-    assert Interval(0.25).text() == "0.25"
+    assert Interval(2.5, "US survey ft").in_words(5) == "12.5 US survey ft"
+    assert Interval(0.25).in_words() == "0.25"
 
 
 def test_an_interval_must_be_positive():

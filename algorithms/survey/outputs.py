@@ -1,0 +1,73 @@
+"""Refuses, before any work is done, outputs that could not be written at the end."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Callable, Iterable, Sequence
+
+from ..core.errors import BareEarthError
+from ..core.files import Outputs, check_distinct, check_output
+from ..las.writing import check_writable
+from ..rasters.writing import check_raster
+from .feature_files import feature_writer, files_beside
+from .files import is_one_file
+from .vpc import check_vpc
+
+
+def check_outputs(wanted: Iterable[tuple[str, Path]], sources: Sequence[Path] = ()) -> None:
+    """Refuse outputs of a run, given their kinds and paths, as `check_kind` does, or of which two
+    are the same.
+    """
+    outputs = list(wanted)
+    check_distinct(path for _, path in outputs)
+    for kind, path in outputs:
+        check_kind(kind, path, sources)
+
+
+def check_kind(kind: str, path: Path, sources: Sequence[Path] = ()) -> None:
+    """Refuse an output that has an unsuitable name or folder, is a source, or is in use, or whose
+    format needs a library that is missing; what many clouds become is a folder.
+    """
+    if kind == "folder" or (kind == "cloud" and not is_one_file(sources)):
+        # A run makes it if its own folder exists.
+        if not path.exists():
+            check_output(path)
+        return
+    if kind == "list":
+        check_vpc(path)
+        # It may be in the folder that a run makes.
+        if path.parent.parent.is_dir() and not path.parent.exists():
+            return
+    check_output(path, tuple(sources))
+    _FORMATS[kind](path)
+
+
+def place(outputs: Outputs, kind: str, path: Path) -> Path:
+    """Return where an output is written until the run ends; files that describe an old one, such as
+    statistics, will be removed.
+    """
+    if kind == "features":
+        return outputs.files(path, files_beside(path))
+    # By the statistics of old cells, QGIS would stretch the colours of new ones.
+    return outputs.file(path, [f"{path.name}.aux.xml"] if kind == "raster" else [])
+
+
+def _check_page(path: Path) -> None:
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise BareEarthError(f"Cannot write {path}: the page is HTML, name it .html.")
+
+
+def _check_table(path: Path) -> None:
+    if path.suffix.lower() != ".csv":
+        raise BareEarthError(f"Cannot write {path}: the table is CSV, name it .csv.")
+
+
+# What refuses a name, or a format without its library.
+_FORMATS: dict[str, Callable[[Path], object]] = {
+    "cloud": check_writable,
+    "features": feature_writer,
+    "list": check_vpc,
+    "page": _check_page,
+    "raster": check_raster,
+    "table": _check_table,
+}
