@@ -25,20 +25,17 @@ RASTER = "grid,raster,rasterize,interpolate"
 
 @dataclass(frozen=True)
 class Input:
-    """An input of a tool; of one for points, one beside the points.
-
-    Its kind is one of these; in brackets, what a tool gets.
-
-    - "cloud": a point cloud file (a path); "clouds": files of a survey (paths)
-    - "raster": a file with a band of heights (a path, or another name that GDAL knows)
-    - "crs": the CRS of the points, if the user states it (text)
-    - "area": a rectangle and polygons; "polygons"; of tools for points only (what `of` makes)
-    - "extent": a rectangle in the CRS of the points (a `Box`)
-    - "checkpoints": a layer or a table of points (`Checkpoints`)
-    - "words": several words (a tuple of text)
-    """
+    """An input of a tool; of one for points, one beside the points."""
 
     name: str  # of the argument of the work, or the field of the step, and of the option
+    # One of these; in brackets, what a tool gets:
+    # "cloud": a point cloud file (a path); "clouds": files of a survey (paths);
+    # "raster": a file with a band of heights (its path, or another name that GDAL knows);
+    # "crs": the CRS of the points, if the user states it (text);
+    # "area" (an `Area`) and "polygons" (what `of` makes): of tools for points only;
+    # "extent": a rectangle in the CRS of the points (a `Box`);
+    # "checkpoints": a layer or a table of points (`Checkpoints`);
+    # "words": several words (a tuple of text).
     kind: str
     # Makes the value of the field of a step from polygons, or from a raster and the progress.
     of: Callable[..., Any] = lambda value, *progress: value
@@ -66,14 +63,11 @@ CRS = Input("crs", "crs", label="CRS of the points", optional=True, advanced=Tru
 
 @dataclass(frozen=True)
 class Output:
-    """A file that a tool writes, or a folder of rasters.
+    """A file that a tool writes, or a folder of rasters; the work gets its temporary path."""
 
-    Its kind is "raster", "features", "page", "table" or "folder". All outputs are checked before
-    the work begins, and get their names together when it ends.
-    """
-
-    name: str  # of the argument of the work, which gets a temporary path, and of the option
-    kind: str
+    # All outputs are checked before the work begins, and get their names together when it ends.
+    name: str  # of the argument of the work, and of the option
+    kind: str  # "raster", "features", "page", "table" or "folder"
     help: str  # of the option
     label: str = ""  # of the field in the dialog; empty if there is none
     field_help: str = ""
