@@ -26,6 +26,7 @@ from .errors import BareEarthError
 
 _KEY = "declaration"
 _Set = TypeVar("_Set", bound="ParameterSet")
+_HasSets = TypeVar("_HasSets", bound="HasSets")
 
 
 @dataclass(frozen=True)
@@ -200,3 +201,16 @@ class ParameterSet:
             dataclasses.replace(field.metadata[_KEY], name=field.name)
             for field in dataclasses.fields(cls)
         )
+
+
+class HasSets:
+    """Base of dataclasses with a default for each field, some of which are parameter sets."""
+
+    @classmethod
+    def of(cls: type[_HasSets], sets: Iterable[ParameterSet], **fields: Any) -> _HasSets:
+        """Return one with parameter sets in any order, whose types say to which field they belong,
+        and with other fields; what no field has the type of are the `parameters`.
+        """
+        names = {type(default): name for name, default in vars(cls()).items()}
+        fields.update((names.get(type(some), "parameters"), some) for some in sets)
+        return cls(**fields)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Iterable, Mapping, TypeVar
 
 from ..core.errors import BareEarthError
-from ..core.parameters import ParameterSet
+from ..core.parameters import HasSets, ParameterSet
 from ..crs.stated import stated_wkt
 from ..engine.memory import Resources
 from ..engine.step import PointStep
@@ -52,22 +52,20 @@ class RunOptions:
 
 
 @dataclass(frozen=True)
-class Request(RunOptions):
+class Request(RunOptions, HasSets):
     """Base of the requests that have a field for each parameter set."""
 
     @classmethod
-    def of(cls: type[_Request], sets: Iterable[ParameterSet], **others: Any) -> _Request:
-        """Return a request with parameter sets in any order: the type of each decides its
-        attribute, that of others is the method.
-        """
-        fields = {type(value): name for name, value in vars(cls()).items()}
-        for each in sets:
-            if isinstance(each, TileMethod):
-                each = each.parameters
-            if isinstance(each, Gaps):
-                each = SurfaceModel(max_edge=each.max_edge)
-            others[fields.get(type(each), "parameters")] = each
-        return cls(**others)
+    def of(cls: type[_Request], sets: Iterable[ParameterSet], **fields: Any) -> _Request:
+        """Return a request with parameter sets in any order, also a method and its preset."""
+        return super().of(map(_as_kept, sets), **fields)
+
+
+def _as_kept(some: ParameterSet) -> ParameterSet:
+    """Return a parameter set of a command in the form that requests keep."""
+    if isinstance(some, TileMethod):
+        return some.parameters
+    return SurfaceModel(max_edge=some.max_edge) if isinstance(some, Gaps) else some
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterable, NamedTuple
+from typing import Iterable, NamedTuple
 
 import numpy as np
 
 from ...core.errors import BareEarthError
 from ...core.files import Outputs, check_distinct, check_output
-from ...core.parameters import ParameterSet, parameter
+from ...core.parameters import HasSets, ParameterSet, parameter
 from ...core.progress import SILENT, Progress
 from ...products.survey_ground import SurveyGround
 from ...report.page import check_page
@@ -125,7 +125,7 @@ class CheckOutputs(NamedTuple):
 
 
 @dataclass(frozen=True)
-class CheckRequest:
+class CheckRequest(HasSets):
     """A request to compare points with checkpoints, or with points that are held out.
 
     Attributes
@@ -162,6 +162,7 @@ class CheckRequest:
     outputs: CheckOutputs = field(default_factory=CheckOutputs)
     crs: str | None = None
 
+<<<<<<< HEAD
     @classmethod
     def of(cls, sets: Iterable[ParameterSet], **others: Any) -> CheckRequest:
         """Return a request with parameter sets, given in any order, and other attributes."""
@@ -169,6 +170,8 @@ class CheckRequest:
         others.update((names[type(values)], values) for values in sets)
         return cls(**others)
 
+=======
+>>>>>>> 15b2c18 (Say once how parameter sets in any order become a request)
 
 def check_files(
     sources: Iterable[Path],

@@ -10,7 +10,7 @@ from typing import Any, Iterable
 
 from ...core.errors import BareEarthError
 from ...core.files import Outputs, new_folder
-from ...core.parameters import ParameterSet, parameter
+from ...core.parameters import HasSets, ParameterSet, parameter
 from ...core.progress import SILENT, Progress
 from ...las.cloud import survey_frame
 from ...las.crs_records import WKT_RECORD
@@ -60,7 +60,7 @@ class QualityOptions(ParameterSet):
 
 
 @dataclass(frozen=True)
-class QualityRequest:
+class QualityRequest(HasSets):
     """A request to measure the quality of a survey.
 
     Attributes
@@ -83,13 +83,6 @@ class QualityRequest:
     page: Path | None = None
     folder: Path | None = None
     crs: str | None = None
-
-    @classmethod
-    def of(cls, sets: Iterable[ParameterSet], **others: Any) -> QualityRequest:
-        """Return a request with parameter sets, given in any order, and other attributes."""
-        names = {type(value): name for name, value in vars(cls()).items()}
-        others.update((names[type(each)], each) for each in sets)
-        return cls(**others)
 
 
 def survey_quality(

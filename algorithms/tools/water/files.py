@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Sequence
+from typing import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from ...core.files import Outputs, check_distinct
-from ...core.parameters import ParameterSet
+from ...core.parameters import HasSets
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...crs.system import Crs
@@ -36,7 +36,7 @@ LINE_FIELDS: dict[str, type] = {"ID": int, "KIND": str}
 
 
 @dataclass(frozen=True)
-class WaterRequest:
+class WaterRequest(HasSets):
     """A request to find water.
 
     Attributes
@@ -56,13 +56,6 @@ class WaterRequest:
     ground: GroundClasses = field(default_factory=GroundClasses)
     crs: str | None = None
     breaklines: Path | None = None
-
-    @classmethod
-    def of(cls, sets: Iterable[ParameterSet], **others: Any) -> WaterRequest:
-        """Return a request with parameter sets, given in any order, and other attributes."""
-        names = {type(value): name for name, value in vars(cls()).items()}
-        others.update((names[type(each)], each) for each in sets)
-        return cls(**others)
 
 
 @dataclass(frozen=True)
