@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+from collections import Counter
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Callable, Sequence
@@ -124,9 +125,13 @@ class PointStep(Step):
     def tell_of_survey(self, done: Sequence[Any], progress: Progress) -> None:
         """Report on all files together, given their summaries."""
 
+    def numbers(self, part: PointCloud, after: PointCloud, values: np.ndarray) -> dict[str, int]:
+        """Return numbers of points of a part, before and after, that the summary has."""
+        return {}
+
     def result(self, path: Path, allocate: Allocate) -> PointResult:
         """Return an object that collects the values of a file."""
-        raise NotImplementedError
+        return CountedPoints(self)
 
 
 class CountedClasses:
@@ -171,6 +176,23 @@ class PointResult:
     def summary(self, name: str, class_counts: dict[int, int]) -> Any:
         """Return the summary of an output with points of each class, as `summary_type`."""
         raise NotImplementedError
+
+
+class CountedPoints(PointResult):
+    """What a step that changes only classes found: the `numbers` of its summary."""
+
+    def __init__(self, step: PointStep) -> None:
+        self._step, self._numbers = step, Counter[str]()
+
+    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Count some points; return them with their classes."""
+        after = self._step.applied(part, values)
+        self._numbers.update(point_count=part.count, **self._step.numbers(part, after, values))
+        return after
+
+    def summary(self, name: str, class_counts: dict[int, int]) -> Any:
+        """Return the numbers of points."""
+        return self._step.summary_type(name, **self._numbers, class_counts=class_counts)
 
 
 def _plain(value: Any) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Sequence
 
 import numpy as np
 
@@ -243,6 +244,17 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
     found = np.full(size, -1, dtype=np.intp)
     found[index] = which  # of elements with equal keys, the last one
     return found[found >= 0]
+
+
+def cells_at(
+    x: np.ndarray, y: np.ndarray, size: float, corner: Sequence[float] = (0.0, 0.0)
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return row and column, int64 (n,), of the square cells that hold places, from a corner."""
+    row, column = (
+        np.floor((places - start) / size).astype(np.int64)
+        for places, start in ((y, corner[1]), (x, corner[0]))
+    )
+    return row, column
 
 
 def are_inside(row: np.ndarray, column: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:

@@ -6,6 +6,8 @@ from typing import Iterator, NamedTuple
 
 import numpy as np
 
+from .cells import numbered
+
 # An edge between two cells, and a level: one whole number for both.
 _LEVELS = 1 << 24
 # Edges of a square of four cells: north, east, south, west. For each set of corners that are at or
@@ -110,7 +112,7 @@ def _segments(
     rows, columns = np.nonzero(crossed)
     counts = crossed[rows, columns]
     level = np.repeat(low[rows, columns] + 1, counts)
-    level += np.arange(len(level)) - np.repeat(np.cumsum(counts) - counts, counts)
+    level += numbered(counts)
     rows, columns = np.repeat(rows, counts), np.repeat(columns, counts)
     case = sum((each[rows, columns] >= level) << bit for bit, each in enumerate(corners))
     squares = (

@@ -7,7 +7,7 @@ from typing import Iterable, Sequence
 import numpy as np
 
 from ..core.points import Box
-from .cells import numbered
+from .cells import are_inside, cells_at, numbered
 from .descent import Network, descent
 
 # Stations this near in metres are one. A line joins another one if it ends so many times half the
@@ -27,18 +27,28 @@ class NearPlaces:
     """
 
     def __init__(self, x: np.ndarray, y: np.ndarray, side: float) -> None:
-        steps = [(i * side, k * side) for i in (-1, 0, 1) for k in (-1, 0, 1)]
-        codes = [np.unique(squares(x + i, y + k, side)) for i, k in steps]
-        self._side, self._codes = side, np.unique(np.concatenate(codes))
+        row, column = cells_at(x, y, side)
+        self._side, round_each = side, np.arange(-1, 2)
+        rows, columns = np.add.outer(row, round_each), np.add.outer(column, round_each)
+        self._codes = np.unique(_numbers(rows[:, :, None], columns[:, None]))
+        self._first = rows.min(), columns.min()
+        self._shape = np.ptp(rows) + 1, np.ptp(columns) + 1
 
     def of(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return which places lie in the squares; boolean, shape (q,)."""
-        return np.isin(squares(x, y, self._side), self._codes)
+        row, column = cells_at(x, y, self._side)
+        # Most are far from the box round the squares.
+        near = are_inside(row - self._first[0], column - self._first[1], self._shape)
+        near[near] = np.isin(_numbers(row[near], column[near]), self._codes)
+        return near
 
 
 def squares(x: np.ndarray, y: np.ndarray, side: float) -> np.ndarray:
     """Return the number of the square that holds each place; int64, shape (n,)."""
-    column, row = (np.floor(each / side).astype(np.int64) for each in (x, y))
+    return _numbers(*cells_at(x, y, side))
+
+
+def _numbers(row: np.ndarray, column: np.ndarray) -> np.ndarray:
     return (row << _SHIFT) + column
 
 

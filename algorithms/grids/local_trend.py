@@ -6,6 +6,8 @@ from typing import Callable
 
 import numpy as np
 
+from .planes import means_and_moments, plane_slopes
+
 # Cells farther than so many standard deviations have no weight.
 TRUNCATE = 3.0
 # Cells along a side of the pieces in which edges are worked on.
@@ -99,15 +101,12 @@ def _fitted(
     filled: np.ndarray, weights: np.ndarray, summed: Callable[[np.ndarray, int, int], np.ndarray]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return heights and slopes of the planes, by the normal equations of least squares."""
-    one, r, c = (summed(weights, *powers) for powers in ((0, 0), (1, 0), (0, 1)))
-    rr, rc, cc = (summed(weights, *powers) for powers in ((2, 0), (1, 1), (0, 2)))
-    z, zr, zc = (summed(filled, *powers) for powers in ((0, 0), (1, 0), (0, 1)))
-    one = np.where(one > 0, one, 1.0)
-    r, c, z = r / one, c / one, z / one
+    total, *sums = (summed(weights, *powers) for powers in ((0, 0), (1, 0), (0, 1)))
+    heights, *along = (summed(filled, *powers) for powers in ((0, 0), (1, 0), (0, 1)))
+    squares = [summed(weights, *powers) for powers in ((2, 0), (1, 1), (0, 2))]
+    total = np.where(total > 0, total, 1.0)
+    r, c, z, rr, rc, cc, rz, cz = means_and_moments(total, *sums, heights, *squares, *along)
     # A little is added to the variances: a line of cells, or a single one, has no slope across it.
-    least = 1e-9 * (rr + cc) / one + 1e-9
-    rr, rc, cc = rr / one - r * r + least, rc / one - r * c, cc / one - c * c + least
-    zr, zc = zr / one - z * r, zc / one - z * c
-    determinant = rr * cc - rc * rc
-    slope_r, slope_c = (zr * cc - zc * rc) / determinant, (zc * rr - zr * rc) / determinant
+    least = 1e-9 * (squares[0] + squares[2]) / total + 1e-9
+    slope_r, slope_c = plane_slopes(rr + least, rc, cc + least, rz, cz)
     return z - slope_r * r - slope_c * c, slope_r, slope_c

@@ -9,6 +9,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import over_parts
+from .planes import means_and_moments, plane_slopes
 
 # Nearest neighbours that are used, and how many of them a side needs for a plane.
 _NEIGHBOURS, _LEAST = 16, 4
@@ -87,16 +88,12 @@ def _planes(sums: np.ndarray) -> tuple[np.ndarray, ...]:
     """Return how far (0, 0, 0) lies above planes, their slopes and misfits, from sums over
     neighbours.
     """
-    count, x, y, z, xx, xy, yy, xz, yz, zz = np.moveaxis(sums, -1, 0)
+    count, *rest, zz = np.moveaxis(sums, -1, 0)
     total = np.maximum(count, 1.0)
-    x, y, z = x / total, y / total, z / total
-    xx, xy, yy = xx / total - x * x, xy / total - x * y, yy / total - y * y
-    xz, yz, zz = xz / total - x * z, yz / total - y * z, zz / total - z * z
+    x, y, z, xx, xy, yy, xz, yz = means_and_moments(total, *rest)
+    zz = zz / total - z * z
     # A small term on the diagonal, because neighbours on one line have no slope across it.
-    stiff_xx, stiff_yy = xx + _STIFFNESS, yy + _STIFFNESS
-    determinant = stiff_xx * stiff_yy - xy * xy
-    east = (stiff_yy * xz - xy * yz) / determinant
-    north = (stiff_xx * yz - xy * xz) / determinant
+    east, north = plane_slopes(xx + _STIFFNESS, xy, yy + _STIFFNESS, xz, yz)
     rise = east * x + north * y - z
     square = zz - 2.0 * (east * xz + north * yz)
     square += east * east * xx + 2.0 * east * north * xy + north * north * yy

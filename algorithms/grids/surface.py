@@ -10,6 +10,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
+from .cells import cells_at
 from .delaunay_walk import circumcircles
 from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates
 from .tin_cells import triangles_of_cells
@@ -255,10 +256,7 @@ def _located(tin: Tin, x: np.ndarray, y: np.ndarray, cells: CellLattice | None) 
     """Return the triangle of each query, -1 for none."""
     if cells is None or not len(x) or not len(tin.triangles):
         return tin.locate(x, y)
-    column, row = (
-        np.floor((each - at) / cells.size).astype(np.int64)
-        for each, at in zip((x, y), cells.anchor)
-    )
+    row, column = cells_at(x, y, cells.size, cells.anchor)
     first_row, first_column = int(row.min()), int(column.min())
     shape = int(row.max()) - first_row + 1, int(column.max()) - first_column + 1
     if shape[0] * shape[1] > _MOST_CELLS * len(x):

@@ -82,6 +82,11 @@ class PointCloud:
         for where in parts_of(self.count, _PART):
             yield where, self.take(where)
 
+    def coordinates(self, which: slice = slice(None)) -> tuple[np.ndarray, np.ndarray]:
+        """Return x and y of points in units of the CRS, float64 (n,)."""
+        (east, north, _), (x0, y0, _) = self.scale, self.offset
+        return self.x[which] * east + x0, self.y[which] * north + y0
+
     @cached_property
     def lowest(self) -> tuple[int, int]:
         """The smallest x and y, as integers."""

@@ -19,6 +19,7 @@ from ..grids.delaunay_walk import (
     longest_edge,
     picked,
 )
+from ..grids.lines import NearPlaces
 from ..grids.tin import Tin
 from ..las.cloud import PointCloud, survey_frame
 from ..las.lasfile import LasFile
@@ -145,11 +146,11 @@ class SurveyGround:
         self, places: np.ndarray, reach: float, progress: Progress, chooser: Chooser | None
     ) -> Iterator[Points]:
         """Yield the ground points near places, many at a time."""
-        cells, frame = _CellsRound(places, reach), self.frame
+        cells, frame = NearPlaces(places[:, 0], places[:, 1], reach), self.frame
         waiting: list[Points] = []
         for cloud, ground in self.parts(progress, places, reach):
             points = cloud.points(ground, frame)
-            points = points.take(cells.hold(points.x, points.y))
+            points = points.take(cells.of(points.x, points.y))
             if chooser is not None:
                 points = points.take(chooser(points.x, points.y))
             waiting.append(points)
@@ -158,24 +159,6 @@ class SurveyGround:
                 waiting = []
         if waiting:
             yield Points(*map(np.concatenate, zip(*waiting)))
-
-
-class _CellsRound:
-    """The square cells round places, to leave out most of the other points quickly."""
-
-    def __init__(self, places: np.ndarray, size: float) -> None:
-        self._size, around = size, np.arange(-1, 2)
-        self._low, self._high = places.min(axis=0) - 2 * size, places.max(axis=0) + 2 * size
-        columns, rows = np.add.outer(np.floor(places.T / size).astype(np.int64), around)
-        self._cells = np.unique((columns[:, :, None] << 32) + rows[:, None, :])
-
-    def hold(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return which points lie in the cells."""
-        (west, south), (east, north) = self._low, self._high
-        inside = (x >= west) & (x <= east) & (y >= south) & (y <= north)
-        column, row = np.floor(np.stack((x[inside], y[inside])) / self._size).astype(np.int64)
-        inside[inside] = np.isin((column << 32) + row, self._cells)
-        return inside
 
 
 class _Nearest:

@@ -128,10 +128,7 @@ class Area(Geometry):
         """
         numbers = np.empty(cloud.count, dtype=np.int32)
         for part in parts_of(cloud.count, _POINTS_A_STEP):
-            numbers[part] = self._numbers(
-                cloud.x[part] * cloud.scale[0] + cloud.offset[0],
-                cloud.y[part] * cloud.scale[1] + cloud.offset[1],
-            )
+            numbers[part] = self._numbers(*cloud.coordinates(part))
         return numbers
 
     def _numbers(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -219,12 +219,8 @@ def height_dimension(cloud: PointCloud, heights: np.ndarray) -> ExtraDimension:
 
 def _above_raster(part: PointCloud, raster: HeightSampler) -> np.ndarray:
     """Return heights of points above a raster in metres; NaN where it has no value."""
-    x, y, z = (
-        np.asarray(column, dtype=np.float64) * scale + offset
-        for column, scale, offset in zip((part.x, part.y, part.z), part.scale, part.offset)
-    )
-    unit = part.crs.vertical_unit
-    return z * unit - raster.heights(x, y) * (raster.unit or unit)
+    z, unit = part.z * part.scale[2] + part.offset[2], part.crs.vertical_unit
+    return z * unit - raster.heights(*part.coordinates()) * (raster.unit or unit)
 
 
 def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:

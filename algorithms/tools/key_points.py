@@ -13,7 +13,7 @@ from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
 from ..engine.blockwise import fill
 from ..engine.memory import Resources
-from ..engine.step import Allocate, CountedClasses, PointResult, PointStep, with_classes
+from ..engine.step import Allocate, CountedClasses, CountedPoints, PointStep, with_classes
 from ..engine.store import BlockPoints, Corner, Marks, Store
 from ..grids.model_key_points import ModelKeyPoints, model_key_points, reach
 from ..las.cloud import PointCloud
@@ -51,20 +51,15 @@ class KeyPointMark(ParameterSet):
         " classes up to 31.",
     )
 
-    @property
-    def by_class(self) -> bool:
-        """Whether key points get a class."""
-        return self.mark_as == "class"
-
 
 @dataclass(frozen=True, order=True)
 class KeyPointSummary(CountedClasses):
     """The numbers of key points of a file."""
 
     name: str  # of the output
-    point_count: int
-    ground_count: int
-    key_point_count: int
+    point_count: int = 0
+    ground_count: int = 0
+    key_point_count: int = 0
     class_counts: dict[int, int] = field(default_factory=dict)  # in the output
 
     @property
@@ -106,12 +101,12 @@ class FindKeyPoints(PointStep):
     @property
     def gives_classes(self) -> bool:
         """Whether key points get a class, and not a flag."""
-        return self.mark.by_class
+        return self.mark.mark_as == "class"
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return the ground points."""
         self.check_tile(part)
-        also = (self.mark.key_class,) if self.mark.by_class else ()
+        also = (self.mark.key_class,) if self.gives_classes else ()
         ground = self.ground.of(part, counts, also)
         return Marks(ground, ground, ground)
 
@@ -121,7 +116,7 @@ class FindKeyPoints(PointStep):
 
     def check_tile(self, tile: LasFile | PointCloud) -> None:
         """Refuse a file whose points cannot hold the class."""
-        if self.mark.by_class:
+        if self.gives_classes:
             check_class(tile.path, tile.point_format, self.mark.key_class, "the key points")
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:
@@ -138,37 +133,33 @@ class FindKeyPoints(PointStep):
         classes[values == _KEY] = self.mark.key_class
         return with_classes(part, classes)
 
-    def result(self, path: Path, allocate: Allocate) -> KeyPointsOfPoints:
-        """Return an object that collects the key points of a file."""
-        return KeyPointsOfPoints(self, allocate)
+    def numbers(self, part: PointCloud, after: PointCloud, values: np.ndarray) -> dict[str, int]:
+        """Return how many points are ground, and how many key points."""
+        return {
+            "ground_count": int(np.count_nonzero(values)),
+            "key_point_count": int(np.count_nonzero(values == _KEY)),
+        }
+
+    def result(self, path: Path, allocate: Allocate) -> CountedPoints:
+        """Return an object that counts the key points of a file, and collects their flags."""
+        return CountedPoints(self) if self.gives_classes else _Flags(self, allocate)
 
 
-class KeyPointsOfPoints(PointResult):
-    """The key points of a file; `allocate` returns an array of one value for each point."""
+class _Flags(CountedPoints):
+    """The key points of a file that keep their class, as a flag of each point."""
 
     def __init__(self, step: FindKeyPoints, allocate: Allocate) -> None:
-        self._step = step
-        self._flags = None if step.gives_classes else allocate(np.int8)
-        self._count = self._ground_count = self._key_point_count = 0
+        super().__init__(step)
+        self._flags = allocate(np.int8)
 
     def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Count some points, and set their flags if they get no class."""
-        keys = values == _KEY
-        if self._flags is not None:
-            self._flags[where] = np.where(keys, 1, np.where(values == _OTHER, 0, -1))
-        self._count += part.count
-        self._ground_count += int(np.count_nonzero(values))
-        self._key_point_count += int(np.count_nonzero(keys))
-        return self._step.applied(part, values)
+        """Count some points, and set their flags."""
+        self._flags[where] = np.select([values == _KEY, values == _OTHER], [1, 0], -1)
+        return super().add(where, part, values)
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the flags."""
         return Edits(key_points=self._flags)
-
-    def summary(self, name: str, class_counts: dict[int, int]) -> KeyPointSummary:
-        """Return the numbers of points."""
-        numbers = self._count, self._ground_count, self._key_point_count
-        return KeyPointSummary(name, *numbers, class_counts)
 
 
 def _keys(

@@ -12,7 +12,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
 from ..engine.memory import Resources
-from ..engine.step import Allocate, CountedClasses, PointResult, PointStep, with_classes
+from ..engine.step import CountedClasses, PointStep, with_classes
 from ..engine.store import Marks, Store
 from ..grids.lines import near_rings
 from ..las.cloud import PointCloud
@@ -144,9 +144,9 @@ class WaterClassSummary(CountedClasses):
     """The points of a file that became water or ignored ground."""
 
     name: str  # of the output
-    point_count: int
-    water_count: int
-    ignored_count: int
+    point_count: int = 0
+    water_count: int = 0
+    ignored_count: int = 0
     class_counts: dict[int, int] = field(default_factory=dict)  # in the output
 
     @property
@@ -204,42 +204,20 @@ class ClassifyWater(PointStep):
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their classes; the values are not used."""
         part.require_projected()
-        x, y = (
-            np.asarray(column, dtype=np.float64) * scale + offset
-            for column, scale, offset in zip((part.x, part.y), part.scale, part.offset)
-        )
         ground = self.ground.points_of(part, self.ground.ground_classes)
         polygons, unit = self.water.polygons, part.crs.horizontal_unit
         classes = classes_at_water(
-            x, y, part.classification, ground, polygons, self.parameters, unit
+            *part.coordinates(), part.classification, ground, polygons, self.parameters, unit
         )
         return with_classes(part, classes)
 
-    def result(self, path: Path, allocate: Allocate) -> WaterOfPoints:
-        """Return an object that counts what changes in a file."""
-        return WaterOfPoints(self)
-
-
-class WaterOfPoints(PointResult):
-    """The numbers of points of a file that become water or ignored ground."""
-
-    def __init__(self, step: ClassifyWater) -> None:
-        self._step, self._count = step, 0
-        self._water_count = self._ignored_count = 0
-
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Count some points; return them with their classes."""
-        after, how = self._step.applied(part, values), self._step.parameters
+    def numbers(self, part: PointCloud, after: PointCloud, values: np.ndarray) -> dict[str, int]:
+        """Return how many points became water, and how many ignored ground."""
         new = after.classification[after.classification != part.classification]
-        self._count += part.count
-        self._water_count += int(np.count_nonzero(new == how.water_class))
-        self._ignored_count += int(np.count_nonzero(new == how.ignored_class))
-        return after
-
-    def summary(self, name: str, class_counts: dict[int, int]) -> WaterClassSummary:
-        """Return the numbers of points."""
-        numbers = self._count, self._water_count, self._ignored_count
-        return WaterClassSummary(name, *numbers, class_counts)
+        return {
+            "water_count": int(np.count_nonzero(new == self.parameters.water_class)),
+            "ignored_count": int(np.count_nonzero(new == self.parameters.ignored_class)),
+        }
 
 
 TOOL = PointTool(

@@ -18,13 +18,12 @@ from bare_earth.algorithms.runs.requests import ClassifyRequest
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.tools.above_ground.buildings import Buildings
+from bare_earth.algorithms.tools.above_ground.buildings import Buildings, planes_through
 from bare_earth.algorithms.tools.above_ground.classes import (
     AboveGround,
     ThenAboveGround,
     classes_above_ground,
 )
-from bare_earth.algorithms.tools.above_ground.local_planes import LocalPlanes
 from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from benchmarks import scenes
@@ -173,10 +172,10 @@ def test_each_plane_of_a_ridge_is_found():
     _, neighbours = cKDTree(places[:, :2]).query(places[:, :2], k=13)
     near = np.ones(neighbours.shape, dtype=bool)
     wanted = (np.abs(x - 10.0) > 0.4) & (np.abs(x - 10.0) < 1.0)
-    planes = LocalPlanes.through(places, neighbours, near, wanted, 0.02, 65.0)
-    slopes = np.abs(planes.rise[wanted, 0])
+    rise, on = planes_through(places, neighbours, near, wanted, 0.02, 65.0)
+    slopes = np.abs(rise[wanted, 0])
     assert np.mean(np.abs(slopes - 0.5) < 0.05) > 0.95
-    assert not planes.on[~wanted].any()
+    assert not on[~wanted].any()
 
 
 def test_scattered_points_and_steep_planes_have_none():
@@ -186,8 +185,8 @@ def test_scattered_points_and_steep_planes_have_none():
 
     _, neighbours = cKDTree(places[:, :2]).query(places[:, :2], k=13)
     near = np.ones(neighbours.shape, dtype=bool)
-    planes = LocalPlanes.through(places, neighbours, near, near[:, 0], 0.1, 65.0)
-    assert not planes.on.any()
+    _, on = planes_through(places, neighbours, near, near[:, 0], 0.1, 65.0)
+    assert not on.any()
 
 
 # Scenes

@@ -13,7 +13,7 @@ from ...core.progress import Progress
 from ...engine.blocks import Blocks
 from ...engine.blockwise import fill
 from ...engine.memory import Cost, Resources
-from ...engine.step import Allocate, CountedClasses, PointResult, PointStep, with_classes
+from ...engine.step import CountedClasses, PointStep, with_classes
 from ...engine.store import BlockPoints, Corner, Marks, Store
 from ...grids.height_above_ground import with_roads
 from ...las.cloud import PointCloud
@@ -35,9 +35,9 @@ class AboveGroundSummary(CountedClasses):
     """The classes of the points above the ground of a file."""
 
     name: str  # of the output
-    point_count: int
-    ground_count: int
-    changed_count: int  # points with another class than before
+    point_count: int = 0
+    ground_count: int = 0
+    changed_count: int = 0  # points with another class than before
     class_counts: dict[int, int] = field(default_factory=dict)  # in the output
 
     @property
@@ -116,29 +116,14 @@ class ClassifyAboveGround(PointStep):
         classes = np.where(values > 0, values, part.classification).astype(np.uint8)
         return with_classes(part, classes)
 
-    def result(self, path: Path, allocate: Allocate) -> ChangedClasses:
-        """Return an object that counts what changes in a file."""
-        return ChangedClasses(self)
-
-
-class ChangedClasses(PointResult):
-    """The numbers of points of a file whose class changes."""
-
-    def __init__(self, step: ClassifyAboveGround) -> None:
-        self._step, self._count, self._changed_count = step, 0, 0
-
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Count some points; return them with their classes."""
-        after = self._step.applied(part, values)
-        self._count += part.count
-        self._changed_count += int(np.count_nonzero(after.classification != part.classification))
-        return after
-
-    def summary(self, name: str, class_counts: dict[int, int]) -> AboveGroundSummary:
-        """Return the numbers of points."""
-        classes = set(self._step.ground.ground_classes)
-        ground = sum(class_counts.get(value, 0) for value in classes)
-        return AboveGroundSummary(name, self._count, ground, self._changed_count, class_counts)
+    def numbers(self, part: PointCloud, after: PointCloud, values: np.ndarray) -> dict[str, int]:
+        """Return how many points are ground, and how many have another class than before."""
+        is_ground = is_one_of(after.classification, self.ground.ground_classes)
+        is_changed = after.classification != part.classification
+        return {
+            "ground_count": int(np.count_nonzero(is_ground)),
+            "changed_count": int(np.count_nonzero(is_changed)),
+        }
 
 
 def _classes(

@@ -12,17 +12,18 @@ v.lidar.growing).
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
+from ...core.threads import over_parts
 from ...grids.cells import Cells, spacing
 from ...grids.morphology import closing, dilation, erosion, opening
-from .local_planes import LocalPlanes
+from ...grids.planes import plane_slopes
 
 # The highest point of each square of this side, in metres, stands for the roof there. More points
 # would tell more of the noise of the sensor than of the roof.
@@ -64,14 +65,12 @@ _CLOSING = 1.5
 _CELL_SPACINGS = 1.2
 # Planes to which a point is compared.
 _COMPARED = 4
-
-
-class _Roof(NamedTuple):
-    """The nodes of roofs: their places (n, 3), their planes, and the cells that they cover."""
-
-    places: np.ndarray
-    rise: np.ndarray
-    covered: np.ndarray
+# Planes are tried through a point and two of so many nearest neighbours.
+_TRIED = 8
+# Two neighbours in almost one direction do not fix a plane: least sine of their angle.
+_LEAST_SINE = 0.3
+# Points whose planes are sought together, so that arrays stay in the processor's cache.
+_POINTS_A_PART = 1 << 12
 
 
 @dataclass(frozen=True)
@@ -104,18 +103,19 @@ class Buildings:
         apart = max(spacing(points, _NODE / 2.0), _NODE / 2.0)
         side = _NODE * max(1, math.ceil(_CELL_SPACINGS * apart / _NODE))
         cells = Cells.over(points, side)
-        roof = self._roof(points, high, several, cells, apart, progress.part(0.0, 0.8))
-        if not len(roof.places):
+        part = progress.part(0.0, 0.8)
+        places, rise, covered = self._roofs(points, high, several, cells, apart, part)
+        if not len(places):
             return found
-        nearby = dilation(roof.covered, max(_CLOSING, _BESIDE / side)).ravel()
+        nearby = dilation(covered, max(_CLOSING, _BESIDE / side)).ravel()
         low = np.flatnonzero(possible & (heights > _LEAST_WALL))
         low = low[nearby[cells.index[low]]]
-        inside = roof.covered.ravel()[cells.index[low]]
-        found[low] = _belong(points.take(low), roof, inside, several[low])
+        inside = covered.ravel()[cells.index[low]]
+        found[low] = _belong(points.take(low), places, rise, inside, several[low])
         progress(1.0)
         return found
 
-    def _roof(
+    def _roofs(
         self,
         points: Points,
         high: np.ndarray,
@@ -123,24 +123,27 @@ class Buildings:
         cells: Cells,
         apart: float,
         progress: Progress,
-    ) -> _Roof:
-        """Return the roofs among high points, given as indices."""
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the nodes of roofs among high points, given as indices: their places and planes
+        (n, 3), and the cells that they cover (rows, columns).
+        """
         some = points.take(high)
         upside_down = Points(some.x, some.y, -some.z)
         high = high[Cells.over(some, _NODE).lowest_points(upside_down)]
         places, cell = np.column_stack(points.take(high)), cells.index[high]
         through = _seen_through(points.z, high, cells)[cell]
-        faces = self._faces(places, several[high], through, apart, progress)
-        covered = self._wide(_holding(cells, cell[faces.roof]), cells.size)
-        kept = faces.roof & dilation(covered, _CLOSING).ravel()[cell]
-        covered |= closing(_holding(cells, cell[kept]), _CLOSING)
-        own = kept & faces.plane
-        return _Roof(places[own], faces.rise[own], covered)
-
-    def _wide(self, cells: np.ndarray, side: float) -> np.ndarray:
-        """Return cells without gaps and without what is narrower than a roof."""
-        closed, radius = closing(cells, _CLOSING), self.width / 2.0 / side
-        return opening(closed.view(np.uint8), radius).view(bool) if radius >= 1.0 else closed
+        rise, plane, roof = self._faces(places, several[high], through, apart, progress)
+        # Without gaps, and without what is narrower than a roof.
+        covered, radius = (
+            closing(_holding(cells, cell[roof]), _CLOSING),
+            self.width / 2 / cells.size,
+        )
+        if radius >= 1.0:
+            covered = opening(covered.view(np.uint8), radius).view(bool)
+        roof &= dilation(covered, _CLOSING).ravel()[cell]
+        covered |= closing(_holding(cells, cell[roof]), _CLOSING)
+        own = roof & plane
+        return places[own], rise[own], covered
 
     def _faces(
         self,
@@ -149,8 +152,10 @@ class Buildings:
         through: np.ndarray,
         apart: float,
         progress: Progress,
-    ) -> _Faces:
-        """Return which nodes are roof, and their planes."""
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the planes (n, 3) of nodes, which of them are roof by their own plane (n,), and
+        which are roof (n,).
+        """
         from scipy.spatial import cKDTree
 
         tree = cKDTree(places[:, :2])
@@ -160,16 +165,15 @@ class Buildings:
         share = np.count_nonzero(several[neighbours] & near, axis=1) / count
         open_sky = (share <= _MOST_SEVERAL) & (count > _LEAST_NODES)
         progress(0.2)
-        planes = LocalPlanes.through(
-            places, neighbours, near, open_sky, self.tolerance, self.steepest,
-            progress.part(0.2, 0.9),
-        )  # fmt: skip
+        limits, part = (self.tolerance, self.steepest), progress.part(0.2, 0.9)
+        rise, on = planes_through(places, neighbours, near, open_sky, *limits, part)
         least = _LEAD + share if several.any() else _SHARE_WITHOUT_RETURNS
-        votes = np.count_nonzero(planes.on, axis=1)
+        votes = np.count_nonzero(on, axis=1)
         plane = open_sky & (votes >= np.maximum(least * count, _LEAST_NODES))
-        told = _mean(several, votes < _LEAVES * count)
+        leaves = several[votes < _LEAVES * count]
+        told = leaves.mean() if len(leaves) else 0.0
         evidence = votes / count - (_RETURNS * share / told if told > _LEAST_TOLD else 0.0)
-        face = _face_of(neighbours, planes, plane)
+        face = _face_of(neighbours, rise, on & plane[:, None])
         plane &= _means(evidence, face, plane) - _means(through, face, plane) >= _LEAST_EVIDENCE
         size = np.bincount(face[plane], minlength=len(places))[face]
         face = plane & (size >= max(_LEAST_NODES, self.area / max(_NODE, apart) ** 2))
@@ -177,36 +181,24 @@ class Buildings:
             far = max(_JOIN, _JOIN_SPACINGS * apart)
             grown, _ = cKDTree(places[face, :2]).query(places[:, :2], distance_upper_bound=far)
             face |= plane & np.isfinite(grown)
-        votes = np.bincount(neighbours[planes.on & face[:, None]], minlength=len(places))
-        return _Faces(planes.rise, face, face | (votes >= _VOTES))
+        votes = np.bincount(neighbours[on & face[:, None]], minlength=len(places))
+        return rise, face, face | (votes >= _VOTES)
 
 
-class _Faces(NamedTuple):
-    """The nodes of roofs: planes, which have one, and which are roof; (n, 3), (n,), (n,)."""
-
-    rise: np.ndarray
-    plane: np.ndarray
-    roof: np.ndarray
-
-
-def _face_of(neighbours: np.ndarray, planes: LocalPlanes, plane: np.ndarray) -> np.ndarray:
+def _face_of(neighbours: np.ndarray, rise: np.ndarray, on: np.ndarray) -> np.ndarray:
     """Return the number of the face of each node: neighbours on planes of nearly one slope."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    normal = np.column_stack([-planes.rise[:, :2], np.ones(len(plane), dtype=np.float32)])
+    normal = np.column_stack([-rise[:, :2], np.ones(len(rise), dtype=np.float32)])
     normal /= np.linalg.norm(normal, axis=1)[:, None]
-    one, place = np.nonzero(planes.on & plane[:, None] & plane[neighbours])
+    has_plane = np.count_nonzero(on, axis=1) > 0
+    one, place = np.nonzero(on & has_plane[neighbours])
     two = neighbours[one, place]
     even = (normal[one] * normal[two]).sum(axis=1) >= math.cos(math.radians(_BEND))
     one, two = one[even], two[even]
-    links = coo_matrix((np.ones(len(one), dtype=bool), (one, two)), shape=(len(plane),) * 2)
+    links = coo_matrix((np.ones(len(one), dtype=bool), (one, two)), shape=(len(rise),) * 2)
     return connected_components(links, directed=False)[1]
-
-
-def _mean(values: np.ndarray, where: np.ndarray) -> float:
-    """Return the mean of some values; 0 of none."""
-    return float(values[where].mean()) if where.any() else 0.0
 
 
 def _means(values: np.ndarray, face: np.ndarray, where: np.ndarray) -> np.ndarray:
@@ -237,20 +229,92 @@ def _holding(cells: Cells, index: np.ndarray) -> np.ndarray:
     return holding
 
 
-def _belong(points: Points, roof: _Roof, inside: np.ndarray, several: np.ndarray) -> np.ndarray:
-    """Return which points near roofs belong to them."""
+def _belong(
+    points: Points, nodes: np.ndarray, rise: np.ndarray, inside: np.ndarray, several: np.ndarray
+) -> np.ndarray:
+    """Return which points near roofs belong to them, given the nodes (n, 3) and their planes."""
     # They do if they lie on the plane of a near node, below it beside the roof or under it, or
     # above it with no gap to look through, as chimneys do and branches do not.
     from scipy.spatial import cKDTree
 
     places = np.column_stack([points.x, points.y])
-    compared = min(_COMPARED, len(roof.places))
-    distance, which = cKDTree(roof.places[:, :2]).query(places, k=np.arange(1, compared + 1))
-    steps, rise = places[:, None] - roof.places[which][:, :, :2], roof.rise[which]
-    plane = roof.places[which][:, :, 2] + rise[:, :, 2] + (steps * rise[:, :, :2]).sum(axis=2)
+    compared = np.arange(1, min(_COMPARED, len(nodes)) + 1)
+    distance, which = cKDTree(nodes[:, :2]).query(places, k=compared)
+    steps, rise = places[:, None] - nodes[which][:, :, :2], rise[which]
+    plane = nodes[which][:, :, 2] + rise[:, :, 2] + (steps * rise[:, :, :2]).sum(axis=2)
     off = points.z[:, None] - plane
     beside = distance[:, 0] <= _BESIDE
     on = (np.abs(off).min(axis=1) <= _ON) & (beside | inside)
     below = beside & (off.min(axis=1) < 0.0)
     above = inside & ~several & (off[:, 0] > 0.0) & (off[:, 0] <= _ABOVE)
     return on | below | above
+
+
+def planes_through(
+    places: np.ndarray,  # (n, 3) in metres
+    neighbours: np.ndarray,  # (n, k), the nearest in the plane; the first is the point itself
+    near: np.ndarray,  # bool (n, k), neighbours that count
+    wanted: np.ndarray,  # bool (n,), points that get a plane
+    tolerance: float,  # metres above or below a plane
+    steepest: float,  # degrees
+    progress: Progress = SILENT,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the plane on which most neighbours of each point lie, slopes to east and north and
+    height above the point, float32 (n, 3), and the neighbours on it, bool (n, k); without one, 0.
+    """
+    # A plane through all neighbours would not find a roof whose ridge is among them. So planes are
+    # tried through the point and each two of its nearest neighbours. The one that most neighbours
+    # lie on is fitted to these.
+    rise = np.zeros((len(places), 3), dtype=np.float32)
+    on = np.zeros(neighbours.shape, dtype=bool)
+    which, slope = np.flatnonzero(wanted), math.tan(math.radians(steepest))
+
+    def fill(part: slice) -> None:
+        some = which[part]
+        steps = (places[neighbours[some]] - places[some][:, None]).astype(np.float32)
+        rise[some], on[some] = _planes(steps, near[some], tolerance, slope)
+
+    over_parts(fill, len(which), _POINTS_A_PART, progress)
+    return rise, on
+
+
+def _planes(
+    steps: np.ndarray, near: np.ndarray, tolerance: float, slope: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return planes and which neighbours lie on them, given the steps (m, k, 3) to these."""
+    x, y, z = (np.ascontiguousarray(steps[:, :, axis].T) for axis in range(3))
+    near, count = near.T, x.shape[1]
+    best, east, north = np.zeros((3, count), dtype=np.float32)
+    for one, two in itertools.combinations(range(1, min(_TRIED + 1, len(x))), 2):
+        area = x[one] * y[two] - y[one] * x[two]
+        lengths = np.hypot(x[one], y[one]) * np.hypot(x[two], y[two])
+        wide = np.abs(area) > _LEAST_SINE * lengths
+        area = np.where(wide, area, 1.0)
+        to_east = (z[one] * y[two] - z[two] * y[one]) / area
+        to_north = (x[one] * z[two] - x[two] * z[one]) / area
+        off = np.abs(z - to_east * x - to_north * y)
+        votes = np.count_nonzero((off <= tolerance) & near, axis=0).astype(np.float32)
+        votes[~wide | ~near[one] | ~near[two] | (np.hypot(to_east, to_north) > slope)] = 0.0
+        better = votes > best
+        best[better] = votes[better]
+        east[better], north[better] = to_east[better], to_north[better]
+    on = (np.abs(z - east * x - north * y) <= tolerance) & near & (best > 0.0)
+    east, north, level = _fitted(x, y, z, on, east, north)
+    on &= np.abs(z - east * x - north * y - level) <= tolerance
+    on &= on[0]  # a plane that misses its own point is none
+    return np.column_stack([east, north, level]), on.T
+
+
+def _fitted(
+    x: np.ndarray, y: np.ndarray, z: np.ndarray, on: np.ndarray, east: np.ndarray, north: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return planes through points by least squares; the given slopes where these are in line."""
+    weight, count = on.astype(np.float64), np.maximum(on.sum(axis=0), 1)
+    mean_x, mean_y, mean_z = ((weight * axis).sum(axis=0) / count for axis in (x, y, z))
+    dx, dy, dz = x - mean_x, y - mean_y, z - mean_z
+    xx, xy, yy = ((weight * one * two).sum(axis=0) for one, two in ((dx, dx), (dx, dy), (dy, dy)))
+    xz, yz = ((weight * one * dz).sum(axis=0) for one in (dx, dy))
+    solid = xx * yy - xy * xy > 1e-6 * (xx + yy) ** 2 + 1e-12
+    slopes = plane_slopes(xx, xy, yy, xz, yz)
+    east, north = (np.where(solid, *both) for both in zip(slopes, (east, north)))
+    return east, north, mean_z - east * mean_x - north * mean_y

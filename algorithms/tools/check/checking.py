@@ -162,16 +162,6 @@ class CheckRequest(HasSets):
     outputs: CheckOutputs = field(default_factory=CheckOutputs)
     crs: str | None = None
 
-<<<<<<< HEAD
-    @classmethod
-    def of(cls, sets: Iterable[ParameterSet], **others: Any) -> CheckRequest:
-        """Return a request with parameter sets, given in any order, and other attributes."""
-        names = {type(value): name for name, value in vars(cls()).items()}
-        others.update((names[type(values)], values) for values in sets)
-        return cls(**others)
-
-=======
->>>>>>> 15b2c18 (Say once how parameter sets in any order become a request)
 
 def check_files(
     sources: Iterable[Path],

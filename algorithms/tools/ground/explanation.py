@@ -12,6 +12,7 @@ from ...core.points import Frame, Points
 from ...core.progress import Progress
 from ...engine.store import Corner
 from ...filters.method import NOT_GROUND, Decisions
+from ...grids.cells import cells_at
 from ...rasters.geotiff import RasterGrid
 from ...rasters.writing import write_geotiff
 
@@ -46,10 +47,7 @@ class ExplainedCells(NamedTuple):
     def of(cls, x: np.ndarray, y: np.ndarray, decided: Decisions, corner: Corner) -> ExplainedCells:
         """Return the cells that hold points, given in metres from a corner."""
         size = decided.size
-        column, row = (
-            np.floor((places + start) / size).astype(np.int64)
-            for places, start in zip((x, y), corner)
-        )
+        row, column = cells_at(x, y, size, (-corner[0], -corner[1]))
         (row, column), first = np.unique(np.stack((row, column)), axis=1, return_index=True)
         return cls(row, column, decided.codes[first], size, decided.rules)
 

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, Sequence
 import numpy as np
 
 from ...core.words import counted
+from ...grids.cells import cells_at
 from ...las.class_names import named_class
 from ...survey.files import Survey
 from ...survey.point_counts import by_class
@@ -241,9 +242,9 @@ def _filled(cells: QualityCells, extent: Extent, asked: Specification) -> dict[s
         return {}
     window, coarse, size = cells.sizes.filled, cells.sizes.coarse, cells.sizes.spacing
     x, y = window.centres(size)
-    column = np.floor(x / (2 * cells.sizes.cell)).astype(np.int64) - coarse.column
-    row = np.floor(y / (2 * cells.sizes.cell)).astype(np.int64) - coarse.row
-    column, row = np.clip(column, 0, coarse.columns - 1), np.clip(row, 0, coarse.rows - 1)
+    row, column = cells_at(x, y, 2 * cells.sizes.cell)
+    column = np.clip(column - coarse.column, 0, coarse.columns - 1)
+    row = np.clip(row - coarse.row, 0, coarse.rows - 1)
     land, every, holding, voids = extent.dry & extent.pulses, 0, 0, 0
     for rows in rows_of(window):
         # With one row more, for the squares of two rows.

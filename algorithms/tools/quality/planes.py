@@ -6,6 +6,9 @@ from typing import Iterator, NamedTuple
 
 import numpy as np
 
+from ...grids.cells import are_inside
+from ...grids.planes import means_and_moments, plane_slopes
+
 # Cells round a cell whose ground makes its plane: the first that hold enough points.
 WINDOWS = (1, 2, 4, 10)
 _LEAST_POINTS, _LEAST_SPREAD = 6, 0.02
@@ -54,17 +57,12 @@ def plane_of(sums: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     squares: height at (0, 0), slopes to the east and north, (3, n), else level.
     """
     # `sums`, shape (9, n), are n, and the sums of x, y, z, x x, x y, y y, x z and y z.
-    n, sx, sy, sz, sxx, sxy, syy, sxz, syz = sums
-    safe = np.maximum(n, 1.0)
-    mx, my, mz = sx / safe, sy / safe, sz / safe
-    xx, xy, yy = sxx / safe - mx * mx, sxy / safe - mx * my, syy / safe - my * my
-    xz, yz = sxz / safe - mx * mz, syz / safe - my * mz
-    free = xx * yy - xy * xy
-    is_good = (n >= _LEAST_POINTS) & (free > _LEAST_SPREAD * (xx + yy) ** 2) & (xx + yy > 0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        a, b = (yy * xz - xy * yz) / free, (xx * yz - xy * xz) / free
-    a, b = np.where(is_good, a, 0.0), np.where(is_good, b, 0.0)
-    return is_good, np.stack((mz - a * mx - b * my, a, b))
+    count = sums[0]
+    x, y, z, xx, xy, yy, xz, yz = means_and_moments(np.maximum(count, 1.0), *sums[1:])
+    spread = xx * yy - xy * xy
+    is_good = (count >= _LEAST_POINTS) & (spread > _LEAST_SPREAD * (xx + yy) ** 2) & (xx + yy > 0)
+    east, north = (np.where(is_good, rise, 0.0) for rise in plane_slopes(xx, xy, yy, xz, yz))
+    return is_good, np.stack((z - east * x - north * y, east, north))
 
 
 def _sums_at(sums: Sums, size: float, window: int, places: np.ndarray) -> Iterator[np.ndarray]:
@@ -85,7 +83,7 @@ def _gathered(sums: Sums, size: float, window: int, places: np.ndarray) -> np.nd
     for start in range(0, len(places), step):
         part = slice(start, start + step)
         there = row[part, None] + down, column[part, None] + right
-        inside = (there[0] >= 0) & (there[0] < rows) & (there[1] >= 0) & (there[1] < columns)
+        inside = are_inside(*there, sums.number.shape)
         there = np.clip(there[0], 0, rows - 1), np.clip(there[1], 0, columns - 1)
         n, x, y, z = (each[there] for each in sums)
         n, x, y = n * inside, x + right * size, y + down * size

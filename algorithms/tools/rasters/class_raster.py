@@ -91,9 +91,7 @@ def _grid_of(survey: Survey, cell_size: float) -> RasterGrid:
 
 
 def _cells_of(part: PointCloud, grid: RasterGrid) -> np.ndarray:
-    x, y = (
-        at * scale + offset for at, scale, offset in zip((part.x, part.y), part.scale, part.offset)
-    )
+    x, y = part.coordinates()
     column = np.floor((x - grid.west) / grid.cell_size).astype(np.int64)
     row = np.floor((grid.north - y) / grid.cell_size).astype(np.int64)
     # The extent in the header may be slightly smaller than that of the points.

@@ -10,7 +10,7 @@ import numpy as np
 from ...core.errors import BareEarthError
 from ...core.points import Box, Points
 from ...core.progress import SILENT, Progress
-from ...grids.cells import lower_at
+from ...grids.cells import are_inside, cells_at, lower_at
 
 # Rows and columns of a part of a grid.
 Window = tuple[slice, slice]
@@ -85,10 +85,10 @@ class WaterGrid:
         """Add points, in the frame of the survey, and which are ground, of class 9, last returns,
         and on the decks of bridges; bool (n,).
         """
-        row = np.floor(points.y / self.cell).astype(np.int64) - self.row
-        column = np.floor(points.x / self.cell).astype(np.int64) - self.column
+        row, column = cells_at(points.x, points.y, self.cell)
+        row, column = row - self.row, column - self.column
         # An extent in a header can be a little too small.
-        inside = (row >= 0) & (row < self.shape[0]) & (column >= 0) & (column < self.shape[1])
+        inside = are_inside(row, column, self.shape)
         cells = np.where(inside, row * self.shape[1] + column, -1)
         for counts, which in ((self.counts.ravel(), last), (self.water.ravel(), last & water)):
             places, some = np.unique(cells[which & inside], return_counts=True)
