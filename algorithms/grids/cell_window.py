@@ -37,6 +37,16 @@ class CellWindow(NamedTuple):
         """Rows and columns."""
         return self.rows, self.columns
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether it has no cells, as what windows share that are apart."""
+        return self.rows <= 0 or self.columns <= 0
+
+    def slices(self, part: CellWindow) -> tuple[slice, slice]:
+        """Return the rows and columns of a part of it."""
+        row, column = part.row - self.row, part.column - self.column
+        return slice(row, row + part.rows), slice(column, column + part.columns)
+
     def corner(self, cell: float) -> tuple[float, float]:
         """Return x and y of the southwestern corner."""
         return self.column * cell, self.row * cell
@@ -58,7 +68,7 @@ class CellWindow(NamedTuple):
         return self._replace(row=self.row + self.rows - end, rows=end - start)
 
     def within(self, other: CellWindow) -> CellWindow:
-        """Return the cells that both windows share; its size is 0 or negative if they are apart."""
+        """Return the cells that both windows share; it is empty if they are apart."""
         row, column = max(self.row, other.row), max(self.column, other.column)
         north = min(self.row + self.rows, other.row + other.rows)
         east = min(self.column + self.columns, other.column + other.columns)

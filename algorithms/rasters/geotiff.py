@@ -6,8 +6,9 @@ import math
 import os
 import re
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import Callable, NamedTuple
 
 import numpy as np
 
@@ -23,10 +24,14 @@ from .libraries import GdalErrors, library
 
 NODATA = -9999.0
 _MOST_CELLS = 400_000_000
-# A raster with more cells must have points in at least this share of its squares of 1 km. Otherwise
-# it is only large because of a few points with stray coordinates.
+# In a raster with more cells, points must cover at least this share, as squares of 1 km or blocks.
+# Otherwise it is only large because of a few points with stray coordinates.
 _MANY_CELLS, _SQUARE, _LEAST_COVERED = 10_000_000, 1000.0, 0.01
 _STEP = 1 << 20
+NO_GROUND = (
+    "There is no ground point to make a terrain model of. Check the selection of points and the"
+    " parameters."
+)
 # Names that GDAL would fetch from another computer, and names of parts of a file.
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 _PART = re.compile(r'[A-Z][A-Z0-9_]+:"?(?P<file>.+?)"?(:[^:\\/]*)?$')
@@ -52,23 +57,15 @@ class RasterGrid:
         and a grid that would be too large.
         """
         if points.count == 0:
-            raise BareEarthError(
-                "There is no ground point to make a terrain model of. Check the selection of points"
-                " and the parameters."
-            )
+            raise BareEarthError(NO_GROUND)
         cell = cell_size / frame.horizontal_unit
         (x0, x1), (y0, y1) = (
-            [(at + end / frame.horizontal_unit) / cell for end in (each.min(), each.max())]
-            for at, each in zip(frame.origin, points)
+            [(start + end / frame.horizontal_unit) / cell for end in (column.min(), column.max())]
+            for start, column in zip(frame.origin, points)
         )
         west, north = math.floor(x0), math.ceil(y1)
         columns, rows = max(math.ceil(x1) - west, 1), max(north - math.floor(y0), 1)
-        cells = columns * rows
-        if cells > _MOST_CELLS or (cells > _MANY_CELLS and _covered(points) < _LEAST_COVERED):
-            raise BareEarthError(
-                f"The raster would have {columns:,} x {rows:,} cells of {cell_size:g} m. Choose a"
-                " larger cell size, or remove points with stray coordinates."
-            )
+        check_cells(columns, rows, cell_size, partial(_covered, points))
         return cls(west * cell, north * cell, cell, columns, rows, frame)
 
     @property
@@ -107,6 +104,22 @@ class RasterGrid:
         """Cell centres from north to south, in local metres."""
         centres = self.north - self.frame.origin[1] - (np.arange(self.rows) + 0.5) * self.cell_size
         return centres * self.frame.horizontal_unit
+
+
+def check_cells(
+    columns: int,
+    rows: int,
+    cell_metres: float,
+    covered: Callable[[], float],  # returns the share of the cells with points near
+    most: int = _MOST_CELLS,
+) -> None:
+    """Refuse a raster that would have too many cells, or nearly all of them without points."""
+    cells = columns * rows
+    if cells > most or (cells > _MANY_CELLS and covered() < _LEAST_COVERED):
+        raise BareEarthError(
+            f"The raster would have {columns:,} x {rows:,} cells of {cell_metres:g} m. Choose a"
+            " larger cell size, or remove points with stray coordinates."
+        )
 
 
 def _covered(points: Points) -> float:
@@ -266,7 +279,7 @@ def _require_measurable(source: str | Path, content: Content) -> None:
 
 def _check_local(source: str) -> None:
     """Refuse a URL, and files such as VRT that contain one, since GDAL would fetch it."""
-    if any("\ud800" <= each <= "\udfff" for each in source):
+    if any("\ud800" <= character <= "\udfff" for character in source):
         raise BareEarthError(f"The name of {source} is not UTF-8, which GDAL needs. Rename it.")
     part = _PART.match(source)
     path = Path(source if os.path.exists(source) or part is None else part["file"])

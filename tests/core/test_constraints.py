@@ -299,8 +299,8 @@ def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how
     classify(source, target, request, heard)
     assert any("do not fit into the memory" in each for each in heard.infos) == (how == "parts")
     terrain(made, TerrainRequest(rasters=rasters[1], constraints=known))
-    assert rasters[0].dtm.read_bytes() == rasters[1].dtm.read_bytes()
-    with rasterio.open(rasters[0].dtm) as raster:
+    assert paths[0][0].read_bytes() == paths[1][0].read_bytes()
+    with rasterio.open(paths[0][0]) as raster:
         south, west = raster.index(EAST + 22.0, NORTH + 22.0)
         north, east = raster.index(EAST + 58.0, NORTH + 48.0)
         lake = raster.read(1)[north:south, west:east]

@@ -369,7 +369,7 @@ def test_runs_with_heights_go_on_and_repeat_only_what_changed(tmp_path, out):
     before, dtm = changed_times(out), RasterFiles(dtm=tmp_path / "dtm.tif")
     summary = classify_tiles([folder], out, FAST, output=RESUME, rasters=dtm, **made)
     assert summary.kept_count == summary.done_count == 3 and changed_times(out) == before
-    assert dtm.dtm.exists()
+    assert dtm.wanted["dtm"].exists()
     # A file in the west, and one that is written anew without a change.
     write(folder / "new.laz", strip(400, 60.0, 300.0, 4) - [6100, 12_000, 0])
     os.utime(folder / "4200.laz", ns=(1, 1))

@@ -1,10 +1,10 @@
-"""Makes the rasters of a block of a survey: terrain, surface and confidence."""
+"""Makes the layers of a block of a survey, of which rasters are made."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Callable, Mapping, NamedTuple
+from typing import Callable, Mapping, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -24,9 +24,9 @@ from ...grids.terrain_edges import follow_edges
 _LONGEST_EDGE, _LONGEST_CELLS = 50.0, 20.0
 # Reach of a triangle in longest edges. Its circumcircle hardly ever reaches farther.
 _EDGES = 2.0
-# The layer that tells what each cell holds: bits for ground points in its four quarters, from
+# The layer that tells what each cell contains: bits for ground points in its four quarters, from
 # southwest to northeast, a bit for any points, and one for points of the surface.
-HELD, QUARTERS, ANY, TOP = "held", 4, 16, 32
+CONTENTS, QUARTERS, ANY, TOP = "contents", 4, 16, 32
 # Rounding error of coordinates in metres.
 _ROUNDING = 1e-6
 # Least number of points that are processed together.
@@ -34,10 +34,10 @@ _POINTS_A_PART = 1 << 20
 
 
 class BlockRasters(NamedTuple):
-    """The rasters of a block, with rows from south to north."""
+    """The layers of a block, with rows from south to north."""
 
     window: CellWindow  # the cells of the block
-    # float32, (rows, columns), NaN for no value, by names in `LAYERS`; also `HELD`, of uint8
+    # float32, (rows, columns), NaN for no value, by names in `LAYERS`; also `CONTENTS`, of uint8
     layers: Mapping[str, np.ndarray]
     # float64, (n, 3): for layers with filled gaps, the points of the block that are needed across
     # wide gaps, corners of the convex hull and points beside cells without a height
@@ -46,10 +46,9 @@ class BlockRasters(NamedTuple):
     counts: np.ndarray  # int64, (2,): points of terrain and of surface in the block
 
 
-class Seen(NamedTuple):
-    """The points that a block uses, in it and in its surroundings."""
+class BlockView(NamedTuple):
+    """The points that a block sees, in it and in its surroundings."""
 
-    window: CellWindow  # the cells of the block
     points: Points  # relative to `corner`
     ground: np.ndarray  # bool, (n,)
     top: np.ndarray  # bool, (n,): which belong to the surface
@@ -57,10 +56,30 @@ class Seen(NamedTuple):
     corner: tuple[float, float]  # origin of `points` in the frame of the survey
     edges: np.ndarray | None = None  # bool, (n,): ground on lines that no triangle may cross
 
+    def window(self, box: Box, cell: float) -> CellWindow:
+        """Return the cells whose centres lie in a box, and not a cell beyond the points."""
+        west, south, east, north = box
+        if not self.points.count:
+            return CellWindow.with_centres_in((west, south, west, south), cell)
+        low_x, low_y, high_x, high_y = np.add(self.points.box, np.tile(self.corner, 2)).tolist()
+        west, south = max(west, low_x - cell), max(south, low_y - cell)
+        east, north = min(east, high_x + cell), min(north, high_y + cell)
+        return CellWindow.with_centres_in((west, south, max(east, west), max(north, south)), cell)
+
+    def in_survey(self, which: np.ndarray) -> np.ndarray:
+        """Return points of the block in the frame of the survey, shape (n, 3)."""
+        places = np.column_stack(self.points.take(which & self.core))
+        return np.add(places, (*self.corner, 0.0))
+
+    def start(self, window: CellWindow, cell: float) -> tuple[float, float]:
+        """Return the corner of a window in the frame of the points."""
+        (x, y), (west, south) = self.corner, window.corner(cell)
+        return west - x, south - y
+
 
 @dataclass(frozen=True)
 class RasterStep:
-    """Makes the rasters of a block."""
+    """Makes the layers of a block."""
 
     cell: float  # metres
     layers: tuple[str, ...] = ("terrain",)  # of `LAYERS`
@@ -76,125 +95,117 @@ class RasterStep:
         """Distance in metres up to which points around a block are needed."""
         return _EDGES * self.longest_edge
 
-    def of(
-        self,
-        points: Points,
-        ground: np.ndarray,
-        top: np.ndarray,
-        core: np.ndarray,
-        corner: tuple[float, float],
-        box: Box,
-        edges: np.ndarray | None = None,
-        progress: Progress = SILENT,
-    ) -> BlockRasters:
-        """Return the rasters of a block, a box in the frame of the survey; see `Seen`."""
-        window = CellWindow.with_centres_in(_within(box, points, corner, self.cell), self.cell)
-        seen = Seen(window, points, ground, top, core, corner, edges)
-        made, loose = {HELD: _held(self, seen)}, {}
+    def of(self, view: BlockView, box: Box, progress: Progress = SILENT) -> BlockRasters:
+        """Return the layers of a block, a box in the frame of the survey."""
+        window = view.window(box, self.cell)
+        layers, loose = {CONTENTS: _contents(self, view, window)}, {}
         parts = progress.shares(*(LAYERS[name].cost for name in self.layers))
         for name, part in zip(self.layers, parts):
-            made[name], points_at_gaps = LAYERS[name].make(self, seen, part)
+            layers[name], points_at_gaps = LAYERS[name].make(self, view, window, part)
             if points_at_gaps is not None:
                 loose[name] = points_at_gaps
-        counts = [np.count_nonzero(each & core) for each in (ground, top)]
+        counts = [np.count_nonzero(which & view.core) for which in (view.ground, view.top)]
+        extent = np.full(4, np.nan)
+        if view.core.any():
+            extent = view.points.take(view.core).box + np.tile(view.corner, 2)
         progress(1.0)
-        return BlockRasters(window, made, loose, _extent(points, core, corner), np.array(counts))
+        return BlockRasters(window, layers, loose, extent, np.array(counts))
 
 
 # The cells of a layer, and the points needed across wide gaps; None if these stay open.
-Made = tuple[np.ndarray, "np.ndarray | None"]
+_LayerCells = Tuple[np.ndarray, Optional[np.ndarray]]
 
 
-def _held(step: RasterStep, seen: Seen) -> np.ndarray:
-    """Return what each cell holds, as `HELD` says."""
-    window = CellWindow(*(2 * each for each in seen.window))
-    holds_any, holds_ground, holds_top = np.zeros((3, *window.shape), dtype=bool)
-    for part in parts_of(seen.points.count, _POINTS_A_PART):
-        x, y = seen.points.x[part], seen.points.y[part]
-        row, column = window.places(x, y, seen.corner, step.cell / 2.0)
-        inside = are_inside(row, column, window.shape)
-        holds_any[row[inside], column[inside]] = True
-        is_top = inside & seen.top[part]
-        holds_top[row[is_top], column[is_top]] = True
-        inside &= seen.ground[part]
-        holds_ground[row[inside], column[inside]] = True
+def _contents(step: RasterStep, view: BlockView, window: CellWindow) -> np.ndarray:
+    """Return what each cell contains, as `CONTENTS` says."""
+    quarters = CellWindow(*(2 * number for number in window))
+    any_points, ground, top = np.zeros((3, *quarters.shape), dtype=bool)
+    for part in parts_of(view.points.count, _POINTS_A_PART):
+        x, y = view.points.x[part], view.points.y[part]
+        row, column = quarters.places(x, y, view.corner, step.cell / 2.0)
+        inside = are_inside(row, column, quarters.shape)
+        any_points[row[inside], column[inside]] = True
+        is_top = inside & view.top[part]
+        top[row[is_top], column[is_top]] = True
+        inside &= view.ground[part]
+        ground[row[inside], column[inside]] = True
         # A point on the middle line of a cell lies in the quarters on both sides.
-        before = window.places(x - _ROUNDING, y - _ROUNDING, seen.corner, step.cell / 2.0)
-        south, west = (np.where(at % 2, low, at) for at, low in zip((row, column), before))
+        before = quarters.places(x - _ROUNDING, y - _ROUNDING, view.corner, step.cell / 2.0)
+        south, west = (np.where(own % 2, low, own) for own, low in zip((row, column), before))
         middle = np.flatnonzero(inside & ((south < row) | (west < column)))
-        for one, two in ((south, column), (row, west), (south, west)):
-            holds_ground[one[middle], two[middle]] = True
-    held = np.zeros(seen.window.shape, dtype=np.uint8)
+        for rows, columns in ((south, column), (row, west), (south, west)):
+            ground[rows[middle], columns[middle]] = True
+    contents = np.zeros(window.shape, dtype=np.uint8)
     for number in range(QUARTERS):
         quarter = slice(number // 2, None, 2), slice(number % 2, None, 2)
-        held |= holds_ground[quarter].view(np.uint8) << number
-        held |= holds_any[quarter].view(np.uint8) * np.uint8(ANY)
-        held |= holds_top[quarter].view(np.uint8) * np.uint8(TOP)
-    return held
+        contents |= ground[quarter].view(np.uint8) << number
+        contents |= any_points[quarter].view(np.uint8) * np.uint8(ANY)
+        contents |= top[quarter].view(np.uint8) * np.uint8(TOP)
+    return contents
 
 
-def _terrain(step: RasterStep, seen: Seen, progress: Progress) -> Made:
+def _terrain(
+    step: RasterStep, view: BlockView, window: CellWindow, progress: Progress
+) -> _LayerCells:
     """Return heights of the terrain."""
-    window, corner, cell = seen.window, seen.corner, step.cell
-    points, core = seen.points.take(seen.ground), seen.core[seen.ground]
-    if not points.count or not min(window.shape):
-        return np.full(window.shape, np.nan, dtype=np.float32), _placed(points, corner, core)
-    start_x, start_y = (at - by for at, by in zip(window.corner(cell), corner))
-    surface = DenseSurface(points, cell, (start_x, start_y), progress.part(0.05, 0.3))
-    part = progress.part(0.3, 0.95)
-    heights = surface.raster(window.shape, step.longest_edge, part)
+    points = view.points.take(view.ground)
+    if not points.count or window.is_empty:
+        return np.full(window.shape, np.nan, dtype=np.float32), view.in_survey(view.ground)
+    start = view.start(window, step.cell)
+    surface = DenseSurface(points, step.cell, start, progress.part(0.05, 0.3))
+    heights = surface.raster(window.shape, step.longest_edge, progress.part(0.3, 0.95))
     loose = np.zeros(points.count, dtype=bool)
     if step.max_edge is None:
-        if np.isnan(heights).any():
+        missing = np.isnan(heights)
+        if missing.any():
             vertices = surface.vertices
-            row, column = window.places(*points.take(vertices)[:2], corner, cell)
-            row, column = (
-                np.clip(each, 0, most - 1) for each, most in zip((row, column), window.shape)
-            )
-            near_gap = within_square(np.maximum, np.isnan(heights), 1)
-            loose[vertices[near_gap[row, column]]] = True
+            places = window.places(*points.take(vertices)[:2], view.corner, step.cell)
+            cells = (np.clip(place, 0, most - 1) for place, most in zip(places, window.shape))
+            loose[vertices[within_square(np.maximum, missing, 1)[tuple(cells)]]] = True
         loose[surface.hull] = True
     heights = heights.astype(np.float32)
-    if seen.edges is not None and seen.edges.any():
-        follow_edges(heights, window, cell, points, seen.edges[seen.ground], corner)
-    return heights, _placed(points, corner, loose & core)
+    if view.edges is not None and view.edges.any():
+        follow_edges(heights, window, step.cell, points, view.edges[view.ground], view.corner)
+    return heights, view.in_survey(_among(view.ground, loose))
 
 
-def _surface(step: RasterStep, seen: Seen, progress: Progress) -> Made:
+def _surface(
+    step: RasterStep, view: BlockView, window: CellWindow, progress: Progress
+) -> _LayerCells:
     """Return the height of the highest point of each cell, but for points that hang in the air,
     such as birds; in empty cells, of their TIN.
     """
-    window, corner, cell = seen.window, seen.corner, step.cell
-    which = seen.top
-    if seen.top.any():
-        which = seen.top & ~HighGroups().find(seen.points)
-    points, core = seen.points.take(which), seen.core[which]
-    heights = np.full(window.shape, np.nan)
-    if not points.count or not min(window.shape):
-        return heights.astype(np.float32), _placed(points, corner, core)
-    wide = window.wider(math.ceil(step.reach / cell))
-    top, row, column = _highest(points, wide, corner, cell, progress.part(0.0, 0.35))
-    every = np.full(wide.shape, np.nan)
-    every[row, column] = points.z[top]
-    margin = window.row - wide.row
-    heights[:] = every[margin : margin + window.rows, margin : margin + window.columns]
+    which, cell = view.top, step.cell
+    if which.any():
+        which = which & ~HighGroups().find(view.points)
+    points = view.points.take(which)
+    if not points.count or window.is_empty:
+        return np.full(window.shape, np.nan, dtype=np.float32), view.in_survey(which)
+    margin = math.ceil(step.reach / cell)
+    wide = window.wider(margin)
+    top, row, column = _highest(points, wide, view.corner, cell, progress.part(0.0, 0.35))
+    heights = np.full(wide.shape, np.nan)
+    heights[row, column] = points.z[top]
+    heights = heights[margin : margin + window.rows, margin : margin + window.columns]
     progress(0.4)
-    empty_row, empty_column = np.nonzero(np.isnan(heights))
-    highest = points.take(top)
-    start_x, start_y = (at - by for at, by in zip(window.corner(cell), corner))
-    part = progress.part(0.4, 0.6)
-    surface = DenseSurface(highest, VERTICES_A_SIDE * cell, (start_x, start_y), part)
-    if len(empty_row):
-        heights[empty_row, empty_column] = surface.heights(
-            start_x + (empty_column + 0.5) * cell,
-            start_y + (empty_row + 0.5) * cell,
-            step.longest_edge,
-            progress.part(0.6, 1.0),
-        )
+    row, column = np.nonzero(np.isnan(heights))
+    start, part = view.start(window, cell), progress.part(0.4, 0.6)
+    surface = DenseSurface(points.take(top), VERTICES_A_SIDE * cell, start, part)
+    if len(row):
+        x, y = start[0] + (column + 0.5) * cell, start[1] + (row + 0.5) * cell
+        part = progress.part(0.6, 1.0)
+        heights[row, column] = surface.heights(x, y, step.longest_edge, part)
     loose = np.zeros(points.count, dtype=bool)
     if step.max_edge is None:
         loose[top[surface.hull]] = True
-    return heights.astype(np.float32), _placed(points, corner, loose & core)
+    return heights.astype(np.float32), view.in_survey(_among(which, loose))
+
+
+def _among(which: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+    """Return a mask of all points, given one, and which of its points are chosen."""
+    found = which.copy()
+    found[which] = chosen
+    return found
 
 
 def _highest(
@@ -222,22 +233,22 @@ def _highest(
     return (top, *places(top))
 
 
-def _confidence(step: RasterStep, seen: Seen, progress: Progress) -> Made:
+def _confidence(
+    step: RasterStep, view: BlockView, window: CellWindow, progress: Progress
+) -> _LayerCells:
     """Return the confidence, computed in cells of 1 m, at the centre of each cell."""
-    window = seen.window
     values = np.full(window.shape, np.nan, dtype=np.float32)
-    if not seen.points.count or not min(window.shape):
+    if not view.points.count or window.is_empty:
         return values, None
-    cells, known = confidence(seen.points, seen.ground)
-    x, y = (
-        ((first + np.arange(count) + 0.5) * step.cell - at) / cells.size
-        for first, count, at in zip(window[1::-1], window[:1:-1], seen.corner)
+    cells, known = confidence(view.points, view.ground)
+    x, y = (centres - start for centres, start in zip(window.centres(step.cell), view.corner))
+    row, column = (
+        np.floor(centres / cells.size).astype(np.int64) - first
+        for centres, first in zip((y, x), cells.first)
     )
-    row = np.floor(y).astype(np.int64) - cells.first_row
-    column = np.floor(x).astype(np.int64) - cells.first_column
     rows, columns = (
-        np.flatnonzero((at >= 0) & (at < count))
-        for at, count in ((row, cells.rows), (column, cells.columns))
+        np.flatnonzero((places >= 0) & (places < count))
+        for places, count in zip((row, column), cells.shape)
     )
     values[np.ix_(rows, columns)] = known[np.ix_(row[rows], column[columns])]
     return values, None
@@ -247,7 +258,7 @@ class Layer(NamedTuple):
     """A layer from which rasters are made."""
 
     # returns its cells, and the points needed across wide gaps
-    make: Callable[[RasterStep, Seen, Progress], Made]
+    make: Callable[[RasterStep, BlockView, CellWindow, Progress], _LayerCells]
     cost: float  # time that it takes, in relation to the other layers
     of_ground: bool  # needs ground points
     of_all: bool  # needs points that are not ground
@@ -258,30 +269,3 @@ LAYERS = {
     "surface": Layer(_surface, 4.0, of_ground=False, of_all=True),
     "confidence": Layer(_confidence, 1.5, of_ground=True, of_all=True),
 }
-
-
-def _within(box: Box, points: Points, corner: tuple[float, float], margin: float) -> Box:
-    """Return the part of a box with points and a margin; an empty box without points."""
-    if not points.count:
-        return (*box[:2], *box[:2])
-    low, high = (
-        [getattr(each, which)() + at for each, at in zip(points[:2], corner)]
-        for which in ("min", "max")
-    )
-    west, south = (max(a, b - margin) for a, b in zip(box[:2], low))
-    east, north = (min(a, b + margin) for a, b in zip(box[2:], high))
-    return west, south, max(east, west), max(north, south)
-
-
-def _placed(points: Points, corner: tuple[float, float], which: np.ndarray) -> np.ndarray:
-    """Return the selected points in the frame of the survey, shape (n, 3)."""
-    some = points.take(which)
-    return np.column_stack((some.x + corner[0], some.y + corner[1], some.z))
-
-
-def _extent(points: Points, core: np.ndarray, corner: tuple[float, float]) -> np.ndarray:
-    """Return smallest x and y, largest x and y of the points in the block."""
-    if not core.any():
-        return np.full(4, np.nan)
-    x, y = points.x[core], points.y[core]
-    return np.array([x.min(), y.min(), x.max(), y.max()]) + np.tile(corner, 2)

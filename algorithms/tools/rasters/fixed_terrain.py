@@ -17,6 +17,7 @@ from ...las.reading import read_parts
 from ...survey.area import Area, Polygon
 from ...survey.ground_classes import GroundClasses, GroundCounts
 from ...survey.kept_classes import IGNORED_GROUND
+from .block import BlockView
 from .constraints import NEAR, STATION, Constraints
 from .given_heights import without_wrong_heights
 from .level_water import LevelWater
@@ -40,33 +41,33 @@ class FixedTerrain:
     cell: float  # metres: side of the cells in which points are thinned
     waters: tuple[LevelWater, ...] = ()  # the water, if its level is known
 
-    def added_to(
-        self, points: Points, ground: np.ndarray, corner: tuple[float, float]
-    ) -> tuple[Points, np.ndarray, np.ndarray]:
-        """Return points relative to a corner in the frame with the vertices near them last, and
-        which of all are ground, and which of these lie on lines, bool (n + m,).
-        """
+    def added_to(self, view: BlockView) -> BlockView:
+        """Return the points of a block with the vertices near them last, as ground."""
         # Ground points that share a cell of the lattice with a vertex are no longer ground: they
         # may lie on the other side of a line.
-        low = np.array(points.box[:2]) + corner - _BEYOND
-        high = np.array(points.box[2:]) + corner + _BEYOND
+        points, corner = view.points, np.array((*view.corner, 0.0))
+        low, high = np.reshape(points.box, (2, 2)) + corner[:2] + [[-_BEYOND], [_BEYOND]]
         edges, inside = (
-            each[((each[:, :2] >= low) & (each[:, :2] <= high)).all(axis=1)]
-            for each in (self.edges, self.inside)
+            vertices[((vertices[:, :2] >= low) & (vertices[:, :2] <= high)).all(axis=1)]
+            for vertices in (self.edges, self.inside)
         )
-        some = np.concatenate((edges, inside)) - (*corner, 0.0)
+        new = np.concatenate((edges, inside)) - corner
         codes = squares(points.x + corner[0], points.y + corner[1], self.cell)
-        stays = ground & ~np.isin(codes, self._taken)
-        together = Points(*(np.concatenate(pair) for pair in zip(points, some.T)))
-        are_edges = np.zeros(together.count, dtype=bool)
+        stays = view.ground & ~np.isin(codes, self._cells)
+
+        def longer(which: np.ndarray, value: bool = False) -> np.ndarray:
+            return np.pad(which, (0, len(new)), constant_values=value)
+
+        are_edges = longer(np.zeros(points.count, dtype=bool))
         are_edges[points.count : points.count + len(edges)] = True
-        return together, np.pad(stays, (0, len(some)), constant_values=True), are_edges
+        together = Points(*(np.concatenate(columns) for columns in zip(points, new.T)))
+        top, core = longer(view.top), longer(view.core)
+        return BlockView(together, longer(stays, True), top, core, view.corner, are_edges)
 
     @cached_property
-    def _taken(self) -> np.ndarray:
-        """The cells of the lattice that hold a vertex."""
-        vertices = np.concatenate((self.edges, self.inside))
-        return np.unique(squares(*vertices[:, :2].T, self.cell))
+    def _cells(self) -> np.ndarray:
+        """The cells of the lattice with a vertex."""
+        return np.unique(squares(*np.concatenate((self.edges, self.inside))[:, :2].T, self.cell))
 
 
 def fixed_terrain(
@@ -86,10 +87,15 @@ def fixed_terrain(
         return None
     step = cell / PER_CELL
     given = GivenTerrain.of(constraints, clouds, frame, ground, step, progress)
-    waters = tuple(each for each in given.waters if each.is_known)
-    _tell_of_dry(len(given.waters) - len(waters), progress)
+    waters = tuple(water for water in given.waters if water.is_known)
+    dry = len(given.waters) - len(waters)
+    if dry:
+        progress.warning(
+            f"Polygons of water that are not flattened: {dry:,}. They have no ground point"
+            f" within {NEAR:g} m of their border. The terrain uses no ground points in them."
+        )
     lines, none = _along_breaklines(given, step, progress), np.zeros((0, 3))
-    borders = (along(ring, step) for each in waters for ring in each.rings)
+    borders = (along(ring, step) for water in waters for ring in water.rings)
     edges = np.concatenate([none, *lines, *borders])
     return FixedTerrain(edges, np.concatenate([none, *map(_inside, waters)]), cell, waters)
 
@@ -133,8 +139,7 @@ class GivenTerrain(NamedTuple):
             _with_level(polygon, border, rivers, shore)
             for polygon, border in zip(polygons, borders)
         ]
-        lines, wrong = without_wrong_heights(lines, heights, frame.vertical_unit)
-        wrong.tell(progress)
+        lines = without_wrong_heights(lines, heights, frame.vertical_unit, progress)
         return cls(lines, waters, heights)
 
 
@@ -166,13 +171,14 @@ def _with_level(
     stations = [part[:, :2] for part in parts]
     level = float(np.nanpercentile(heights, _LEVEL))
 
-    def raised(some: np.ndarray) -> np.ndarray:
-        z = np.full(len(some), level)
+    def raised(line: np.ndarray) -> np.ndarray:
+        z = np.full(len(line), level)
         if stations:
-            z = falling(stations, places, heights, some[:, :2], _LEVEL)
-        return np.column_stack((some[:, :2], z))
+            z = falling(stations, places, heights, line[:, :2], _LEVEL)
+        return np.column_stack((line[:, :2], z))
 
-    downstream = (each if each[0, 2] >= each[-1, 2] else each[::-1] for each in map(raised, parts))
+    rivers = map(raised, parts)
+    downstream = (line if line[0, 2] >= line[-1, 2] else line[::-1] for line in rivers)
     return LevelWater(tuple(map(raised, rings)), tuple(downstream))
 
 
@@ -205,14 +211,6 @@ def _inside(water: LevelWater) -> np.ndarray:
     return np.column_stack((x, y, water.level_at(x, y)))
 
 
-def _tell_of_dry(count: int, progress: Progress) -> None:
-    if count:
-        progress.warning(
-            f"Polygons of water that are not flattened: {count:,}. They have no ground point"
-            f" within {NEAR:g} m of their border. The terrain uses no ground points in them."
-        )
-
-
 def _ground_near(
     lines: Sequence[np.ndarray],
     clouds: Iterable[PointCloud],
@@ -223,10 +221,10 @@ def _ground_near(
     found, are_ground = [np.zeros((0, 3))], [np.zeros(0, dtype=bool)]
     if lines:
         wanted = NearPlaces(*np.concatenate(lines)[:, :2].T, NEAR)
-        for some in clouds:
-            is_ground = ground.of(some, GroundCounts())
-            which = np.flatnonzero(is_ground | ground.points_of(some, (IGNORED_GROUND,)))
-            near = which[wanted.of(*some.places(which, frame))]
-            found.append(np.column_stack(some.points(near, frame)))
+        for cloud in clouds:
+            is_ground = ground.of(cloud, GroundCounts())
+            which = np.flatnonzero(is_ground | ground.points_of(cloud, (IGNORED_GROUND,)))
+            near = which[wanted.of(*cloud.places(which, frame))]
+            found.append(np.column_stack(cloud.points(near, frame)))
             are_ground.append(is_ground[near])
     return np.concatenate(found), np.concatenate(are_ground)

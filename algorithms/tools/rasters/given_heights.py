@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Sequence
+from typing import Sequence
 
 import numpy as np
 
@@ -20,41 +20,14 @@ _FAR_FROM_OTHERS = 100.0
 _NOT_ZERO = 0.5
 
 
-class WrongHeights(NamedTuple):
-    """Numbers of corners of lines."""
-
-    corners: int = 0  # with a height
-    none: int = 0  # whose height stands for none, such as -9999
-    zero: int = 0  # whose height is 0, far from the ground
-    far: int = 0  # with another height far from the ground
-    farthest: float = 0.0  # from the ground, in metres
-
-    def tell(self, progress: Progress) -> None:
-        """Warn of them."""
-        count = self.none + self.zero + self.far
-        if not count:
-            return
-        what = {
-            f"{self.none:,} stand for no height": self.none,
-            f"{self.zero:,} are 0": self.zero,
-            f"{self.far:,} lie more than {_FAR:g} m from it": self.far,
-        }
-        reasons = ", ".join(reason for reason, number in what.items() if number)
-        most = f", up to {self.farthest:,.1f} m away" if self.farthest else ""
-        progress.warning(
-            f"Heights of breaklines that cannot be: {count:,} of {self.corners:,} corners. The"
-            f" ground near them counts instead ({reasons}{most})."
-        )
-
-
 def without_wrong_heights(
-    lines: Sequence[np.ndarray], ground: NearestHeights, unit: float
-) -> tuple[list[np.ndarray], WrongHeights]:
-    """Return lines, corners in metres of shape (n, 3), with NaN in place of heights that cannot be;
-    `unit` is metres in the unit in which these are written.
+    lines: Sequence[np.ndarray], ground: NearestHeights, unit: float, progress: Progress
+) -> list[np.ndarray]:
+    """Return lines, corners in metres of shape (n, 3), with NaN in place of heights that cannot be,
+    and warn of these; `unit` is metres in the unit in which they are written.
     """
     if not lines:
-        return [], WrongHeights()
+        return []
     corners = np.concatenate(lines)
     z = corners[:, 2]
     sides = np.concatenate([_beside(ground, line) for line in lines], axis=1)
@@ -69,11 +42,21 @@ def without_wrong_heights(
     is_far &= ~is_none & ~is_zero
     wrong = is_none | is_zero | is_far
     away = np.where(alone, np.nan, _away(z, low, high))[is_zero | is_far]
-    known, none, zero, far = (int(each.sum()) for each in (~np.isnan(z), is_none, is_zero, is_far))
-    farthest = float(np.nanmax(away)) if np.isfinite(away).any() else 0.0
+    if wrong.any():
+        reasons = {
+            f"{is_none.sum():,} stand for no height": is_none,
+            f"{is_zero.sum():,} are 0": is_zero,
+            f"{is_far.sum():,} lie more than {_FAR:g} m from it": is_far,
+        }
+        said = ", ".join(reason for reason, which in reasons.items() if which.any())
+        if np.isfinite(away).any() and np.nanmax(away):
+            said += f", up to {np.nanmax(away):,.1f} m away"
+        progress.warning(
+            f"Heights of breaklines that cannot be: {wrong.sum():,} of {(~np.isnan(z)).sum():,}"
+            f" corners. The ground near them counts instead ({said})."
+        )
     mended = np.column_stack((corners[:, :2], np.where(wrong, np.nan, z)))
-    ends = np.cumsum([len(line) for line in lines], dtype=np.int64)[:-1]
-    return np.split(mended, ends), WrongHeights(known, none, zero, far, farthest)
+    return np.split(mended, np.cumsum([len(line) for line in lines], dtype=np.int64)[:-1])
 
 
 def _beside(ground: NearestHeights, line: np.ndarray) -> np.ndarray:

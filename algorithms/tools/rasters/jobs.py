@@ -6,7 +6,7 @@ import itertools
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Dict, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -45,7 +45,7 @@ class RasterJob(BlockJob):
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
         step, counts, has_points = self.step, self.step.counts(), False
-        made: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
+        found: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
         with self.store(share) as store:
             for cloud in self.clouds(progress.part(0.0, 0.5)):
                 marks = step.marks(cloud, counts)
@@ -54,11 +54,11 @@ class RasterJob(BlockJob):
             store.finish(progress.part(0.5, 0.6))
             if has_points:
                 rest = progress.part(0.6, 0.95)
-                for each in step.work(store, share.resources, rest, self._is_wanted):
-                    made[self._place_of(each.window)].append(each)
+                for rasters in step.work(store, share.resources, rest, self._is_wanted):
+                    found[self._place_of(rasters.window)].append(rasters)
         progress(1.0)  # ends a job of a run that was cancelled, before it writes
         for place, file in zip(self.places, self.files):
-            _store(file, made[place])
+            _store(file, found[place])
 
     def _is_wanted(self, block: Block) -> bool:
         """Return whether a block, or a part of one, is one of this job."""
@@ -72,57 +72,47 @@ class RasterJob(BlockJob):
     def _place_of(self, window: CellWindow) -> BlockIndex:
         """Return the index of the block that holds the centre of the first cell."""
         cell, blocks = self.step.cell, self.grid.blocks
-        x, y = ((each + 0.5) * cell for each in (window.column, window.row))
-        return BlockIndex(int(blocks.number(x)), int(blocks.number(y)))
+        return BlockIndex(
+            int(blocks.number((window.column + 0.5) * cell)),
+            int(blocks.number((window.row + 0.5) * cell)),
+        )
 
 
-def _store(file: Path, made: Sequence[BlockRasters]) -> None:
+def _store(file: Path, rasters: Sequence[BlockRasters]) -> None:
     """Write the rasters of a block, or of its parts."""
     content: dict[str, Any] = {}
-    for number, each in enumerate(made):
-        small = {"window": np.array(each.window), "box": each.box, "counts": each.counts}
-        loose = {f"loose.{name}": value for name, value in each.loose.items()}
-        layers = {f"layers.{name}": value for name, value in each.layers.items()}
-        for name, value in {**small, **loose, **layers}.items():
-            content[f"{number}.{name}"] = value
+    for number, part in enumerate(rasters):
+        arrays = {"window": np.array(part.window), "box": part.box, "counts": part.counts}
+        arrays |= {f"loose.{name}": places for name, places in part.loose.items()}
+        arrays |= {f"layers.{name}": cells for name, cells in part.layers.items()}
+        content |= {f"{number}.{name}": array for name, array in arrays.items()}
     with replacing(file) as temporary, temporary.open("wb") as stream:
-        np.savez(stream, count=len(made), **content)
+        np.savez(stream, count=len(rasters), **content)
 
 
-class _StoredArrays(Mapping[str, np.ndarray]):
-    """Arrays with names from `start` on, read from a file of `_store` whenever they are used."""
+class _StoredLayers(Dict[str, np.ndarray]):
+    """The layers of a part of a block, read from a file of `_store` whenever they are used."""
 
     def __init__(self, file: Path, start: str) -> None:
+        super().__init__()
         self._file, self._start = file, start
-        with np.load(file, allow_pickle=False) as kept:
-            self._names = [name[len(start) :] for name in kept.files if name.startswith(start)]
 
-    def __getitem__(self, name: str) -> np.ndarray:
-        with np.load(self._file, allow_pickle=False) as kept:
-            return kept[self._start + name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._names)
-
-    def __len__(self) -> int:
-        return len(self._names)
+    def __missing__(self, name: str) -> np.ndarray:
+        with np.load(self._file, allow_pickle=False) as stored:
+            return stored[self._start + name]
 
 
-def _stored_in(file: Path) -> list[BlockRasters]:
-    """Return the rasters that `_store` wrote; their large arrays stay in the file."""
-    made = []
-    with np.load(file, allow_pickle=False) as kept:
-        for number in map(str, range(int(kept["count"]))):
-            layers, loose = (
-                _StoredArrays(file, f"{number}.{each}.") for each in ("layers", "loose")
+def _stored_in(file: Path) -> Iterator[BlockRasters]:
+    """Yield the rasters that `_store` wrote; their layers stay in the file."""
+    with np.load(file, allow_pickle=False) as stored:
+        for number in range(int(stored["count"])):
+            start = f"{number}.loose."
+            loose = {name[len(start) :]: stored[name] for name in stored if name.startswith(start)}
+            window, box, counts = (
+                stored[f"{number}.{name}"] for name in ("window", "box", "counts")
             )
-            window = CellWindow(*kept[f"{number}.window"].tolist())
-            made.append(
-                BlockRasters(
-                    window, layers, dict(loose), kept[f"{number}.box"], kept[f"{number}.counts"]
-                )
-            )
-    return made
+            layers = _StoredLayers(file, f"{number}.layers.")
+            yield BlockRasters(CellWindow(*window.tolist()), layers, loose, box, counts)
 
 
 def make_rasters(
@@ -144,7 +134,7 @@ def make_rasters(
     grid = BlockGrid(survey_frame(survey.crs, step.origin), step.blocks, survey.stated)
     seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
     step = step.seeing(results.parts(unpacking, seen), grid.frame, seen)
-    files = _files(survey, grid, step, folder, results)
+    files, is_cancelled = _files(survey, grid, step, folder, results), False
     try:
         jobs = _jobs(survey, grid, step, files, workers, results, unpacking)
         # What was found stays as long as a cancelled run may go on.
@@ -153,14 +143,14 @@ def make_rasters(
         queue.work()
         if queue.lost:
             raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
-        size = _written(survey, grid, step, files.values(), progress.part(0.8, 1.0))
+        return _written(survey, grid, step, files.values(), progress.part(0.8, 1.0))
     except Cancelled:
+        is_cancelled = True
         raise
-    except BaseException:
-        _remove(files.values())
-        raise
-    _remove(files.values())
-    return size
+    finally:
+        if not is_cancelled:
+            for file in files.values():
+                remove(file)
 
 
 def _files(
@@ -171,7 +161,7 @@ def _files(
     if step.area is not None:
         around = step.area.buffered_box(AROUND_AREA / grid.frame.horizontal_unit)
         columns, rows = grid.places_in(around)
-        places = [each for each in places if each.column in columns and each.row in rows]
+        places = [place for place in places if place.column in columns and place.row in rows]
         if not places:
             raise no_point_in(step.area)
     stamps = {path: stamp_of(source) for path, source in results.read_from.items()}
@@ -230,15 +220,9 @@ def _written(
     survey: Survey, grid: BlockGrid, step: MakeRasters, files: Iterable[Path], progress: Progress
 ) -> RasterSize:
     """Write the rasters, given those of all blocks."""
-    made = [each for file in files for each in _stored_in(file)]
+    blocks = [rasters for file in files for rasters in _stored_in(file)]
     per_file = None
     if step.per_file:
-        per_file = {split_name(each.path)[0]: each.box for each in survey.tiles}
+        per_file = {split_name(tile.path)[0]: tile.box for tile in survey.tiles}
     with Outputs() as outputs:
-        return write_rasters(made, grid.frame, step, outputs, progress, per_file)
-
-
-def _remove(files: Iterable[Path]) -> None:
-    """Remove the rasters of blocks."""
-    for file in files:
-        remove(file)
+        return write_rasters(blocks, grid.frame, step, outputs, progress, per_file)

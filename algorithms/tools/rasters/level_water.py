@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Iterator, NamedTuple, Sequence
+from typing import Iterator, Sequence
 
 import numpy as np
 
@@ -82,23 +82,15 @@ def _area_in(ring: np.ndarray) -> float:
     return abs(float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))) / 2.0
 
 
-class _CellsOfWater(NamedTuple):
-    """The cells of a window whose centres lie in a polygon of water, rows from the south."""
-
-    water: LevelWater
-    window: CellWindow
-    cells: Outline
-
-
 class WaterCells:
     """The cells of rasters, `cell` metres wide, whose centres lie in water with a level."""
 
     def __init__(self, waters: Sequence[LevelWater], window: CellWindow, cell: float) -> None:
         self._cell = cell
         self._parts = [
-            _CellsOfWater(each, part, _cells_in(each, part, cell))
-            for each in waters
-            if min((part := CellWindow.around(each.bounds, cell).within(window)).shape) > 0
+            (water, part, _cells_in(water, part, cell))
+            for water in waters
+            if not (part := CellWindow.around(water.bounds, cell).within(window)).is_empty
         ]
 
     def inside(self, strip: CellWindow) -> np.ndarray:
@@ -114,7 +106,7 @@ class WaterCells:
         """
         for where, cells, water, part in self._among(strip):
             rows, columns = np.nonzero(cells if kept is None else cells & ~kept[where])
-            x, y = ((at + 0.5) * self._cell for at in (part.column + columns, part.row + rows))
+            x, y = (part.column + columns + 0.5) * self._cell, (part.row + rows + 0.5) * self._cell
             heights[where][rows, columns] = water.level_at(x, y)
 
     def _among(
@@ -123,12 +115,10 @@ class WaterCells:
         """Yield, for each water, its part of a strip, which cells of it lie in it, and these."""
         for water, window, cells in self._parts:
             part = window.within(strip)
-            if min(part.shape) > 0:
-                row, column = part.row - window.row, part.column - window.column
-                inside = cells.rows(row, row + part.rows, column, column + part.columns)
-                row, column = part.row - strip.row, part.column - strip.column
-                where = slice(row, row + part.rows), slice(column, column + part.columns)
-                yield where, inside, water, part
+            if not part.is_empty:
+                rows, columns = window.slices(part)
+                inside = cells.rows(rows.start, rows.stop, columns.start, columns.stop)
+                yield strip.slices(part), inside, water, part
 
 
 NO_WATER_CELLS = WaterCells((), CellWindow(0, 0, 0, 0), 1.0)
@@ -139,7 +129,7 @@ def _cells_in(water: LevelWater, window: CellWindow, cell: float) -> Outline:
     cells = Outline(window.shape)
     x, y = window.centres(cell)
     for start, end in cells.strips():
-        places = np.meshgrid(x, y[start:end])
-        inside = water.contains(*(each.ravel() for each in places))
-        cells.set(start, inside.reshape(places[0].shape))
+        east, north = np.meshgrid(x, y[start:end])
+        inside = water.contains(east.ravel(), north.ravel())
+        cells.set(start, inside.reshape(east.shape))
     return cells

@@ -1,9 +1,9 @@
-"""Joins the rasters of blocks, some rows at a time."""
+"""Joins the layers of blocks, some rows at a time."""
 
 from __future__ import annotations
 
 import copy
-from typing import Callable, Iterator, Sequence
+from typing import Any, Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -14,13 +14,23 @@ from ...grids.morphology import within_square
 from ...grids.outline import Outline
 from ...grids.surface import CellLattice, Surface
 from ...survey.area import Area
-from .block import HELD, TOP, BlockRasters
+from .block import CONTENTS, TOP, BlockRasters
 from .level_water import NO_WATER_CELLS, WaterCells
 
 # Cells that are joined at a time.
 _CELLS_A_STRIP = 4_000_000
 # The rows of a strip are a multiple of this, as the file has blocks of so many rows.
 _ROWS = 256
+
+
+def joined(blocks: Sequence[BlockRasters], layer: str, strip: CellWindow, empty: Any) -> np.ndarray:
+    """Return the cells of a layer in a strip, rows from the south; `empty` where there is none."""
+    cells = np.full(strip.shape, empty)
+    for block in blocks:
+        shared = strip.within(block.window)
+        if not shared.is_empty:
+            cells[strip.slices(shared)] = block.layers[layer][block.window.slices(shared)]
+    return cells
 
 
 class Mosaic:
@@ -31,16 +41,15 @@ class Mosaic:
 
     def __init__(
         self,
-        made: Sequence[BlockRasters],
+        blocks: Sequence[BlockRasters],
         layer: str,
         window: CellWindow,
         cell: float,
         outline: Outline | None = None,
         water: WaterCells = NO_WATER_CELLS,
     ) -> None:
-        self._water = water
-        self._made, self._layer, self.window, self._cell = made, layer, window, cell
-        self._whole, self._outlines = window, [outline] if outline else []
+        self._blocks, self._layer, self.window, self._cell = blocks, layer, window, cell
+        self._whole, self._outlines, self._water = window, [outline] if outline else [], water
         self._area: Area | None = None
         self._gaps: Surface | None = None
 
@@ -53,24 +62,21 @@ class Mosaic:
     def columns(self, start: int, end: int) -> Mosaic:
         """Return some columns of the layer, from `start` on; those beyond it are NaN."""
         part, whole = copy.copy(self), self.window
-        part.window = CellWindow(whole.row, whole.column + start, whole.rows, end - start)
-        part._made = [each for each in self._made if _overlap(each.window, part.window)]
+        part.window = whole._replace(column=whole.column + start, columns=end - start)
+        part._blocks = [
+            block for block in self._blocks if not part.window.within(block.window).is_empty
+        ]
         return part
 
-    def rows(self, start: int, end: int, kind: type = np.float32) -> np.ndarray:
-        """Return rows from north to south, shape (end - start, columns); beyond it NaN, or 0."""
-        whole = self.window
-        strip = whole.strip(start, end)
-        empty = np.nan if issubclass(kind, np.floating) else 0
-        heights: np.ndarray = np.full(strip.shape, empty, dtype=kind)
-        for each in self._made:
-            target, source = _overlap(strip, each.window), _overlap(each.window, strip)
-            if target is not None:
-                heights[target] = each.layers[self._layer][source]
+    def rows(self, start: int, end: int) -> np.ndarray:
+        """Return rows from north to south, shape (end - start, columns); beyond it NaN."""
+        strip = self.window.strip(start, end)
+        heights = joined(self._blocks, self._layer, strip, np.float32(np.nan))
         if self._layer == "terrain":
             self._water.burn(heights, strip)
         elif self._layer == "surface":
-            self._water.burn(heights, strip, self._has_top(strip))
+            has_top = joined(self._blocks, CONTENTS, strip, np.uint8(0)) >= TOP
+            self._water.burn(heights, strip, has_top)
         elif self._layer == "confidence":
             # It tells what the ground points are worth, and the terrain of these cells has none.
             heights[self._water.inside(strip)] = np.nan
@@ -84,20 +90,12 @@ class Mosaic:
             heights[~self._area.contains(x.ravel(), y.ravel()).reshape(x.shape)] = np.nan
         return heights[::-1]
 
-    def _has_top(self, strip: CellWindow) -> np.ndarray:
-        """Return which cells of a strip hold a point of the surface, rows from the south."""
-        found = np.zeros(strip.shape, dtype=bool)
-        for each in self._made:
-            target, source = _overlap(strip, each.window), _overlap(each.window, strip)
-            if target is not None:
-                found[target] = each.layers[HELD][source] >= TOP
-        return found
-
     def _inside(self, start: int, end: int) -> np.ndarray:
         """Return which cells of some rows lie in all outlines."""
         first = self.window.column - self._whole.column
         columns = first, first + self.window.columns
-        return np.logical_and.reduce([each.rows(start, end, *columns) for each in self._outlines])
+        rows = [outline.rows(start, end, *columns) for outline in self._outlines]
+        return np.logical_and.reduce(rows)
 
     def fill_gaps(self, points: np.ndarray, progress: Progress = SILENT) -> None:
         """Fill cells without a height inside the outline, from a TIN over the gaps, of the cells
@@ -124,25 +122,16 @@ class Mosaic:
     ) -> None:
         row, column = np.nonzero(np.isnan(heights) & ~outside)
         if len(row):
-            x, y = ((at + 0.5) * self._cell for at in (strip.column + column, strip.row + row))
+            x = (strip.column + column + 0.5) * self._cell
+            y = (strip.row + row + 0.5) * self._cell
             lattice = CellLattice((0.0, 0.0), self._cell)
             heights[row, column] = gaps.heights(x, y, cells=lattice)
-
-
-def _overlap(one: CellWindow, other: CellWindow) -> tuple[slice, slice] | None:
-    """Return the rows and columns of `one` that `other` has as well; None if there are none."""
-    both = one.within(other)
-    if both.rows <= 0 or both.columns <= 0:
-        return None
-    row, column = both.row - one.row, both.column - one.column
-    return slice(row, row + both.rows), slice(column, column + both.columns)
 
 
 def _strips(window: CellWindow) -> list[tuple[int, int]]:
     """Return the rows, from north, at which strips begin and end."""
     rows = max(_CELLS_A_STRIP // window.columns // _ROWS, 1) * _ROWS
-    count = window.rows
-    return [(start, min(start + rows, count)) for start in range(0, count, rows)]
+    return [(start, min(start + rows, window.rows)) for start in range(0, window.rows, rows)]
 
 
 def gathered_strips(
@@ -160,10 +149,10 @@ def gathered_strips(
     whole = mosaics[0].window
     north = whole.row + whole.rows - window.row - window.rows
     left = window.column - whole.column
-    parts = [each.columns(left - margin, left + window.columns + margin) for each in mosaics]
+    parts = [mosaic.columns(left - margin, left + window.columns + margin) for mosaic in mosaics]
     inside = slice(margin, margin + window.columns)
     for start, end in _strips(window):
         first, last = north + start - margin, north + end + margin
-        made = make(*(each.rows(first, last) for each in parts))
-        yield made[..., margin : margin + end - start, inside]
+        rows = make(*(part.rows(first, last) for part in parts))
+        yield rows[..., margin : margin + end - start, inside]
         progress(end / window.rows)

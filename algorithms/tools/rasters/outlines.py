@@ -18,9 +18,9 @@ from ...grids.cell_window import CellWindow
 from ...grids.cells import are_inside, usual_count
 from ...grids.morphology import closing, within_square
 from ...grids.outline import MOST_CELLS, Discs, Outline, with_gaps_inside
-from .block import ANY, HELD, QUARTERS, BlockRasters, RasterStep
+from .block import ANY, CONTENTS, QUARTERS, BlockRasters, RasterStep
 from .level_water import NO_WATER_CELLS, WaterCells
-from .mosaic import Mosaic
+from .mosaic import Mosaic, joined
 
 # Radius of the discs in usual distances between points. These are not less than a cell.
 _SPACINGS = 4.0
@@ -34,75 +34,67 @@ _SQUARE, _MOST_SQUARES, _FEWEST = 16, 4_000_000, 16
 _COLUMNS = 512
 
 
-class Held:
-    """What the cells of a survey, with a side in metres, hold, from the layer `HELD` of all blocks;
-    cells of water count as cells with points and ground.
+class CellContents:
+    """What the cells of a survey contain, from the layer `CONTENTS` of all blocks; cells of water
+    count as cells with points and ground.
     """
 
     def __init__(
-        self,
-        made: Sequence[BlockRasters],
-        window: CellWindow,
-        cell: float,
-        water: WaterCells = NO_WATER_CELLS,
+        self, blocks: Sequence[BlockRasters], window: CellWindow, water: WaterCells = NO_WATER_CELLS
     ) -> None:
-        self._mosaic, self._made = Mosaic(made, HELD, window, cell), made
-        self.window, self.water = window, water
+        self._blocks, self.window, self.water = blocks, window, water
 
     def points(self, start: int, end: int) -> np.ndarray:
-        """Return which cells hold any point or water, as `ReadRows`."""
-        return self.of_water(start, end) | (self._mosaic.rows(start, end, np.uint8) >= ANY)
+        """Return which cells contain any point or water, as `ReadRows`."""
+        return self.of_water(start, end) | (self._rows(start, end) >= ANY)
 
     def ground(self, start: int, end: int) -> np.ndarray:
-        """Return which cells hold ground points or water, as `ReadRows`."""
-        held = self._mosaic.rows(start, end, np.uint8)
-        return self.of_water(start, end) | (held % ANY > 0)
+        """Return which cells contain ground points or water, as `ReadRows`."""
+        return self.of_water(start, end) | (self._rows(start, end) % ANY > 0)
 
     def of_water(self, start: int, end: int) -> np.ndarray:
         """Return which cells lie in water with a level, as `ReadRows`."""
         return self.water.inside(self.window.strip(start, end))[::-1]
 
+    def _rows(self, start: int, end: int) -> np.ndarray:
+        return joined(self._blocks, CONTENTS, self.window.strip(start, end), np.uint8(0))[::-1]
+
     def quarters(self, start: int, end: int, columns: slice) -> np.ndarray:
-        """Return which quarters of cells hold ground points; bool, twice as many each way."""
-        window = self.window
-        first, last = max(columns.start, 0), min(columns.stop, window.columns)
-        held = self._mosaic.columns(first, last).rows(start, end, np.uint8)
-        held = np.pad(held, ((0, 0), (first - columns.start, columns.stop - last)))
-        quarters = np.zeros((2 * held.shape[0], 2 * held.shape[1]), dtype=bool)
+        """Return which quarters of cells contain ground points; bool, twice as many each way."""
+        strip = self.window.strip(start, end)._replace(
+            column=self.window.column + columns.start, columns=columns.stop - columns.start
+        )
+        contents = joined(self._blocks, CONTENTS, strip, np.uint8(0))[::-1]
+        # Beyond the columns of the survey nothing counts.
+        contents[:, : max(-columns.start, 0)] = 0
+        contents[:, self.window.columns - columns.start :] = 0
+        quarters = np.zeros((2 * contents.shape[0], 2 * contents.shape[1]), dtype=bool)
         for number in range(QUARTERS):
             # Rows go from north to south, so the northern quarters come first.
-            quarters[1 - number // 2 :: 2, number % 2 :: 2] = held & (1 << number)
-        strip = window.strip(start, end)._replace(
-            column=window.column + columns.start, columns=columns.stop - columns.start
-        )
+            quarters[1 - number // 2 :: 2, number % 2 :: 2] = contents & (1 << number)
         return quarters | self.water.inside(strip)[::-1].repeat(2, axis=0).repeat(2, axis=1)
 
     def spacings(self) -> tuple[float, float]:
         """Return the usual distances, in cells, between cells with points and with ground."""
-        window = self.window
-        side = _SQUARE
+        window, side = self.window, _SQUARE
         while (window.rows // side + 2) * (window.columns // side + 2) > _MOST_SQUARES:
             side *= 2
         first = window.row // side, window.column // side
         last = (window.row + window.rows) // side, (window.column + window.columns) // side
         counts = np.zeros((2, *(b - a + 1 for a, b in zip(first, last))), dtype=np.int64)
-        for each in self._made:
-            shared = each.window.within(window)
-            if min(shared.shape) <= 0:
+        for block in self._blocks:
+            shared = block.window.within(window)
+            if shared.is_empty:
                 continue
-            rows, columns = (
-                slice(at - start, at - start + count)
-                for at, start, count in zip(shared[:2], each.window[:2], shared.shape)
-            )
-            held = each.layers[HELD][rows, columns]
-            places = [
+            contents = block.layers[CONTENTS][block.window.slices(shared)]
+            (rows, at_rows), (columns, at_columns) = (
                 np.unique((start + np.arange(count)) // side, return_index=True)
                 for start, count in zip(shared[:2], shared.shape)
-            ]
-            here = np.ix_(*(number - at for (number, _), at in zip(places, first)))
-            for some, which in zip(counts, (held >= ANY, held % ANY > 0)):
-                along = np.add.reduceat(which, places[0][1], axis=0, dtype=np.int64)
-                some[here] += np.add.reduceat(along, places[1][1], axis=1)
+            )
+            squares = np.ix_(rows - first[0], columns - first[1])
+            for number, which in zip(counts, (contents >= ANY, contents % ANY > 0)):
+                along = np.add.reduceat(which, at_rows, axis=0, dtype=np.int64)
+                number[squares] += np.add.reduceat(along, at_columns, axis=1)
         area = window.rows * window.columns
         return _apart(counts[0], side, area), _apart(counts[1], side, area)
 
@@ -115,7 +107,7 @@ def _apart(counts: np.ndarray, side: int, area: int) -> float:
         return 1.0
     widest = math.sqrt(area / int(counts.sum()))
     while usual_count(counts) < _FEWEST and max(counts.shape) > 1:
-        counts = np.pad(counts, [(0, each % 2) for each in counts.shape])
+        counts = np.pad(counts, [(0, count % 2) for count in counts.shape])
         counts = counts[::2] + counts[1::2]
         counts = counts[:, ::2] + counts[:, 1::2]
         side *= 2
@@ -130,12 +122,12 @@ def _radius(cells: float) -> float:
 class Outlines:
     """The outlines of the rasters of a survey, made when they are needed."""
 
-    def __init__(self, held: Held, step: RasterStep) -> None:
-        window, cell = held.window, step.cell
-        self._held, self._shape, self._longest = held, window.shape, step.longest_edge / cell
-        self.water = held.water
+    def __init__(self, contents: CellContents, step: RasterStep) -> None:
+        window, cell = contents.window, step.cell
+        self._contents, self._shape = contents, window.shape
+        self._longest, self.water = step.longest_edge / cell, contents.water
         self._corner = window.row + window.rows, window.column
-        of_all, of_ground = held.spacings()
+        of_all, of_ground = contents.spacings()
         self._near = _radius(_SPACINGS * of_all)
         least = min(_LEAST_OF_GROUND / cell, MOST_CELLS - 1)
         self._near_ground = _radius(max(_SPACINGS * of_ground, least))
@@ -146,7 +138,7 @@ class Outlines:
 
     def terrain(self, survey: Outline, progress: Progress = SILENT) -> Outline:
         """Return where the terrain is known; `survey` is the outline of all points."""
-        ground = Discs(self._held.ground, self._corner, self._near_ground, self._near_ground)
+        ground = Discs(self._contents.ground, self._corner, self._near_ground, self._near_ground)
         wide = with_gaps_inside(ground.rows, self._shape, progress.part(0.0, 0.8))
         inside = Outline(self._shape)
         for start, end in inside.strips():
@@ -154,7 +146,7 @@ class Outlines:
             if ground.group == 1:
                 self._refine(cells, start - 1)
             inside.set(
-                start, (cells[1:-1] & survey.rows(start, end)) | self._held.of_water(start, end)
+                start, (cells[1:-1] & survey.rows(start, end)) | self._contents.of_water(start, end)
             )
             progress(0.8 + 0.2 * end / self._shape[0])
         return inside
@@ -162,14 +154,14 @@ class Outlines:
     def canopy(self, progress: Progress = SILENT) -> Outline:
         """Return where the surface was measured, and the terrain nearby."""
         measured = Outline(self._shape)
-        ground = Discs(self._held.ground, self._corner, self._longest, 0.0)
+        ground = Discs(self._contents.ground, self._corner, self._longest, 0.0)
         for start, end in measured.strips():
             measured.set(start, self._closed(start, end) & ground.rows(start, end))
             progress(end / self._shape[0])
         return measured
 
     def _closed(self, start: int, end: int) -> np.ndarray:
-        points = self._held.points
+        points = self._contents.points
         closed = Discs(points, self._corner, self._near, self._near).rows(start, end)
         return closed | points(start, end)
 
@@ -188,7 +180,7 @@ class Outlines:
                 continue
             low, high = start + int(rows[0]), start + int(rows[-1]) + 1
             columns = slice(first - margin, last + margin)
-            quarters = self._held.quarters(low - margin, high + margin, columns)
+            quarters = self._contents.quarters(low - margin, high + margin, columns)
             closed = closing(quarters, radius)[2 * margin : -2 * margin, 2 * margin : -2 * margin]
             all_four = closed[::2, ::2] & closed[1::2, ::2] & closed[::2, 1::2] & closed[1::2, 1::2]
             part = slice(low - start, high - start), slice(first, last)
@@ -196,7 +188,7 @@ class Outlines:
 
 
 def mosaics_of(
-    made: Sequence[BlockRasters],
+    blocks: Sequence[BlockRasters],
     window: CellWindow,
     step: RasterStep,
     outlines: Outlines,
@@ -207,12 +199,11 @@ def mosaics_of(
     survey, mosaics = outlines.survey(next(parts)), {}
     for name in step.layers:
         outline = outlines.terrain(survey, next(parts)) if name == "terrain" else survey
-        mosaics[name] = Mosaic(made, name, window, step.cell, outline, outlines.water)
-        loose = [each.loose[name] for each in made if name in each.loose]
+        mosaics[name] = Mosaic(blocks, name, window, step.cell, outline, outlines.water)
+        loose = [block.loose[name] for block in blocks if name in block.loose]
         if loose and step.max_edge is None:
             vertices = np.concatenate(loose)
-            x, y = vertices[:, :2].T
-            row, column = window.places(x, y, (0.0, 0.0), step.cell)
+            row, column = window.places(vertices[:, 0], vertices[:, 1], (0.0, 0.0), step.cell)
             vertices = vertices[are_inside(row, column, window.shape)]
             mosaics[name].fill_gaps(vertices, next(parts))
     return mosaics

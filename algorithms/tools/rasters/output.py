@@ -19,20 +19,17 @@ from ...rasters.cell_grid import (
     CellGrid,
     no_points,
 )
-from ...rasters.geotiff import RasterGrid
+from ...rasters.geotiff import NO_GROUND, RasterGrid, check_cells
 from ...rasters.virtual import write_virtual
 from ...rasters.writing import Band, Rows, raster_file, write_geotiff
 from ...survey.area import Area
 from .block import BlockRasters
 from .level_water import WaterCells
 from .mosaic import Mosaic, gathered_strips
-from .outlines import Held, Outlines, mosaics_of
+from .outlines import CellContents, Outlines, mosaics_of
 from .rows import RASTERS, How, Raster, folder_of, virtual_of
 from .step import MakeRasters
 
-# In a raster of more cells, blocks with points must cover this share. Otherwise it is so large
-# because of a few points with stray coordinates.
-_MANY_CELLS, _LEAST_COVERED = 10_000_000, 0.01
 # Cells up to so many metres from the area are made as well, because the surroundings decide which
 # gaps lie inside the survey.
 AROUND_AREA = 1000.0
@@ -49,7 +46,7 @@ class RasterSize:
 
 
 def write_rasters(
-    made: Sequence[BlockRasters],
+    blocks: Sequence[BlockRasters],
     frame: Frame,
     step: MakeRasters,
     outputs: Outputs,
@@ -59,38 +56,37 @@ def write_rasters(
     """Write the rasters of the blocks of a survey, or of `files` with extents in units of the CRS,
     with names when `outputs` is closed; refuse no points.
     """
-    cell, wanted = step.cell, step.files.wanted
-    window, area = _window_of(made, cell), None
+    window, area = _window_of(blocks, step.cell), None
     whole = window
     if step.area is not None:
         area = step.area.scaled(frame.horizontal_unit, frame.origin)
-        whole = _window_in(area.buffered_box(AROUND_AREA), window, cell, step.area)
-        window = _window_in(area.bounds, window, cell, step.area)
-    water = WaterCells(step.fixed.waters if step.fixed else (), whole, cell)
-    outlines = Outlines(Held(made, whole, cell, water), step.of_block)
-    mosaics = mosaics_of(made, whole, step.of_block, outlines, progress.part(0.0, 0.3))
+        whole = CellWindow.around(area.buffered_box(AROUND_AREA), step.cell).within(window)
+        window = CellWindow.around(area.bounds, step.cell).within(window)
+        if window.is_empty:
+            raise no_point_in(step.area)
+    water = WaterCells(step.fixed.waters if step.fixed else (), whole, step.cell)
+    outlines = Outlines(CellContents(blocks, whole, water), step.of_block)
+    mosaics = mosaics_of(blocks, whole, step.of_block, outlines, progress.part(0.0, 0.3))
     window = _covered(window, step, frame)
-    parts = progress.part(0.3, 1.0).shares(*[1.0] * len(wanted))
-    for (name, path), part in zip(wanted.items(), parts):
+    windows = None if files is None else _windows_of(files, window, step.cell, frame)
+    parts = progress.part(0.3, 1.0).shares(*[1.0] * len(step.files.wanted))
+    for (name, path), part in zip(step.files.wanted.items(), parts):
         raster = RASTERS[name]
         measured = outlines.canopy() if raster.needs_both else None
-        layers = [mosaics[each].limited(measured, area) for each in raster.layers]
+        layers = [mosaics[layer].limited(measured, area) for layer in raster.layers]
         write = partial(_write, raster, layers, frame, step, outputs)
-        if files is None:
+        if windows is None:
             write(path, window, part)
-        else:
-            windows = _windows_of(files, window, cell, frame)
-            shares = part.shares(*[1.0] * len(windows))
-            folder = outputs.enter_context(new_folder(folder_of(path)))
-            names = [folder / f"{each}.tif" for each in windows]
-            grids = dict(zip(names, map(write, names, windows.values(), shares)))
-            virtual, grid = virtual_of(path), _grid_of(window, step, frame)
-            temporary = outputs.file(virtual)
-            nodata = raster.nodata(step.model.nodata)
-            band = Band.of(grid, nodata, raster.shows, raster.bands)
-            write_virtual(temporary, virtual.parent, grid, grids, raster.kind, band)
-    counts = np.sum([each.counts for each in made], axis=0)
-    return RasterSize(int(counts[0]), int(counts[1]), window.columns, window.rows)
+            continue
+        folder = outputs.enter_context(new_folder(folder_of(path)))
+        names = [folder / f"{name}.tif" for name in windows]
+        shares = part.shares(*[1.0] * len(windows))
+        grids = dict(zip(names, map(write, names, windows.values(), shares)))
+        virtual, grid = virtual_of(path), _grid_of(window, step, frame)
+        band = Band.of(grid, raster.nodata(step.model.nodata), raster.shows, raster.bands)
+        write_virtual(outputs.file(virtual), virtual.parent, grid, grids, raster.kind, band)
+    ground, top = np.sum([block.counts for block in blocks], axis=0).tolist()
+    return RasterSize(ground, top, window.columns, window.rows)
 
 
 def _write(
@@ -121,28 +117,22 @@ def _windows_of(
     for name, box in files.items():
         metres = (np.array(box) - np.tile(frame.origin, 2)) * frame.horizontal_unit
         window = CellWindow.around(tuple(metres.tolist()), cell).within(whole)
-        if min(window.shape) > 0:
+        if not window.is_empty:
             windows[name] = window
     return windows
 
 
-def _window_of(made: Sequence[BlockRasters], cell: float) -> CellWindow:
+def _window_of(blocks: Sequence[BlockRasters], cell: float) -> CellWindow:
     """Return the cells that cover all points."""
-    boxes = np.array([each.box for each in made if not np.isnan(each.box).any()]).reshape(-1, 4)
+    boxes = np.array([block.box for block in blocks]).reshape(-1, 4)
+    boxes = boxes[~np.isnan(boxes).any(axis=1)]
     if not len(boxes):
-        raise BareEarthError(
-            "There is no ground point to make a terrain model of. Check the selection of points"
-            " and the parameters."
-        )
+        raise BareEarthError(NO_GROUND)
     low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
     window = CellWindow.around((*low, *high), cell)
-    cells = window.rows * window.columns
-    covered = np.prod(boxes[:, 2:] - boxes[:, :2] + cell, axis=1).sum() / (cells * cell**2)
-    if cells > MOST_CELLS or (cells > _MANY_CELLS and covered < _LEAST_COVERED):
-        raise BareEarthError(
-            f"The raster would have {window.columns:,} x {window.rows:,} cells of {cell:g} m."
-            " Choose a larger cell size, or remove points with stray coordinates."
-        )
+    area = np.prod(boxes[:, 2:] - boxes[:, :2] + cell, axis=1).sum()
+    covered = area / (window.rows * window.columns * cell**2)
+    check_cells(window.columns, window.rows, cell, lambda: covered, MOST_CELLS)
     return window
 
 
@@ -151,17 +141,9 @@ def _covered(window: CellWindow, step: MakeRasters, frame: Frame) -> CellWindow:
     wanted = step.cells.window if step.cells else None
     if wanted is None:
         return window
-    if min(wanted.within(window).shape) <= 0:
+    if wanted.within(window).is_empty:
         raise no_points(*(_grid_of(cells, step, frame).box for cells in (wanted, window)))
     return wanted
-
-
-def _window_in(box: Box, whole: CellWindow, cell: float, area: Area) -> CellWindow:
-    """Return the cells that cover a box in metres; `area` is in units of the CRS."""
-    window = CellWindow.around(box, cell).within(whole)
-    if min(window.shape) <= 0:
-        raise no_point_in(area)
-    return window
 
 
 def no_point_in(area: Area) -> BareEarthError:

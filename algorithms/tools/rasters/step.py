@@ -33,7 +33,7 @@ from ...rasters.cell_grid import (
 from ...survey.area import Area
 from ...survey.ground_classes import GroundClasses, GroundCounts
 from ...survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
-from .block import LAYERS, BlockRasters, RasterStep
+from .block import LAYERS, BlockRasters, BlockView, RasterStep
 from .constraints import NO_CONSTRAINTS, Constraints
 from .fixed_terrain import FixedTerrain, fixed_terrain
 from .parameters import SurfaceModel, TerrainModel
@@ -212,26 +212,22 @@ class MakeRasters(Step):
         is_wanted: Callable[[Block], bool] | None = None,
     ) -> list[BlockRasters]:
         """Return the rasters of the blocks, or of those that are wanted."""
-        work = partial(_made_of, store, self, is_wanted is None)
-        made = dict(over_blocks(store, self.blocks, work, resources, progress, is_wanted))
-        return [made[number] for number in sorted(made)]
+        work = partial(_rasters_of, store, self, is_wanted is None)
+        found = over_blocks(store, self.blocks, work, resources, progress, is_wanted)
+        return [rasters for _, rasters in sorted(found)]
 
 
-def _made_of(
+def _rasters_of(
     store: Store, step: MakeRasters, are_all: bool, block: Block, is_only: bool, progress: Progress
 ) -> BlockRasters:
     """Return the rasters of a block; `are_all` if no block was left out."""
-    blocks = step.blocks
-    contents = blocks.contents(block, store, progress.part(0.0, 0.1))
-    corner = blocks.corner(block)
-    core = np.ones(contents.points.count, dtype=bool)
+    contents = step.blocks.contents(block, store, progress.part(0.0, 0.1))
+    points, top, corner = contents.points, contents.wanted, step.blocks.corner(block)
     # A single block holds all points.
-    if not (is_only and are_all):
-        core = block.holds(contents.points, corner)
-    points, top, edges = contents.points, contents.wanted, None
+    is_whole = is_only and are_all
+    core = np.ones(points.count, dtype=bool) if is_whole else block.holds(points, corner)
     ground = with_roads(points, contents.known, contents.roads, progress.part(0.1, 0.2))
+    view = BlockView(points, ground, top, core, corner)
     if step.fixed is not None and points.count:
-        points, ground, edges = step.fixed.added_to(points, ground, corner)
-        top, core = (np.pad(each, (0, points.count - len(each))) for each in (top, core))
-    part = progress.part(0.2, 1.0)
-    return step.of_block.of(points, ground, top, core, corner, block.box, edges, part)
+        view = step.fixed.added_to(view)
+    return step.of_block.of(view, block.box, progress.part(0.2, 1.0))
