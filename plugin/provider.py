@@ -9,12 +9,10 @@ from qgis.PyQt.QtGui import QIcon
 
 from .. import __version__
 from ..algorithms.survey.feature_files import FORMATS
-from ..algorithms.tools import FILE_TOOLS, POINT_TOOLS, file_tool
 from .processing import ALGORITHMS
-from .processing.file_tools import FileToolAlgorithm
 from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
-from .processing.point_tools import PointToolAlgorithm
+from .processing.tools import tool_algorithms
 
 ICON = Path(__file__).parent / "icons" / "bare_earth.svg"
 
@@ -49,10 +47,7 @@ class BareEarthProvider(QgsProcessingProvider):
     def loadAlgorithms(self) -> None:
         """Add an instance of each algorithm, and the models of the plugin."""
         self._models = shipped_models()
-        tools = [command for command in FILE_TOOLS if file_tool(command).identifier]
-        own = [each() for each in ALGORITHMS]
-        own += [*map(PointToolAlgorithm, POINT_TOOLS), *map(FileToolAlgorithm, tools)]
-        for algorithm in [*own, *self._models]:
+        for algorithm in [*(each() for each in ALGORITHMS), *tool_algorithms(), *self._models]:
             self.addAlgorithm(algorithm)
 
     def load_models(self, _: str = "") -> None:

@@ -43,8 +43,8 @@ def _add_file_tool(name: str, parser: argparse.ArgumentParser, arguments: Sequen
         _add_input(parser, declared)
     for output in tool.outputs:
         _add_output(parser, output)
-    if tool.json:
-        add_json(parser, f"{tool.json} ")
+    if tool.json is not None:
+        add_json(parser, f"{tool.json} ".lstrip())
     add_parameters(parser, *tool.sets, titles=tool.titles)
     for parameter, flag in tool.flags.items():
         parser.add_argument(
@@ -72,7 +72,7 @@ def _run(options: argparse.Namespace) -> int:
     outputs = {output.name: getattr(options, output.name) for output in tool.outputs}
     with Terminal(options.verbose) as progress:
         found = run(tool, inputs, outputs, sets, progress)
-    if not tool.json:
+    if tool.json is None:
         return DONE
     if options.json:
         print(

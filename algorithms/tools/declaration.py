@@ -57,8 +57,10 @@ class Input:
         return self.named or self.name.upper()
 
 
-# The CRS of the points, as most tools have it.
+# The points and their CRS, as most tools have them.
+_POINTS = Input("input", "clouds", help="a classified file, or ", label="Classified point cloud")
 CRS = Input("crs", "crs", label="CRS of the points", optional=True, advanced=True)
+_CLOUD_HELP = "the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs"
 
 
 @dataclass(frozen=True)
@@ -67,7 +69,8 @@ class Output:
 
     # All outputs are checked before the work begins, and get their names together when it ends.
     name: str  # of the argument of the work, and of the option
-    kind: str  # "raster", "features", "page", "table" or "folder"
+    # "raster", "features", "page", "table" or "folder"; "cloud" of a tool for points.
+    kind: str
     help: str  # of the option
     label: str = ""  # of the field in the dialog; empty if there is none
     field_help: str = ""
@@ -135,6 +138,16 @@ class Tool:
         """The parameter sets in the order of the dialog."""
         return self.dialog_sets or self.sets
 
+    @property
+    def all_inputs(self) -> tuple[Input, ...]:
+        """The inputs with those that all tools of its kind have."""
+        return self.inputs
+
+    @property
+    def all_outputs(self) -> tuple[Output, ...]:
+        """The outputs."""
+        return ()
+
 
 @dataclass(frozen=True)
 class PointTool(Tool):
@@ -145,6 +158,17 @@ class PointTool(Tool):
     output_label: str = ""
     output_help: str = ""
     shows: str = "classes"  # how QGIS shows the output: "classes", "key points" or "heights"
+
+    @property
+    def all_inputs(self) -> tuple[Input, ...]:
+        """The points, the further inputs, and the CRS."""
+        return _POINTS, *self.inputs, CRS
+
+    @property
+    def all_outputs(self) -> tuple[Output, ...]:
+        """The classified file, or the folder for those of a survey."""
+        label, text = self.output_label, self.output_help
+        return (Output("output", "cloud", _CLOUD_HELP, label, text, is_main=True),)
 
 
 def _nothing(**given: Any) -> None:
@@ -163,5 +187,10 @@ class FileTool(Tool):
     titles: tuple[str, ...] = ()  # of the sets, in the help of the command
     # Further flags of parameters, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
-    json: str = "what was done"  # what --json prints; empty if there is nothing to tell
+    json: str | None = "what was done"  # what --json prints; None if there is nothing to tell
     always_tells: bool = False  # whether the command prints the text, not only with --verbose
+
+    @property
+    def all_outputs(self) -> tuple[Output, ...]:
+        """The outputs."""
+        return self.outputs

@@ -175,7 +175,7 @@ TOOL = FileTool(
         ),
     ),
     flags={"kinds": "kind"},
-    json="",
+    json=None,
     command="relief",
     command_about="Makes a raster (GeoTIFF) that shows the relief of an elevation raster: local"
     " relief, sky-view factor, openness, local dominance, slope, hillshade, or a picture of several"

@@ -10,6 +10,7 @@ from qgis.core import (
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterExtent,
+    QgsProcessingParameterFeatureSource,
     QgsProcessingParameterRasterLayer,
     QgsProcessingParameterString,
 )
@@ -26,6 +27,7 @@ from .inputs import (
     PointCloudInput,
     SurveyInput,
     box_of,
+    layer_polygons,
     name_of,
     raster_of,
     source_path,
@@ -80,6 +82,9 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         "raster": lambda: QgsProcessingParameterRasterLayer(name, label, None, declared.optional),
         "extent": lambda: QgsProcessingParameterExtent(name, label, None, True),
         "words": lambda: QgsProcessingParameterString(name, label, None, False, True),
+        "polygons": lambda: QgsProcessingParameterFeatureSource(
+            name, label, [compat.POLYGONS], None, True
+        ),
     }
     helps = {"cloud": CLOUD_HELP, "clouds": ANY_CLOUD_HELP}
     field = makers[declared.kind]()
@@ -138,7 +143,22 @@ def _checkpoints(request: Request, declared: Input) -> Given:
     return Given(*checkpoints_of(algorithm, parameters, context, crs, progress))
 
 
+def _polygons(request: Request, declared: Input) -> Given:
+    if declared.found and request.is_empty(declared):
+        return Given(None, {declared.name: "automatic"})
+    algorithm, parameters, context, progress = request
+    file = f"{declared.name}.geojson"
+    progress.info(
+        f"In the command line the {declared.name} is missing: save it in the CRS of the points as"
+        f" {file}."
+    )
+    crs = algorithm.crs_of(*algorithm.inputs)
+    field = declared.field_name, declared.label
+    polygons = layer_polygons(algorithm, parameters, *field, context, crs)
+    return Given(declared.of(polygons), {declared.name: file})
+
+
 _READERS: dict[str, Callable[[Request, Input], Given]] = {
     "cloud": _cloud, "clouds": _cloud, "raster": _raster, "crs": _crs, "extent": _extent,
-    "words": _words, "checkpoints": _checkpoints,
+    "words": _words, "checkpoints": _checkpoints, "polygons": _polygons,
 }  # fmt: skip

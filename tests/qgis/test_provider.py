@@ -100,8 +100,8 @@ PARAMETERS = {
         "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
     ],
     "bareearth:heightaboveground": [
-        "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP", "OUTPUT_AS", "THREADS", "MEMORY", "OUTPUT",
-        "DTM",
+        "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP", "OUTPUT_AS", "THREADS", "MEMORY", "DTM",
+        "OUTPUT",
     ],
     "bareearth:classifyaboveground": [
         "INPUT", "CRS", "ABOVE_GROUND", "MEDIUM_HEIGHT", "HIGH_HEIGHT", "LOW_HEIGHT", "BUILDINGS",

@@ -1,0 +1,336 @@
+"""The tools in the toolbox, from their declarations."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from qgis.core import (
+    QgsProcessingContext,
+    QgsProcessingOutputRasterLayer,
+    QgsProcessingParameterDefinition,
+    QgsProcessingParameterFileDestination,
+    QgsProcessingParameterFolderDestination,
+    QgsProcessingParameterRasterDestination,
+    QgsProcessingParameterVectorDestination,
+)
+
+from ...algorithms.core.files import split_name
+from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.engine.memory import Resources
+from ...algorithms.survey.files import is_one_file
+from ...algorithms.survey.ground_classes import GroundClasses
+from ...algorithms.survey.kept_classes import GROUND
+from ...algorithms.survey.outputs import check_kind
+from ...algorithms.tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool
+from ...algorithms.tools.declaration import FileTool, Output, PointTool, Tool
+from ...algorithms.tools.heights import HEIGHT_DIMENSION
+from .. import compat
+from ..i18n import mark, tr
+from ..styles import layers
+from .base import BareEarthAlgorithm, command_line
+from .classified import show_class_raster
+from .feedback import FeedbackProgress
+from .inputs import ignored_filter
+from .outputs import after_cancel, do_not_load, point_cloud_formats
+from .search_words import words_in
+from .tool_inputs import Given, Request, add_input, given
+
+# Inputs of these kinds, which name the run, are found first; these are read when the work begins.
+_FILES, _LATE = ("cloud", "clouds", "raster"), ("checkpoints", "polygons")
+# Titles of the layers of classes, by what a tool for points shows.
+_TITLES = {"classes": layers.CLASSES, "key points": mark("key points")}
+# Share of the progress bar until what the user did not give is found.
+_FINDING = 0.4
+# Of the numbers of many files; all others are added up.
+_TOGETHER = {"MINIMUM": min, "MAXIMUM": max}
+
+
+class ToolAlgorithm(BareEarthAlgorithm):
+    """A tool, given its declaration; derived classes do its work."""
+
+    def __init__(self, tool: Tool) -> None:
+        super().__init__()
+        self._tool = tool
+        self.identifier, self.page, self.section = tool.identifier, tool.page, tool.section
+        self.title, self.summary, self.about = tool.title, tool.summary, tool.about
+        self.run_name, self.shown = tool.run_name, tool.shown
+        self._inputs = [declared for declared in tool.all_inputs if declared.label]
+        self._outputs = [output for output in tool.all_outputs if output.label]
+        self._given: dict[str, Given] = {}
+
+    def createInstance(self) -> ToolAlgorithm:
+        """Return another instance."""
+        return type(self)(self._tool)
+
+    def tags(self) -> list[str]:
+        """Return the words for the search of the toolbox."""
+        return words_in(self._tool.words)
+
+    def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
+        """Return the sets of the tool."""
+        return self._tool.sets_of_dialog
+
+    def work(
+        self,
+        inputs: dict[str, Any],
+        outputs: dict[str, str],
+        chosen: list[ParameterSet],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> dict[str, Any]:
+        """Let the tool work, show what it has written, and return the results."""
+        raise NotImplementedError
+
+    def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
+        """Declare the fields of the dialog and the results."""
+        for declared in self._inputs:
+            if not declared.is_last:
+                add_input(self, declared)
+        self.add_declared()
+        for declared in self._inputs:
+            if declared.is_last:
+                add_input(self, declared)
+        for output in self._outputs:
+            self.addParameter(_field_of(output), output.field_help)
+            for name, label in output.layers.items():
+                self.addOutput(QgsProcessingOutputRasterLayer(name.upper(), label))
+        self.add_numbers(dict(self._tool.numbers))
+
+    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Find the input files."""
+        request = Request(self, parameters, context)
+        self._given = {
+            declared.name: given(request, declared)
+            for declared in self._inputs
+            if declared.kind in _FILES
+        }
+        self.inputs = [found.path for found in self._given.values() if found.path]
+        self.subject = next(found.name for found in self._given.values() if found.name)
+
+    def prepare(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> None:
+        """Find the inputs, and warn of a filter that is ignored."""
+        super().prepare(parameters, context, progress)
+        request = Request(self, parameters, context, progress)
+        for declared in self._inputs:
+            if declared.kind not in (*_FILES, *_LATE):
+                self._given[declared.name] = given(request, declared)
+            if declared.kind in ("cloud", "clouds") and ignored_filter(
+                self, parameters, declared.field_name, context
+            ):
+                progress.warning("The layer's filter is not applied: all points are read.")
+
+    def compute(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> dict[str, Any]:
+        """Find what else is given, tell the command, and work."""
+        request = Request(self, parameters, context, progress)
+        for declared in self._inputs:
+            if declared.kind in _LATE:
+                self._given[declared.name] = given(request, declared)
+        inputs = {name: found.value for name, found in self._given.items()}
+        outputs = {output.name: self._path(request, output) for output in self._outputs}
+        chosen = self.chosen(parameters, context)
+        progress.command(self._command(outputs, chosen))
+        return self.work(inputs, outputs, chosen, context, progress)
+
+    def _path(self, request: Request, output: Output) -> str:
+        """Return the path of an output; empty if it is not wanted."""
+        name, context = output.field_name, request.context
+        if output.kind == "cloud":
+            return self._cloud(request, name)
+        is_layer = output.kind in ("raster", "features")
+        path_of = self.parameterAsOutputLayer if is_layer else self.parameterAsFileOutput
+        path: str = path_of(request.parameters, name, context)
+        if output.needs and self._given[output.needs].value is None:
+            do_not_load(context, [path])
+            return ""
+        return path
+
+    def _cloud(self, request: Request, name: str) -> str:
+        """Return the path of a point cloud, for many files a folder of this name without its
+        ending; tell the user if QGIS cannot show it.
+        """
+        _, parameters, context, progress = request
+        path = self.point_cloud_destination(parameters, name, context)
+        if not is_one_file(self.inputs):
+            do_not_load(context, [path])
+            return str(Path(path).with_name(split_name(Path(path))[0]))
+        if not compat.can_load(path):
+            progress.info(f"This QGIS cannot show such a file as a layer. It will be at {path}.")
+        return path
+
+    def _command(self, paths: dict[str, str], chosen: list[ParameterSet]) -> str:
+        """Return the command line that does the same without QGIS."""
+        words = [found.argument for found in self._given.values() if found.argument]
+        words += [paths[output.name] for output in self._outputs if output.is_main]
+        options: dict[str, Any] = {}
+        for declared in self._inputs:
+            options.update(self._given[declared.name].options)
+        options.update(
+            (output.option, paths[output.name]) for output in self._outputs if not output.is_main
+        )
+        # The command can have other defaults.
+        sets = [
+            of_command(**vars(values))
+            for of_command in self._tool.sets
+            for values in chosen
+            if isinstance(values, of_command)
+        ]
+        return command_line(self._tool.command, words, sets, options)
+
+
+class FileToolAlgorithm(ToolAlgorithm):
+    """A tool that reads files and writes others."""
+
+    _tool: FileTool
+
+    def work(
+        self,
+        inputs: dict[str, Any],
+        outputs: dict[str, str],
+        chosen: list[ParameterSet],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> dict[str, Any]:
+        """Let the tool work, show what it has written, and return the results."""
+        # Imported here, so that QGIS starts faster.
+        from ...algorithms.tools.running import run
+
+        found = run(self._tool, inputs, outputs, chosen, progress)
+        if self._tool.json is not None:
+            lines = found.lines() if hasattr(found, "lines") else [found.text]
+            progress.info("\n".join(lines))
+        results: dict[str, Any] = {}
+        for output in self._outputs:
+            if path := outputs[output.name]:
+                results[output.field_name] = path
+                results.update(self._shown(output, Path(path), chosen, found, context))
+        results.update((name, getattr(found, name.lower())) for name, _ in self._tool.numbers)
+        return {name: value for name, value in results.items() if value is not None}
+
+    def _shown(
+        self,
+        output: Output,
+        path: Path,
+        chosen: list[ParameterSet],
+        found: Any,
+        context: QgsProcessingContext,
+    ) -> dict[str, str]:
+        """Give looks to the files of an output; return those that are outputs of models."""
+        if output.look:
+            self.show(str(path), layers.look_of(output.look, found))
+        if output.files is None:
+            return {}
+        files = {name: str(file) for name, file in output.files(path, chosen).items()}
+        for name, file in files.items():
+            compat.load_raster(file, context)
+            self.show(file, layers.look_of(name))
+        return {name.upper(): file for name, file in files.items() if name in output.layers}
+
+
+class PointToolAlgorithm(ToolAlgorithm):
+    """A tool that writes classified files anew."""
+
+    _tool: PointTool
+
+    def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
+        """Return the sets of the tool, and resources."""
+        return (*self._tool.sets_of_dialog, Resources)
+
+    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Find the input files."""
+        super().find_inputs(parameters, context)
+        self.cancelled = after_cancel(self.inputs)
+
+    def work(
+        self,
+        inputs: dict[str, Any],
+        outputs: dict[str, str],
+        chosen: list[ParameterSet],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> dict[str, Any]:
+        """Find the values of the points, write them, and show the points."""
+        from ...algorithms.runs.entry import write
+        from ...algorithms.runs.requests import PointRequest
+
+        output, ground = outputs["output"], GroundClasses.among(chosen)
+        start = _FINDING if any(declared.found for declared in self._tool.inputs) else 0.0
+        if start and is_one_file(self.inputs):
+            check_kind("cloud", Path(output), self.inputs)  # to find polygons can take minutes
+        finding, further = progress.part(0.0, start), {}
+        for declared in self._tool.inputs:
+            value = inputs.get(declared.name)
+            if declared.kind == "raster" and value is not None:
+                value = declared.of(value, finding)
+            elif declared.found and value is None:
+                value = declared.found(self.inputs, ground, self.stated, finding)
+            if declared.name in inputs:
+                further[declared.name] = value
+        request = PointRequest.of(self._tool, chosen, further, self.stated)
+        found = write(self.inputs[0], Path(output), request, progress.part(start, 1.0))
+        progress.info(found.text)
+        if not is_one_file(self.inputs):
+            output = found.vpc
+            if compat.can_load(output):
+                compat.load_point_cloud(output, context)
+            else:
+                progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
+        numbers = _numbers_of(found, [name for name, _ in self._tool.numbers])
+        self.class_counts = getattr(found, "class_counts", {})
+        self.show(output, self._look(chosen, found, numbers))
+        if not compat.can_load(output):
+            first = (*ground.ground_classes, GROUND)[0]
+            show_class_raster(self, output, self.class_counts, first, context, progress)
+        return {"OUTPUT": output, **numbers}
+
+    def _look(self, chosen: list[ParameterSet], found: Any, numbers: dict[str, Any]) -> layers.Look:
+        """Return the look of the written points."""
+        if self._tool.shows != "heights":
+            return layers.classes(found.class_counts, _TITLES[self._tool.shows])
+        is_z = any(getattr(values, "output_as", "") == "z" for values in chosen)
+        unit = getattr(found, "tiles", (found,))[0].unit_size
+        return layers.heights("Z" if is_z else HEIGHT_DIMENSION, numbers["MAXIMUM"], unit)
+
+
+def _numbers_of(found: Any, names: list[str]) -> dict[str, Any]:
+    """Return the outputs that are numbers, from a summary of one file or of many."""
+    files = getattr(found, "tiles", (found,))
+    return {
+        name: _TOGETHER.get(name, sum)(getattr(file, name.lower()) for file in files)
+        for name in names
+    }
+
+
+def tool_algorithms() -> list[ToolAlgorithm]:
+    """Return the tools that have a dialog."""
+    points = [PointToolAlgorithm(point_tool(command)) for command in POINT_TOOLS]
+    files = [FileToolAlgorithm(file_tool(command)) for command in FILE_TOOLS]
+    return [algorithm for algorithm in (*points, *files) if algorithm.identifier]
+
+
+def _field_of(output: Output) -> QgsProcessingParameterDefinition:
+    """Return the field of an output."""
+    name, label = output.field_name, output.label
+    optional, by_default = output.optional and not output.is_main, output.by_default
+    if output.kind == "cloud":
+        return compat.point_cloud_output(name, label, point_cloud_formats())
+    if output.kind == "raster":
+        return QgsProcessingParameterRasterDestination(name, label, None, optional, by_default)
+    if output.kind == "folder":
+        return QgsProcessingParameterFolderDestination(name, label, None, optional, by_default)
+    if output.kind == "features":
+        return QgsProcessingParameterVectorDestination(
+            name, label, optional=optional, createByDefault=by_default
+        )
+    filters = tr("HTML files (*.html)")
+    return QgsProcessingParameterFileDestination(name, label, filters, None, optional, by_default)
