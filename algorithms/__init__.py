@@ -75,9 +75,9 @@ if TYPE_CHECKING:
     from .tools.rasters.rows import RasterFiles as RasterFiles
     from .tools.relief import ReliefPictures as ReliefPictures
     from .tools.relief import write_relief as write_relief
-    from .tools.water.files import WaterRequest as WaterRequest
-    from .tools.water.files import write_water as find_water  # noqa: F401
     from .tools.water.finding import Water as Water
+    from .tools.water.tool import WaterRequest as WaterRequest
+    from .tools.water.tool import write_water as find_water  # noqa: F401
     from .tools.water_classes import ClassifyWater as ClassifyWater
     from .tools.water_classes import WaterClasses as WaterClasses
     from .tools.water_classes import WaterPolygons as WaterPolygons
@@ -142,8 +142,8 @@ _MODULES = {
     "ClassifyWater": "tools.water_classes",
     "WaterClasses": "tools.water_classes",
     "WaterPolygons": "tools.water_classes",
-    "WaterRequest": "tools.water.files",
-    "find_water": "tools.water.files:write_water",
+    "WaterRequest": "tools.water.tool",
+    "find_water": "tools.water.tool:write_water",
     "HeightRaster": "rasters.sampling",
     "Area": "survey.area",
     "Checkpoints": "tools.check.checkpoints",

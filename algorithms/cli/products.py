@@ -87,7 +87,7 @@ def _add_water(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Non
 
 
 def _water(options: argparse.Namespace) -> int:
-    from ..tools.water.files import WaterRequest, write_water
+    from ..tools.water.tool import WaterRequest, write_water
 
     request = WaterRequest.of(chosen(options), crs=options.crs, breaklines=options.breaklines_out)
     with Terminal(options.verbose) as progress:

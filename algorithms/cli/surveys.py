@@ -164,15 +164,14 @@ def with_found_water(
 ) -> Constraints:
     """Return constraints with the water of the input, if that is to be found."""
     from ..survey.ground_classes import GroundClasses
-    from ..tools.water.files import SurveyWater, WaterRequest
+    from ..tools.water.tool import WaterRequest, found_water
 
     if not water_is_automatic(options):
         return known
     request = WaterRequest(ground=GroundClasses.among(sets), crs=options.crs)
     with Terminal(options.verbose) as progress:
-        found = SurveyWater.of(options.input, request, progress)
-        progress.info(f"Water: {found.summary.text}.")
-        return known.with_water(found.constraints, progress)
+        water, _ = found_water(options.input, request, progress)
+        return known.with_water(water.constraints, progress)
 
 
 def constraints_of(options: argparse.Namespace, finds_water: bool = False) -> Constraints:

@@ -29,7 +29,7 @@ from ..tools.quality.measuring import QualityRequest, survey_quality
 from ..tools.rasters.constraints import Constraints
 from ..tools.rasters.parameters import SurfaceModel
 from ..tools.rasters.rows import RasterFiles
-from ..tools.water.files import SurveyWater, WaterRequest, WaterSummary
+from ..tools.water.tool import SurveyWater, WaterRequest, WaterSummary, found_water
 from ..tools.water_classes import ClassifyWater, WaterPolygons
 from .deliveries import WITH_BUILDINGS
 from .folder import KEY_POINTS, QUALITY, WATER, DeliveryFolder
@@ -213,9 +213,7 @@ class DeliverySteps:
         if wanted is None:
             return
         how = WaterRequest(wanted, request.ground, request.crs)
-        found = SurveyWater.of([self._cloud], how, progress)
-        self.made.water = found.summary
-        progress.info(f"Water: {found.summary.text}.")
+        found, self.made.water = found_water([self._cloud], how, progress)
         if found.bodies:
             self.made.found = found
             self.made.constraints = request.constraints.with_water(found.constraints, progress)

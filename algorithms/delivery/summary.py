@@ -9,7 +9,7 @@ from ..tools.check.hold_out import AGREEMENT
 from ..tools.check.results import Check
 from ..tools.contours import Interval
 from ..tools.quality.figures import Quality
-from ..tools.water.files import WaterSummary
+from ..tools.water.tool import WaterSummary
 
 
 @dataclass(frozen=True)

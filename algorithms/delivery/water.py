@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from itertools import chain
+from dataclasses import replace
 from pathlib import Path
-from typing import Iterable
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..runs.requests import TerrainRequest
-from ..survey.feature_files import Feature, feature_writer
+from ..survey.feature_files import feature_writer
 from ..survey.files import open_survey
 from ..survey.shapes import Place
 from ..tools.rasters.fixed_terrain import parts_of
-from ..tools.water.files import SurveyWater, write_features
-from ..tools.water.given import GivenWater
+from ..tools.water.tool import SurveyWater, given_water
 from .request import DeliveryRequest
 
 
@@ -33,27 +31,18 @@ def write_water(
     own = request.constraints
     if found is None and not (own.water or own.breaklines):
         return {}
-    given = _given(cloud, request, how, progress)
-    polygons: Iterable[Feature] = found.polygons() if found else given.features()
-    lines = chain(found.lines() if found else (), given.lines())
-    # Polygons without ground near them have no heights for lines.
-    features = {"water": list(polygons), "breaklines": list(lines)}
-    paths = {name: folder / f"{name}{vector_format()}" for name, some in features.items() if some}
-    layers = [(paths[name], features[name]) if name in paths else None for name in features]
-    write_features(given.crs, layers[0], layers[1], progress)
-    return paths
-
-
-def _given(
-    cloud: Path, request: DeliveryRequest, how: TerrainRequest, progress: Progress
-) -> GivenWater:
-    """Return the water and the breaklines of the user with their heights in the terrain model."""
     survey = open_survey([cloud], progress=progress.quiet(), stated=request.stated)
-    place = Place("the files", survey.crs, survey.box)
-    own = request.constraints.located(place, progress)
-    step = how.raster_step.placed(survey.crs, survey.box)
+    own = own.located(Place("the files", survey.crs, survey.box), progress)
+    cell = how.raster_step.placed(survey.crs, survey.box).cell / VERTICES_A_SIDE
     clouds = parts_of(survey.tiles, progress.part(0.0, 0.9))
-    return GivenWater.of(own, clouds, survey.crs, request.ground, step.cell / VERTICES_A_SIDE)
+    water = given_water(own, clouds, survey.crs, request.ground, cell)
+    if found:
+        water = replace(found, breaklines=water.breaklines)
+    # Polygons without ground near them have no heights for lines.
+    is_there = {"water": bool(water.bodies), "breaklines": any(True for _ in water.lines())}
+    paths = {name: folder / f"{name}{vector_format()}" for name in is_there if is_there[name]}
+    water.write(paths.get("water"), paths.get("breaklines"), progress)
+    return paths
 
 
 def vector_format() -> str:

@@ -101,15 +101,14 @@ class WaterPolygons(Geometry):
 NO_WATER = WaterPolygons()
 
 
-def found_water(
+def _found(
     sources: Sequence[Path], ground: GroundClasses, crs: str | None, progress: Progress
 ) -> WaterPolygons:
     """Return the water that is found in classified files, with the default values."""
-    from .water.files import SurveyWater, WaterRequest
+    from .water.tool import WaterRequest, found_water
 
-    found = SurveyWater.of(sources, WaterRequest(ground=ground, crs=crs), progress)
-    progress.info(f"Water: {found.summary.text}.")
-    return WaterPolygons(found.constraints.water_outlines)
+    water, _ = found_water(sources, WaterRequest(ground=ground, crs=crs), progress)
+    return WaterPolygons(tuple(water.outlines))
 
 
 def classes_at_water(
@@ -233,7 +232,7 @@ TOOL = PointTool(
             label="Water",
             field_help="Polygons of water, with islands as holes. Empty: the water is found first,"
             " as 'Find water' does with its default values.",
-            found=found_water,
+            found=_found,
         ),
     ),
     command="water-classes",

@@ -7,8 +7,8 @@ from pathlib import Path
 from qgis.core import QgsProcessingOutputNumber, QgsProcessingParameterVectorDestination
 
 from ...algorithms.survey.ground_classes import GroundClasses
-from ...algorithms.tools.water.files import WaterRequest, write_water
 from ...algorithms.tools.water.finding import Water
+from ...algorithms.tools.water.tool import WaterRequest, write_water
 from ..styles import layers
 from .base import command_line
 from .inputs import ANY_CLOUD_HELP, SurveyInput

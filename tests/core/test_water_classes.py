@@ -32,8 +32,8 @@ from bare_earth.algorithms.runs.requests import ClassifyRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.shapes import Shapes
-from bare_earth.algorithms.tools.water.files import WaterRequest
 from bare_earth.algorithms.tools.water.finding import Water
+from bare_earth.algorithms.tools.water.tool import WaterRequest
 
 pytest.importorskip("pyproj")
 EAST, NORTH, SIDE, DISTANCE = 500_000.0, 5_700_000.0, 80.0, 0.7

@@ -8,6 +8,7 @@ spread as a measure of quality, are those of r.hydro.flatten of GRASS.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Iterator, NamedTuple
 
@@ -96,7 +97,7 @@ class Water(ParameterSet):
 
 
 class WaterBody(NamedTuple):
-    """A lake, or a part of a river, in metres; what is not known is NaN."""
+    """A lake, or a part of a river, in metres."""
 
     kind: str  # "lake" or "river"
     rings: tuple[np.ndarray, ...]  # float64, (n, 3): shore and islands, closed, with their level
@@ -104,12 +105,13 @@ class WaterBody(NamedTuple):
     lines: tuple[np.ndarray, ...]
     level: float  # of a river, at its upper end
     lowest: float  # of a river, the level at its lower end
-    spread: float  # robust standard deviation of the shore from the level
-    certainty: float  # 0 to 1
     area: float  # square metres
-    width: float  # mean
-    class_share: float  # of cells with mostly points of class 9
-    filled: float  # number of last returns relative to land
+    # What is not known of water that was not found is NaN.
+    spread: float = math.nan  # robust standard deviation of the shore from the level
+    certainty: float = math.nan  # 0 to 1
+    width: float = math.nan  # mean
+    class_share: float = math.nan  # of cells with mostly points of class 9
+    filled: float = math.nan  # number of last returns relative to land
 
     @property
     def grade(self) -> str:
@@ -296,8 +298,9 @@ class _Search:
         return WaterBody(
             "lake" if levels.reaches is None else "river",
             tuple(map(placed, rings)), tuple(map(placed, levels.lines())),
-            float(levels.heights.max()), float(levels.heights.min()), levels.spread, certainty,
-            float(region.water.sum()) * cell**2, levels.width * cell, marks.share, filled,
+            float(levels.heights.max()), float(levels.heights.min()),
+            float(region.water.sum()) * cell**2, levels.spread, certainty, levels.width * cell,
+            marks.share, filled,
         )  # fmt: skip
 
 

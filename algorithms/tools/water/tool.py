@@ -1,0 +1,303 @@
+"""Find water: the lakes and rivers of a survey, as polygons and as breaklines with heights."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Iterable, Iterator, Sequence
+
+import numpy as np
+
+from ...core.files import Outputs, check_distinct
+from ...core.parameters import ParameterSet
+from ...core.progress import SILENT, Progress
+from ...core.words import counted
+from ...crs.system import Crs
+from ...grids.lines import along
+from ...las.cloud import PointCloud, survey_frame
+from ...products.survey_ground import SurveyGround
+from ...survey.area import Polygon
+from ...survey.feature_files import Feature, Layer, check_features, feature_writer, files_beside
+from ...survey.ground_classes import GroundClasses
+from ...survey.kept_classes import NOISE, is_one_of
+from ..rasters.constraints import STATION, Constraints
+from ..rasters.fixed_terrain import PER_CELL, GivenTerrain
+from .bridges import decks_without_water
+from .finding import GRADES, Water, WaterBody, find_water
+from .grid import WaterGrid, cell_for
+
+# The classes of water and of the decks of bridges in the LAS specification.
+_WATER_CLASS, _DECK_CLASS = 9, 17
+# Fields of the polygons. Levels are in the unit of the heights, all others in metres.
+FIELDS: dict[str, type] = {
+    "ID": int, "KIND": str, "LEVEL": float, "LEVEL_LOW": float, "SPREAD": float,
+    "CERTAINTY": float, "GRADE": str, "AREA": float, "WIDTH": float, "CLASS9": float,
+    "RETURNS": float,
+}  # fmt: skip
+# Fields of the breaklines: ID is that of the polygon, or the number of a breakline of the user.
+LINE_FIELDS: dict[str, type] = {"ID": int, "KIND": str}
+
+
+@dataclass(frozen=True)
+class WaterRequest:
+    """A request to find water.
+
+    Attributes
+    ----------
+    water : Water
+        Which water is found.
+    ground : GroundClasses
+        Which points are ground.
+    crs : str or None
+        The CRS of the points in place of the one that files state: an EPSG code, such as
+        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
+    breaklines : Path or None
+        A file for the shores, islands and middles of rivers as lines with heights.
+    """
+
+    water: Water = field(default_factory=Water)
+    ground: GroundClasses = field(default_factory=GroundClasses)
+    crs: str | None = None
+    breaklines: Path | None = None
+
+    @classmethod
+    def of(cls, sets: Iterable[ParameterSet], **others: Any) -> WaterRequest:
+        """Return a request with parameter sets, given in any order, and other attributes."""
+        names = {type(value): name for name, value in vars(cls()).items()}
+        others |= {names[type(given)]: given for given in sets}
+        return cls(**others)
+
+
+@dataclass(frozen=True)
+class WaterSummary:
+    """What was found."""
+
+    lakes: int  # polygons
+    rivers: int  # polygons
+    area: float  # of them in square metres
+    grades: dict[str, int]  # number of polygons by grade of certainty
+    cell: float  # metres: side of the cells in which points were counted
+    min_area: float  # square metres
+    min_width: float  # metres, of a river
+
+    @property
+    def text(self) -> str:
+        """The result as words."""
+        if not self.lakes + self.rivers:
+            return (
+                f"no lake of {self.min_area:,g} m² or more, and no river as large and at least"
+                f" {self.min_width:g} m wide, in cells of {self.cell:g} m"
+            )
+        grades = ", ".join(f"{count:,} {grade}" for grade, count in self.grades.items())
+        return (
+            f"{counted(self.lakes, 'lake', 'lakes')} and"
+            f" {counted(self.rivers, 'part of a river', 'parts of rivers')},"
+            f" {self.area / 10_000:,.1f} ha ({grades}), in cells of {self.cell:g} m"
+        )
+
+
+@dataclass(frozen=True)
+class SurveyWater:
+    """The water of a survey, found or given, and its breaklines."""
+
+    crs: Crs
+    bodies: list[WaterBody]  # metres, in the frame with its origin at (0, 0) of the CRS
+    outlines: Sequence[Polygon]  # of these, in the CRS
+    # Of the user: number, and corners in metres, float64 (n, 3), with heights; twice, for either
+    # side, if given without heights.
+    breaklines: Sequence[tuple[int, np.ndarray]] = ()
+
+    @property
+    def constraints(self) -> Constraints:
+        """The water and its levels as constraints of a terrain model, in units of the CRS."""
+        return Constraints(
+            water=tuple(tuple(map(self._in_crs, body.rings)) for body in self.bodies),
+            rivers=tuple(self._in_crs(line) for body in self.bodies for line in body.lines),
+        )
+
+    def _in_crs(self, places: np.ndarray) -> np.ndarray:
+        """Return x, y and level, shape (n, 3), in units of the CRS."""
+        across, up = self.crs.horizontal_unit, self.crs.vertical_unit
+        return places / (across, across, up)
+
+    def polygons(self) -> Iterator[Feature]:
+        """Yield the polygons with `FIELDS`."""
+        up = self.crs.vertical_unit
+        for number, (body, outline) in enumerate(zip(self.bodies, self.outlines), start=1):
+            figures = (
+                body.level / up, body.lowest / up, body.spread, body.certainty, body.grade,
+                body.area, body.width, body.class_share, body.filled,
+            )  # fmt: skip
+            values = [round(value, 3) if isinstance(value, float) else value for value in figures]
+            yield Feature((number, body.kind, *values), outline)
+
+    def lines(self) -> Iterator[Feature]:
+        """Yield shores, islands, middles of rivers and breaklines, if their heights are known."""
+        for number, body in enumerate(self.bodies, start=1):
+            if not np.isnan(body.level):
+                for place, ring in enumerate(body.rings):
+                    yield Feature((number, "island" if place else "shore"), self._in_crs(ring))
+                for line in body.lines:
+                    yield Feature((number, "river"), self._in_crs(line))
+        for number, line in self.breaklines:
+            yield Feature((number, "breakline"), self._in_crs(line))
+
+    def write(self, polygons: Path | None, lines: Path | None, progress: Progress) -> None:
+        """Write the polygons and the breaklines into files; all or none."""
+        layers = (
+            (polygons, "water", "Polygon", FIELDS, self.polygons()),
+            (lines, "breaklines", "LineString Z", LINE_FIELDS, self.lines()),
+        )
+        with Outputs() as outputs:
+            for path, name, kind, fields, features in layers:
+                if path is not None:
+                    layer = Layer(name, kind, fields, self.crs.wkt, self.crs.epsg)
+                    target = outputs.files(path, files_beside(path))
+                    feature_writer(path)(target, features, layer, progress)
+            progress(1.0)  # the last moment to cancel
+
+
+def water_of(
+    sources: Sequence[Path], request: WaterRequest, progress: Progress = SILENT
+) -> tuple[SurveyWater, WaterSummary]:
+    """Find the water of a survey, read in parts, so that memory depends on the area only."""
+    survey = SurveyGround.of(sources, request.ground, progress.part(0.0, 0.05), request.crs)
+    unit, how = survey.frame.horizontal_unit, request.water
+    boxes = np.array([tile.outer_box for tile in survey.survey.tiles]) * unit
+    area = float((boxes[:, 2:] - boxes[:, :2]).prod(axis=1).sum())
+    west, south, east, north = (float(side) * unit for side in survey.survey.box)
+    extent = (east - west) * (north - south)
+    cell = cell_for(area, survey.survey.count, how.water_cell, extent)
+    grid = WaterGrid((west, south, east, north), cell)
+    for cloud, ground in survey.parts(progress.part(0.05, 0.9)):
+        classes = cloud.classification
+        used = request.ground.used(cloud) & ~is_one_of(classes, NOISE)
+        last = used & (cloud.return_number >= cloud.number_of_returns)
+        water, decks = (used & (classes == value) for value in (_WATER_CLASS, _DECK_CLASS))
+        marks = np.array((ground, water, last, decks))
+        which = np.flatnonzero(marks.any(axis=0))
+        grid.add(cloud.points(which, survey.frame), *marks[:, which])
+    survey.check()
+    bodies = find_water(grid, how, progress.part(0.9, 1.0))
+    outlines = tuple(tuple(ring[:, :2] for ring in body.rings) for body in bodies)
+    dry = decks_without_water(grid, outlines)
+    if dry:
+        words = "bridge has no water below it", "bridges have no water below them"
+        progress.warning(
+            f"{counted(dry, *words)} that was found: there the terrain follows from the ground"
+            " beside the deck, and can dam a stream. Where one flows, give its water as a polygon."
+        )
+    kinds, grades = [body.kind for body in bodies], [body.grade for body in bodies]
+    summary = WaterSummary(
+        kinds.count("lake"), kinds.count("river"), sum(body.area for body in bodies),
+        {name: grades.count(name) for name in GRADES if name in grades}, cell, how.min_area,
+        how.min_width,
+    )  # fmt: skip
+    in_crs = [tuple(ring / unit for ring in outline) for outline in outlines]
+    return SurveyWater(survey.survey.crs, bodies, in_crs), summary
+
+
+def found_water(
+    sources: Sequence[Path], request: WaterRequest, progress: Progress
+) -> tuple[SurveyWater, WaterSummary]:
+    """Find the water for what is made of classified files, and tell what was found."""
+    water, summary = water_of(sources, request, progress)
+    progress.info(f"Water: {summary.text}.")
+    return water, summary
+
+
+def given_water(
+    constraints: Constraints,
+    clouds: Iterable[PointCloud],
+    crs: Crs,
+    ground: GroundClasses,
+    cell: float,
+) -> SurveyWater:
+    """Return water and breaklines of the user, in the CRS of the points, with the heights that they
+    have in a terrain model whose points are thinned in cells of so many metres.
+    """
+    given = GivenTerrain.of(constraints, clouds, survey_frame(crs), ground, cell / PER_CELL)
+    bodies = [
+        WaterBody(
+            "river" if water.rivers else "lake",
+            water.rings,
+            water.rivers,
+            *water.levels,
+            water.area,
+        )
+        for water in given.waters
+    ]
+    outlines = [tuple(map(_closed, polygon)) for polygon in constraints.water_outlines]
+    breaklines = [
+        (number, side)
+        for number, line in enumerate(given.lines, start=1)
+        for side in _with_heights(line, given)
+    ]
+    return SurveyWater(crs, bodies, outlines, breaklines)
+
+
+def _with_heights(line: np.ndarray, given: GivenTerrain) -> Iterator[np.ndarray]:
+    """Yield a breakline if it has heights, otherwise a line for each of its sides."""
+    if not np.isnan(line[:, 2]).any():
+        yield line
+        return
+    line = along(line, STATION)
+    unknown = np.isnan(line[:, 2])
+    for side in np.split(given.ground.beside(line), 2):
+        side[~unknown] = line[~unknown]
+        side = side[~np.isnan(side[:, 2])]
+        if len(side) > 1:
+            yield side
+
+
+def _closed(ring: np.ndarray) -> np.ndarray:
+    return ring if np.array_equal(ring[0], ring[-1]) else np.concatenate((ring, ring[:1]))
+
+
+def write_water(
+    sources: Iterable[Path],
+    target: Path,
+    request: WaterRequest = WaterRequest(),
+    progress: Progress = SILENT,
+) -> WaterSummary:
+    """Find the water of one classified file or many, and write it as polygons.
+
+    Parameters
+    ----------
+    sources : iterable of Path
+        Classified LAS, LAZ and COPC files, folders of them, virtual point clouds and lists: all of
+        them together are one survey.
+    target : Path
+        The polygons to write: .gpkg, .geojson, .shp or .fgb.
+    request : WaterRequest
+        Which water is found, and a file for breaklines.
+    progress : Progress
+        Receives progress and messages.
+
+    Returns
+    -------
+    WaterSummary
+
+    Raises
+    ------
+    BareEarthError
+        If an input cannot be read, there is no ground, the survey is too large for its cells, or an
+        output cannot be written.
+    Cancelled
+        If the user asked to stop; no output is left behind.
+
+    Examples
+    --------
+    >>> from bare_earth.algorithms import find_water
+    >>> find_water(["ground.laz"], "water.gpkg").lakes  # doctest: +SKIP
+    3
+    """
+    paths, target = [Path(path) for path in sources], Path(target)
+    lines = None if request.breaklines is None else Path(request.breaklines)
+    outputs = [path for path in (target, lines) if path is not None]
+    check_distinct(outputs)
+    for path in outputs:
+        check_features(path, tuple(paths))
+    water, summary = water_of(paths, request, progress.part(0.0, 0.95))
+    water.write(target, lines, progress)
+    return summary
