@@ -217,14 +217,9 @@ def given_water(
     have in a terrain model whose points are thinned in cells of so many metres.
     """
     given = GivenTerrain.of(constraints, clouds, survey_frame(crs), ground, cell / PER_CELL)
+    kinds = {True: "river", False: "lake"}
     bodies = [
-        WaterBody(
-            "river" if water.rivers else "lake",
-            water.rings,
-            water.rivers,
-            *water.levels,
-            water.area,
-        )
+        WaterBody(kinds[bool(water.rivers)], water.rings, water.rivers, *water.levels, water.area)
         for water in given.waters
     ]
     outlines = [tuple(map(_closed, polygon)) for polygon in constraints.water_outlines]
