@@ -21,7 +21,7 @@ from .algorithms.tools.key_points import KeyPointSummary
 from .algorithms.tools.off_terrain import Removal
 from .algorithms.tools.quality.figures import Quality
 from .algorithms.tools.rasters.output import RasterSize
-from .algorithms.tools.water.files import WaterSummary
+from .algorithms.tools.water.tool import WaterSummary
 from .algorithms.tools.water_classes import WaterClassSummary
 
 _Path = str | PathLike[str]

@@ -164,13 +164,13 @@ def with_found_water(
 ) -> Constraints:
     """Return constraints with the water of the input, if that is to be found."""
     from ..survey.ground_classes import GroundClasses
-    from ..tools.water.tool import WaterRequest, found_water
+    from ..tools.water.tool import found_water
 
     if not water_is_automatic(options):
         return known
-    request = WaterRequest(ground=GroundClasses.among(sets), crs=options.crs)
+    ground = GroundClasses.among(sets)
     with Terminal(options.verbose) as progress:
-        water, _ = found_water(options.input, request, progress)
+        water, _ = found_water(options.input, ground, options.crs, progress)
         return known.with_water(water.constraints, progress)
 
 

@@ -29,7 +29,7 @@ from ..tools.quality.measuring import QualityRequest, survey_quality
 from ..tools.rasters.constraints import Constraints
 from ..tools.rasters.parameters import SurfaceModel
 from ..tools.rasters.rows import RasterFiles
-from ..tools.water.tool import SurveyWater, WaterRequest, WaterSummary, found_water
+from ..tools.water.tool import SurveyWater, WaterSummary, found_water
 from ..tools.water_classes import ClassifyWater, WaterPolygons
 from .deliveries import WITH_BUILDINGS
 from .folder import KEY_POINTS, QUALITY, WATER, DeliveryFolder
@@ -212,8 +212,9 @@ class DeliverySteps:
         request, wanted = self.request, self.request.water_wanted
         if wanted is None:
             return
-        how = WaterRequest(wanted, request.ground, request.crs)
-        found, self.made.water = found_water([self._cloud], how, progress)
+        found, self.made.water = found_water(
+            [self._cloud], request.ground, request.crs, progress, wanted
+        )
         if found.bodies:
             self.made.found = found
             self.made.constraints = request.constraints.with_water(found.constraints, progress)

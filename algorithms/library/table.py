@@ -160,16 +160,15 @@ def _with_found_water(
     """Return the constraints with the water of the points, if that is automatic, and what is left
     of the progress.
     """
-    from ..tools.water.files import SurveyWater, WaterRequest
+    from ..tools.water.tool import found_water
 
     constraints = constraints_of(values)
     if not is_automatic(values.water):
         return constraints, progress
     finding, rest = progress.part(0.0, 0.4), progress.part(0.4, 1.0)
-    request = WaterRequest(ground=GroundClasses.among(sets), crs=values.crs)
-    found = SurveyWater.of(paths_of(values.sources), request, finding)
-    finding.info(f"Water: {found.summary.text}.")
-    return constraints.with_water(found.constraints, finding), rest
+    ground, paths = GroundClasses.among(sets), paths_of(values.sources)
+    water, _ = found_water(paths, ground, values.crs, finding)
+    return constraints.with_water(water.constraints, finding), rest
 
 
 def _point_tool(command: str) -> Function:
@@ -406,11 +405,11 @@ def _remove_objects() -> Function:
 
 def _water() -> Function:
     from ..survey.feature_files import FORMATS
-    from ..tools.water.files import WaterSummary
     from ..tools.water.finding import Water
+    from ..tools.water.tool import WaterSummary
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools.water.files import WaterRequest, write_water
+        from ..tools.water.tool import WaterRequest, write_water
 
         breaklines = path_of(values.breaklines_out)
         request = WaterRequest.of(sets, crs=values.crs, breaklines=breaklines)

@@ -105,9 +105,9 @@ def _found(
     sources: Sequence[Path], ground: GroundClasses, crs: str | None, progress: Progress
 ) -> WaterPolygons:
     """Return the water that is found in classified files, with the default values."""
-    from .water.tool import WaterRequest, found_water
+    from .water.tool import found_water
 
-    water, _ = found_water(sources, WaterRequest(ground=ground, crs=crs), progress)
+    water, _ = found_water(sources, ground, crs, progress)
     return WaterPolygons(tuple(water.outlines))
 
 

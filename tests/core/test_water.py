@@ -13,7 +13,7 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.descent import isotonic
 from bare_earth.algorithms.tools.water.finding import Water, find_water
 from bare_earth.algorithms.tools.water.grid import WaterGrid, cell_for
-from bare_earth.algorithms.tools.water.tool import WaterRequest, water_of
+from bare_earth.algorithms.tools.water.tool import water_of
 
 WIDE, DENSITY, LEVEL = 400.0, 4.0, 100.0
 
@@ -342,7 +342,7 @@ def test_a_pond_full_of_returns_is_found_without_its_class(number, tmp_path):
     las.write(tmp_path / "wiped.laz")
     found = []
     for name in ("truth", "wiped"):
-        (body,) = water_of([tmp_path / f"{name}.laz"], WaterRequest())[0].bodies
+        (body,) = water_of([tmp_path / f"{name}.laz"])[0].bodies
         found.append(body)
     x, y = np.meshgrid(np.arange(las.x.min(), las.x.max()), np.arange(las.y.min(), las.y.max()))
     true, again = (contains(body, x, y) for body in found)

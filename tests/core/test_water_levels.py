@@ -7,7 +7,7 @@ from test_water import Scene
 
 from bare_earth.algorithms.grids.descent import Network, descent
 from bare_earth.algorithms.tools.water.reaches import reaches_of
-from bare_earth.algorithms.tools.water.tool import WaterRequest, water_of
+from bare_earth.algorithms.tools.water.tool import water_of
 
 CELL = 2.5
 
@@ -243,7 +243,7 @@ def test_rapids_and_steep_creeks_are_no_steps():
 
 def test_a_reservoir_and_the_river_below_its_dam_are_two():
     """The dam of field2: the lake up to x = 240 is at 100.0, the river begins at 95.0."""
-    found, _ = water_of([real("field2/water-dam.laz")], WaterRequest())
+    found, _ = water_of([real("field2/water-dam.laz")])
     lake, river = sorted(found.bodies, key=lambda body: -body.level)
     x = [body.rings[0][:, 0] - 500_000 for body in (lake, river)]
     assert x[0].max() == pytest.approx(240, abs=5) and x[1].min() == pytest.approx(240, abs=9)
@@ -254,7 +254,7 @@ def test_a_reservoir_and_the_river_below_its_dam_are_two():
 
 
 def test_the_head_of_a_tributary_is_not_at_the_level_of_the_river():
-    (body,) = water_of([real("field2/water-tributary.laz")], WaterRequest())[0].bodies
+    (body,) = water_of([real("field2/water-tributary.laz")])[0].bodies
     ring = body.rings[0] - (500_000, 5_500_000, 0)
     for place, level in (((300, 322), 101.15), ((60, 150), 100.38)):
         near = np.hypot(*(ring[:, :2] - place).T) < 30

@@ -158,11 +158,15 @@ class SurveyWater:
 
 
 def water_of(
-    sources: Sequence[Path], request: WaterRequest, progress: Progress = SILENT
+    sources: Sequence[Path],
+    how: Water = Water(),
+    classes: GroundClasses = GroundClasses(),
+    crs: str | None = None,
+    progress: Progress = SILENT,
 ) -> tuple[SurveyWater, WaterSummary]:
     """Find the water of a survey, read in parts, so that memory depends on the area only."""
-    survey = SurveyGround.of(sources, request.ground, progress.part(0.0, 0.05), request.crs)
-    unit, how = survey.frame.horizontal_unit, request.water
+    survey = SurveyGround.of(sources, classes, progress.part(0.0, 0.05), crs)
+    unit = survey.frame.horizontal_unit
     boxes = np.array([tile.outer_box for tile in survey.survey.tiles]) * unit
     area = float((boxes[:, 2:] - boxes[:, :2]).prod(axis=1).sum())
     west, south, east, north = (float(side) * unit for side in survey.survey.box)
@@ -170,10 +174,11 @@ def water_of(
     cell = cell_for(area, survey.survey.count, how.water_cell, extent)
     grid = WaterGrid((west, south, east, north), cell)
     for cloud, ground in survey.parts(progress.part(0.05, 0.9)):
-        classes = cloud.classification
-        used = request.ground.used(cloud) & ~is_one_of(classes, NOISE)
+        used = classes.used(cloud) & ~is_one_of(cloud.classification, NOISE)
         last = used & (cloud.return_number >= cloud.number_of_returns)
-        water, decks = (used & (classes == value) for value in (_WATER_CLASS, _DECK_CLASS))
+        water, decks = (
+            used & (cloud.classification == value) for value in (_WATER_CLASS, _DECK_CLASS)
+        )
         marks = np.array((ground, water, last, decks))
         which = np.flatnonzero(marks.any(axis=0))
         grid.add(cloud.points(which, survey.frame), *marks[:, which])
@@ -198,10 +203,14 @@ def water_of(
 
 
 def found_water(
-    sources: Sequence[Path], request: WaterRequest, progress: Progress
+    sources: Sequence[Path],
+    ground: GroundClasses,
+    crs: str | None,
+    progress: Progress,
+    how: Water = Water(),
 ) -> tuple[SurveyWater, WaterSummary]:
     """Find the water for what is made of classified files, and tell what was found."""
-    water, summary = water_of(sources, request, progress)
+    water, summary = water_of(sources, how, ground, crs, progress)
     progress.info(f"Water: {summary.text}.")
     return water, summary
 
@@ -293,6 +302,7 @@ def write_water(
     check_distinct(outputs)
     for path in outputs:
         check_features(path, tuple(paths))
-    water, summary = water_of(paths, request, progress.part(0.0, 0.95))
+    how = request.water, request.ground, request.crs
+    water, summary = water_of(paths, *how, progress.part(0.0, 0.95))
     water.write(target, lines, progress)
     return summary
