@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Sequence
 
 from .command import DONE, Command
@@ -67,35 +66,6 @@ def _terrain(options: argparse.Namespace) -> int:
     return DONE
 
 
-def _add_water(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..survey.feature_files import FORMATS
-    from ..survey.ground_classes import GroundClasses
-    from ..tools.water.finding import Water
-
-    add_inputs(parser, "a classified file, or ")
-    add_crs(parser)
-    kinds = f"({', '.join(FORMATS)}); all but .geojson need pyogrio"
-    parser.add_argument(
-        "output", metavar="OUTPUT", type=Path, help=f"the polygons of water to write {kinds}"
-    )
-    parser.add_argument(
-        "--breaklines-out", metavar="FILE", type=Path,
-        help=f"write shores, islands and the middles of rivers as lines with heights {kinds}",
-    )  # fmt: skip
-    add_json(parser)
-    add_parameters(parser, Water, GroundClasses)
-
-
-def _water(options: argparse.Namespace) -> int:
-    from ..tools.water.tool import WaterRequest, write_water
-
-    request = WaterRequest.of(chosen(options), crs=options.crs, breaklines=options.breaklines_out)
-    with Terminal(options.verbose) as progress:
-        summary = write_water(options.input, options.output, request, progress)
-    tell(options, summary, f"{options.output}: {summary.text}", always=True)
-    return DONE
-
-
 # Tools that are not named here follow at the end of the list of all commands.
 COMMANDS = (
     command_of("remove-off-terrain-objects"),
@@ -112,14 +82,6 @@ COMMANDS = (
     ),
     command_of("contours"),
     command_of("relief"),
-    Command(
-        "water",
-        "find lakes and rivers in classified points",
-        "Finds water where hardly any last return is, and the ground along its shore is level or"
-        " falls steadily: polygons with level, spread of the shore and a grade of certainty, and"
-        " breaklines with heights.",
-        _add_water,
-        _water,
-    ),
+    command_of("water"),
     command_of("water-classes"),
 )

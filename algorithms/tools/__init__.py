@@ -37,6 +37,7 @@ FILE_TOOLS = {
     ),
     "contours": Listed("contours", "draw contour lines of a terrain model"),
     "relief": Listed("relief", "make pictures of the relief of a terrain model"),
+    "water": Listed("water.tool", "find lakes and rivers in classified points"),
 }
 
 

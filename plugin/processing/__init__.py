@@ -11,14 +11,12 @@ from .ground_filters import GROUND_FILTERS
 from .point_cloud_to_terrain import PointCloudToTerrainAlgorithm
 from .quality import QualityAlgorithm
 from .terrain_model import TerrainModelAlgorithm
-from .water import WaterAlgorithm
 
 ALGORITHMS = (
     PointCloudToTerrainAlgorithm,
     *GROUND_FILTERS,
     ClassifyTilesAlgorithm,
     TerrainModelAlgorithm,
-    WaterAlgorithm,
     CompareSettingsAlgorithm,
     AssessAlgorithm,
     CheckAlgorithm,

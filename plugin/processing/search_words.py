@@ -27,9 +27,6 @@ _WORDS = {
     },
     "classifytiles": (_CLOUD, _GROUND, _TERRAIN, _TILES),
     "terrainmodel": (_CLOUD, _TERRAIN, _CANOPY, _TIN, _RASTER),
-    "water": (
-        _CLOUD, mark("lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines"),
-    ),
     "comparesettings": (
         _CLOUD, _GROUND, _TERRAIN, mark("preview,try,test,preset,parameters,compare,profile"),
     ),

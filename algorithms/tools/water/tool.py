@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Sequence
+from typing import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ...core.files import Outputs, check_distinct
-from ...core.parameters import ParameterSet
+from ...core.parameters import HasSets
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...crs.system import Crs
@@ -17,11 +16,13 @@ from ...grids.lines import along
 from ...las.cloud import PointCloud, survey_frame
 from ...products.survey_ground import SurveyGround
 from ...survey.area import Polygon
-from ...survey.feature_files import Feature, Layer, check_features, feature_writer, files_beside
+from ...survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from ...survey.ground_classes import GroundClasses
 from ...survey.kept_classes import NOISE, is_one_of
+from ..declaration import CLOUD, CRS, FileTool, Input, Output
 from ..rasters.constraints import STATION, Constraints
 from ..rasters.fixed_terrain import PER_CELL, GivenTerrain
+from ..running import run
 from .bridges import decks_without_water
 from .finding import GRADES, Water, WaterBody, find_water
 from .grid import WaterGrid, cell_for
@@ -39,7 +40,7 @@ LINE_FIELDS: dict[str, type] = {"ID": int, "KIND": str}
 
 
 @dataclass(frozen=True)
-class WaterRequest:
+class WaterRequest(HasSets):
     """A request to find water.
 
     Attributes
@@ -59,13 +60,6 @@ class WaterRequest:
     ground: GroundClasses = field(default_factory=GroundClasses)
     crs: str | None = None
     breaklines: Path | None = None
-
-    @classmethod
-    def of(cls, sets: Iterable[ParameterSet], **others: Any) -> WaterRequest:
-        """Return a request with parameter sets, given in any order, and other attributes."""
-        names = {type(value): name for name, value in vars(cls()).items()}
-        others |= {names[type(given)]: given for given in sets}
-        return cls(**others)
 
 
 @dataclass(frozen=True)
@@ -143,18 +137,15 @@ class SurveyWater:
             yield Feature((number, "breakline"), self._in_crs(line))
 
     def write(self, polygons: Path | None, lines: Path | None, progress: Progress) -> None:
-        """Write the polygons and the breaklines into files; all or none."""
+        """Write the polygons and the breaklines into new files, if they are given."""
         layers = (
             (polygons, "water", "Polygon", FIELDS, self.polygons()),
             (lines, "breaklines", "LineString Z", LINE_FIELDS, self.lines()),
         )
-        with Outputs() as outputs:
-            for path, name, kind, fields, features in layers:
-                if path is not None:
-                    layer = Layer(name, kind, fields, self.crs.wkt, self.crs.epsg)
-                    target = outputs.files(path, files_beside(path))
-                    feature_writer(path)(target, features, layer, progress)
-            progress(1.0)  # the last moment to cancel
+        for path, name, kind, fields, features in layers:
+            if path is not None:
+                layer = Layer(name, kind, fields, self.crs.wkt, self.crs.epsg)
+                feature_writer(path)(path, features, layer, progress)
 
 
 def water_of(
@@ -296,13 +287,76 @@ def write_water(
     >>> find_water(["ground.laz"], "water.gpkg").lakes  # doctest: +SKIP
     3
     """
-    paths, target = [Path(path) for path in sources], Path(target)
-    lines = None if request.breaklines is None else Path(request.breaklines)
-    outputs = [path for path in (target, lines) if path is not None]
-    check_distinct(outputs)
-    for path in outputs:
-        check_features(path, tuple(paths))
-    how = request.water, request.ground, request.crs
-    water, summary = water_of(paths, *how, progress.part(0.0, 0.95))
-    water.write(target, lines, progress)
+    inputs = {"sources": [Path(path) for path in sources], "crs": request.crs}
+    outputs = {"output": target, "breaklines": request.breaklines}
+    return run(TOOL, inputs, outputs, [request.water, request.ground], progress)
+
+
+def _write(
+    sources: Sequence[Path],
+    crs: str | None,
+    output: Path,
+    breaklines: Path | None,
+    water: Water = Water(),
+    ground: GroundClasses = GroundClasses(),
+    progress: Progress = SILENT,
+) -> WaterSummary:
+    """Find water and write it into new files."""
+    found, summary = water_of(sources, water, ground, crs, progress.part(0.0, 0.95))
+    found.write(output, breaklines, progress)
     return summary
+
+
+_KINDS = f"({', '.join(FORMATS)}); all but .geojson need pyogrio"
+TOOL = FileTool(
+    work=_write,
+    sets=(Water, GroundClasses),
+    inputs=(
+        Input(
+            "sources",
+            "clouds",
+            help="a classified file, or ",
+            label="Classified point cloud",
+            named="INPUT",
+        ),
+        CRS,
+    ),
+    outputs=(
+        Output(
+            "output",
+            "features",
+            help=f"the polygons of water to write {_KINDS}",
+            label="Water",
+            field_help="Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD)"
+            " and a grade of certainty (GRADE).",
+            is_main=True,
+            look="water",
+        ),
+        Output(
+            "breaklines",
+            "features",
+            help=f"write shores, islands and the middles of rivers as lines with heights {_KINDS}",
+            label="Breaklines",
+            field_help="Shores, islands and the middles of rivers as lines with heights.",
+            flag="breaklines-out",
+            by_default=False,
+            look="breaklines",
+        ),
+    ),
+    always_tells=True,
+    command="water",
+    command_about="Finds water where hardly any last return is, and the ground along its shore is"
+    " level or falls steadily: polygons with level, spread of the shore and a grade of certainty,"
+    " and breaklines with heights.",
+    identifier="water",
+    title="Find water",
+    summary="Finds lakes and rivers as polygons with their levels, and as breaklines.",
+    about="Finds water in a classified point cloud: where hardly any last return is, and the ground"
+    " along the shore is level or falls steadily, or where points have class 9. Gaps between"
+    " strips, roofs and woods are told from it. Each polygon has the level, the spread of the"
+    " shore, and a grade of certainty. The terrain model takes the polygons as water.",
+    page="water",
+    words=(CLOUD, "lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines"),
+    numbers=(("LAKES", "Lakes"), ("RIVERS", "Parts of rivers"), ("AREA", "Area [m²]")),
+    shown=("min_area", "min_width"),
+)
