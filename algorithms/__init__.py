@@ -66,9 +66,9 @@ if TYPE_CHECKING:
     from .tools.heights import MeasureHeights as MeasureHeights
     from .tools.key_points import FindKeyPoints as FindKeyPoints
     from .tools.key_points import KeyPointMark as KeyPointMark
-    from .tools.quality.measuring import QualityOptions as QualityOptions
-    from .tools.quality.measuring import QualityRequest as QualityRequest
-    from .tools.quality.measuring import survey_quality as quality  # noqa: F401
+    from .tools.quality import QualityOptions as QualityOptions
+    from .tools.quality import QualityRequest as QualityRequest
+    from .tools.quality import survey_quality as quality  # noqa: F401
     from .tools.rasters.constraints import Constraints as Constraints
     from .tools.rasters.parameters import SurfaceModel as SurfaceModel
     from .tools.rasters.parameters import TerrainModel as TerrainModel
@@ -109,9 +109,9 @@ _MODULES = {
     "TileInput": "runs.options",
     "TileOutput": "runs.options",
     "Output": "tools.ground.output",
-    "QualityOptions": "tools.quality.measuring",
-    "QualityRequest": "tools.quality.measuring",
-    "quality": "tools.quality.measuring:survey_quality",
+    "QualityOptions": "tools.quality",
+    "QualityRequest": "tools.quality",
+    "quality": "tools.quality:survey_quality",
     "RasterFiles": "tools.rasters.rows",
     "RasterTarget": "rasters.cell_grid",
     "ClassifyRequest": "runs.requests",

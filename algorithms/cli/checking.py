@@ -71,7 +71,7 @@ def _check(options: argparse.Namespace) -> int:
 
 def _add_quality(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     from ..survey.ground_classes import GroundClasses
-    from ..tools.quality.measuring import QualityOptions
+    from ..tools.quality import QualityOptions
 
     add_inputs(parser, "a classified file, or ")
     add_crs(parser)
@@ -88,7 +88,7 @@ def _add_quality(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> N
 
 
 def _quality(options: argparse.Namespace) -> int:
-    from ..tools.quality.measuring import QualityRequest, survey_quality
+    from ..tools.quality import QualityRequest, survey_quality
 
     request = QualityRequest.of(
         chosen(options), page=options.page, folder=options.folder, crs=options.crs

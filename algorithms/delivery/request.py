@@ -19,7 +19,7 @@ from ..tools.check.accuracy import Accuracy
 from ..tools.check.checkpoints import Checkpoints
 from ..tools.contours import Contours
 from ..tools.ground.output import Output
-from ..tools.quality.measuring import QualityOptions
+from ..tools.quality import QualityOptions
 from ..tools.quality.specifications import SPECIFICATIONS
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
 from ..tools.rasters.parameters import MapTerrain, SurfaceModel

@@ -24,8 +24,8 @@ from ..tools.check.checking import CheckOptions, CheckOutputs, CheckRequest, che
 from ..tools.check.results import Check
 from ..tools.contours import Interval, write_contours
 from ..tools.key_points import FindKeyPoints, KeyPointMark
+from ..tools.quality import QualityRequest, survey_quality
 from ..tools.quality.figures import Quality
-from ..tools.quality.measuring import QualityRequest, survey_quality
 from ..tools.rasters.constraints import Constraints
 from ..tools.rasters.parameters import SurfaceModel
 from ..tools.rasters.rows import RasterFiles

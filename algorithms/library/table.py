@@ -275,11 +275,11 @@ def _check() -> Function:
 
 
 def _quality() -> Function:
+    from ..tools.quality import QualityOptions
     from ..tools.quality.figures import Quality
-    from ..tools.quality.measuring import QualityOptions
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools.quality.measuring import QualityRequest, survey_quality
+        from ..tools.quality import QualityRequest, survey_quality
 
         request = QualityRequest.of(
             sets, page=path_of(values.page), folder=path_of(values.folder), crs=values.crs

@@ -8,7 +8,7 @@ from qgis.core import QgsProcessingParameterFileDestination as File
 from qgis.core import QgsProcessingParameterFolderDestination as Folder
 
 from ...algorithms.survey.ground_classes import GroundClasses
-from ...algorithms.tools.quality.measuring import QualityOptions, QualityRequest, survey_quality
+from ...algorithms.tools.quality import QualityOptions, QualityRequest, survey_quality
 from ...algorithms.tools.quality.rasters import raster_paths
 from .. import compat
 from ..i18n import mark, tr

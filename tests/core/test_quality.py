@@ -11,10 +11,10 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las.reading import read_parts
 from bare_earth.algorithms.rasters.geotiff import read_raster
-from bare_earth.algorithms.tools.quality import cells, planes, rasters
-from bare_earth.algorithms.tools.quality.measuring import (
+from bare_earth.algorithms.tools.quality import (
     QualityOptions,
     QualityRequest,
+    cells,
     survey_quality,
 )
 from bare_earth.algorithms.tools.quality.rasters import QUALITY_RASTERS
@@ -286,19 +286,6 @@ def test_what_could_not_be_measured_is_no_pass(tmp_path):
     assert "not measured" in "\n".join(found.text())
 
 
-def test_planes_of_few_cells_are_those_of_many(monkeypatch):
-    random = np.random.default_rng(2)
-    number = random.poisson(0.4, (40, 60)).astype(float)
-    x, y = random.uniform(-0.5, 0.5, (2, *number.shape)) * (number > 0)
-    sums = planes.Sums(number, x, y, random.normal(90, 1, number.shape) * (number > 0))
-    wanted = random.uniform(size=number.shape) < 0.3
-    monkeypatch.setattr(planes, "_FEW", 0.0)
-    dense = planes.planes(sums, 1.0, wanted)
-    monkeypatch.setattr(planes, "_FEW", 1.1)
-    for one, many in zip(planes.planes(sums, 1.0, wanted), dense):
-        np.testing.assert_allclose(one, many, atol=1e-9)
-
-
 def test_low_vegetation_is_counted_on_a_slope(tmp_path):
     x, y = grid(0.5)
     random = np.random.default_rng(1)
@@ -372,9 +359,9 @@ def test_many_files_equal_one(one_and_many, tmp_path):
 def test_pieces_and_cells_on_disk_change_nothing(one_and_many, tmp_path, monkeypatch):
     one, _ = one_and_many
     measured(one, folder=tmp_path / "whole")
-    monkeypatch.setattr(cells, "_ROWS_TOGETHER", 2_200)
+    monkeypatch.setattr(cells, "_TILE", 22)
     monkeypatch.setattr(cells, "_MOST_IN_MEMORY", 100)
-    monkeypatch.setattr(rasters, "_TOGETHER", 1_000)
+    monkeypatch.setattr(cells, "_TOGETHER", 1_000)
     measured(one, folder=tmp_path / "pieces")
     for name in QUALITY_RASTERS:
         a, b = (

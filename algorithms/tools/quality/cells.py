@@ -9,36 +9,40 @@ from __future__ import annotations
 
 import shutil
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from ...core.errors import BareEarthError
-from ...core.points import Frame
+from ...core.points import Box, Frame
 from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
 from ...las.cloud import PointCloud
 from ...rasters.cell_grid import MOST_CELLS
 from ...survey.ground_classes import GroundClasses
-from ...survey.kept_classes import overlapping
+from ...survey.kept_classes import NOISE, overlapping
 from ...survey.repeated_points import RepeatedPoints
-from .planes import WINDOWS, Sums, planes
+from .planes import WINDOWS, planes
 
-NOISE, WATER = (7, 18), 9
+WATER = 9
 # Bits of cells: a first return that counts as a pulse; water; a first return with the flag of
 # overlap; a pulse with several returns.
 PULSE, WET, FLAGGED, ROUGH = 1, 2, 4, 8
 # Flight strips that are told apart in a cell.
 STRIPS = 4
 # Bytes for a cell and a point, and up to how many of them they are held in memory.
-_BYTES, _BYTES_A_POINT, _MOST_IN_MEMORY = 64, 9, 20_000_000
-# Rows of cells whose planes are made together.
-_ROWS_TOGETHER = 1 << 21
+_BYTES, _BYTES_A_POINT, _MOST_IN_MEMORY = 72, 9, 18_000_000
+# Side of the squares of cells whose planes are made together, an even number of cells; and cells of
+# rows that are worked on together.
+_TILE, _TOGETHER = 1024, 1 << 21
 # Heights above the ground of low vegetation. Points are compared up to this height, in metres,
 # above the lowest of their strip in the cell.
 LOW = (0.2, 2.0)
 _NEAR = 0.5
+# Side in metres of the squares by which the area of the survey is told.
+_SQUARE = 10.0
 
 
 class Store:
@@ -68,38 +72,47 @@ class Store:
         return np.memmap(self._folder / f"{name}.cells", dtype=kind, mode="w+", shape=shape)
 
 
-class Sizes(NamedTuple):
-    """The grids of a survey, with cells that are counted from (0, 0) of the CRS."""
+class Grid(NamedTuple):
+    """Square cells of a survey, which are counted from (0, 0) of the CRS."""
 
-    cell: float  # metres
-    spacing: float  # metres: side of the cells in which first returns are looked for
-    fine: CellWindow  # cells of side `cell`
-    coarse: CellWindow  # cells of twice that side
-    filled: CellWindow  # cells of side `spacing`
+    window: CellWindow
+    size: float  # metres
+
+    def places(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return number, row and column of the cells of points in metres."""
+        row, column = self.window.places(x, y, (0.0, 0.0), self.size)
+        # The extent in a header may be slightly smaller than that of the points.
+        row = np.clip(row, 0, self.window.rows - 1)
+        column = np.clip(column, 0, self.window.columns - 1)
+        return row * self.window.columns + column, row, column
+
+    def from_centres(
+        self, x: np.ndarray, y: np.ndarray, row: np.ndarray, column: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return x and y of points from the centres of their cells, in metres."""
+        east, north = self.window.column + column + 0.5, self.window.row + row + 0.5
+        return x - east * self.size, y - north * self.size
+
+    def parts(self, multiple: int = 2) -> list[slice]:
+        """Return slices of rows that fit into memory, multiples of so many, from south to north."""
+        rows = self.window.rows
+        step = max(_TOGETHER // self.window.columns // multiple, 1) * multiple
+        return [slice(start, min(start + step, rows)) for start in range(0, rows, step)]
+
+
+class Grids(NamedTuple):
+    """The grids of a survey."""
+
+    fine: Grid  # with cells of the size that was chosen
+    coarse: Grid  # with cells of twice that size
+    spaced: Grid  # with cells in which first returns are looked for
 
     @classmethod
-    def over(cls, box: tuple[float, float, float, float], cell: float, spacing: float) -> Sizes:
-        """Return the grids that cover a box in metres."""
-        coarse = CellWindow.around(box, 2 * cell)
-        fine = CellWindow(*(2 * each for each in coarse))
-        return cls(cell, spacing, fine, coarse, CellWindow.around(box, spacing))
-
-
-class Marks(NamedTuple):
-    """What the flags of points say; boolean arrays, shape (n,)."""
-
-    used: np.ndarray  # not withheld
-    synthetic: np.ndarray  # made and not measured; not withheld
-    flagged: np.ndarray  # of overlap; not withheld
-    real: np.ndarray  # measured: neither withheld nor synthetic, and no noise
-
-    @classmethod
-    def of(cls, part: PointCloud, all_synthetic: bool = False) -> Marks:
-        """Return what the flags of a part of the points say; if all are synthetic, all are real."""
-        used = ~part.withheld
-        synthetic = np.zeros(part.count, bool) if part.synthetic is None else part.synthetic
-        real = used & (all_synthetic | ~synthetic) & ~np.isin(part.classification, NOISE)
-        return cls(used, used & synthetic, used & overlapping(part), real)
+    def over(cls, box: Box, size: float, spacing: float) -> Grids:
+        """Return the grids that cover a box; all lengths are in metres."""
+        coarse = CellWindow.around(box, 2 * size)
+        fine, spaced = CellWindow(*(2 * count for count in coarse)), CellWindow.around(box, spacing)
+        return cls(Grid(fine, size), Grid(coarse, 2 * size), Grid(spaced, spacing))
 
 
 @dataclass
@@ -108,25 +121,37 @@ class Counts:
 
     points: int = 0
     withheld: int = 0  # excluded by the producer
-    synthetic: int = 0  # made and not measured
-    flagged: int = 0  # of overlap, by the flag, or by class 12 in point formats 0 to 5
     shared: int = 0  # that another file holds as well
     duplicates: int = 0  # others that repeat one of their file
+    synthetic: int = 0  # made and not measured
+    flagged: int = 0  # of overlap, by the flag, or by class 12 in point formats 0 to 5
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     returns: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     strips: set[int] = field(default_factory=set)  # point source ids
 
-    def add(self, part: PointCloud, marks: Marks) -> None:
-        """Count the points of a part."""
-        used = marks.used
+    def add(self, part: PointCloud, used: np.ndarray) -> None:
+        """Count the points of a part, of which some are not withheld."""
         self.points += part.count
-        self.withheld += part.count - int(np.count_nonzero(used))
-        self.synthetic += int(np.count_nonzero(marks.synthetic))
-        self.flagged += int(np.count_nonzero(marks.flagged))
+        self.withheld += int(np.count_nonzero(part.withheld))
+        if part.synthetic is not None:
+            self.synthetic += int(np.count_nonzero(part.synthetic & used))
+        self.flagged += int(np.count_nonzero(overlapping(part) & used))
         self.classes += np.bincount(part.classification[used], minlength=256)
         self.returns += np.bincount(part.return_number[used], minlength=256)
         if part.strip is not None:
             self.strips.update(np.unique(part.strip[used]).tolist())
+
+
+class Extent(NamedTuple):
+    """Where the survey lies, in its coarse cells; boolean."""
+
+    inside: np.ndarray  # all cells of the survey, with gaps that it encloses
+    inner: np.ndarray  # those for figures: without squares of 10 m along the edge, partly filled
+    dry: np.ndarray  # those of `inner` in squares of 10 m without points of water
+    # those of `inner` without squares in which all first returns have the flag of overlap. Where
+    # this flag marks all points of an overlap, not only those of one strip, nothing would be left
+    # to count.
+    pulses: np.ndarray
 
 
 class QualityCells:
@@ -138,7 +163,7 @@ class QualityCells:
     # others. Points of overlap are left out of points and first returns.
     # highest: float32 (rows / 2, columns / 2), height of the highest point in metres that is not
     # withheld, minus infinity for none.
-    # filled: uint8, `PULSE`, `WET` and `FLAGGED`, in the cells of `Sizes.filled`. marks: uint8
+    # filled: uint8, `PULSE`, `WET` and `FLAGGED`, in the cells of `Grids.spaced`. marks: uint8
     # (rows / 2, columns / 2), `PULSE`, `WET`, `FLAGGED` and `ROUGH`.
     # strip, strip_low, strip_points, strip_sum: (4, rows / 2, columns / 2), up to four strips of a
     # cell (point source id + 1, 0 for none), with the height of their lowest last return, and with
@@ -147,28 +172,30 @@ class QualityCells:
 
     def __init__(
         self,
-        sizes: Sizes,
+        grids: Grids,
+        void: float,
         store: Store,
         ground: GroundClasses,
         repeated: RepeatedPoints,
-        all_synthetic: bool = False,
+        all_synthetic: bool,
     ) -> None:
-        self.sizes, self._ground, self._repeated = sizes, ground, repeated
+        self.grids, self._ground, self._repeated = grids, ground, repeated
+        self.void = void  # distance in metres from which on ground is missing
         self._all_synthetic = all_synthetic
         self.counts = Counts()
-        fine, coarse = sizes.fine.shape, sizes.coarse.shape
+        fine, coarse = grids.fine.window.shape, grids.coarse.window.shape
         make = store.array
         self.points, self.first, self.ground_points, self.low, self._number = (
             make(name, fine, "u4") for name in ("points", "first", "ground", "low", "number")
         )
         # Sums of x and y of ground points from the centre of their cell, and of their heights.
         self._x, self._y = (make(name, fine, "f4") for name in ("x", "y"))
-        self._z = make("z", fine, "f8")
+        self._z, self._height = (make(name, fine, "f8") for name in ("z", "height"))
         self._rise_x, self._rise_y = (make(name, fine, "f4") for name in ("rise_x", "rise_y"))
         self.highest = make("highest", coarse, "f4")
         self.highest[:] = -np.inf
         self.marks = make("marks", coarse, "u1")
-        self.filled = make("filled", sizes.filled.shape, "u1")
+        self.filled = make("filled", grids.spaced.window.shape, "u1")
         self.strip, self.strip_points = (
             make(name, (STRIPS, *coarse), "u4") for name in ("strip", "strip_points")
         )
@@ -178,30 +205,33 @@ class QualityCells:
 
     def add(self, part: PointCloud, frame: Frame) -> None:
         """Add a part of the points, before the planes are made."""
-        marks = Marks.of(part, self._all_synthetic)
-        self.counts.add(part, marks)
+        used = ~part.withheld
+        self.counts.add(part, used)
         self._repeated.add(part)
-        used = marks.used
         x, y, z = part.points(used, frame)
-        place, row, column = self._places(x, y, self.sizes.fine, self.sizes.cell)
+        place, row, column = self.grids.fine.places(x, y)
         coarse = self._coarse(row, column)
         np.maximum.at(self.highest.reshape(-1), coarse, z.astype(np.float32))
         is_water = part.classification[used] == WATER
         _mark(self.marks, coarse[is_water], WET)
-        _mark(
-            self.filled, self._places(x, y, self.sizes.filled, self.sizes.spacing)[0][is_water], WET
-        )
-        real = marks.real[used]
+        _mark(self.filled, self.grids.spaced.places(x[is_water], y[is_water])[0], WET)
+        real = self._real(part)[used]
         if part.strip is not None:
             last = (part.return_number >= part.number_of_returns)[used]
             heights = np.where(last, z, np.inf)[real]
             self._add_strips(coarse[real], part.strip[used][real], heights)
         ground = real & self._ground.points_of(part, self._ground.ground_classes)[used]
-        place, size, fine = place[ground], self.sizes.cell, self.sizes.fine
-        _add(self._number, place)
-        _add(self._x, place, x[ground] - (fine.column + column[ground] + 0.5) * size)
-        _add(self._y, place, y[ground] - (fine.row + row[ground] + 0.5) * size)
-        _add(self._z, place, z[ground])
+        east, north = self.grids.fine.from_centres(x, y, row, column)
+        _add(self._number, place[ground])
+        for sums, values in ((self._x, east), (self._y, north), (self._z, z)):
+            _add(sums, place[ground], values[ground])
+
+    def _real(self, part: PointCloud) -> np.ndarray:
+        """Return which points were measured: neither withheld nor synthetic, and no noise."""
+        real = ~part.withheld & ~np.isin(part.classification, NOISE)
+        if part.synthetic is not None and not self._all_synthetic:
+            real &= ~part.synthetic
+        return real
 
     def _add_strips(self, coarse: np.ndarray, strip: np.ndarray, heights: np.ndarray) -> None:
         """Add strips to the cells of their points, with their lowest points."""
@@ -218,66 +248,63 @@ class QualityCells:
             strips[cells[new]], low[cells[new]] = names[new], np.inf
             mine = strips[cells] == names
             low[cells[mine]] = np.minimum(low[cells[mine]], lowest[mine])
-            cells, names, lowest = (each[~mine] for each in (cells, names, lowest))
+            cells, names, lowest = cells[~mine], names[~mine], lowest[~mine]
 
     def make_planes(self, progress: Progress = SILENT) -> None:
-        """Replace the sums of the ground by planes of the cells with points, when all are added."""
+        """Make planes of the ground round the cells with points, when all points are added."""
         self._repeated.find()
-        self.counts.shared, self.counts.duplicates = (
-            self._repeated.shared, self._repeated.duplicates
-        )  # fmt: skip
-        rows, columns = self.sizes.fine.shape
-        size, margin = self.sizes.cell, WINDOWS[-1]
-        step = max(_ROWS_TOGETHER // columns // 2 * 2, 2 * margin)
-        before = np.zeros((0, columns))
-        for start in range(0, rows, step):
-            low, stop = max(start - margin, 0), min(start + step, rows)
-            high = min(stop + margin, rows)
-            number = np.array(self._number[low:high], dtype=np.float64)
-            some = np.maximum(number, 1.0)
-            # The sums of the rows before were already replaced, but are still needed.
-            z = np.array(self._z[low:high])
-            z[: start - low] = before[len(before) - (start - low) :]
-            before = z[: stop - low][-margin:].copy()
-            x, y = (each[low:high] / some for each in (self._x, self._y))
-            wanted = np.zeros(number.shape, dtype=bool)
-            wanted[start - low : stop - low] = twice(self.highest > -np.inf, slice(start, stop))
-            found = planes(Sums(number, x, y, z / some), size, wanted)
-            places = np.flatnonzero(wanted) + low * columns
-            for values, array in zip(found, (self._z, self._rise_x, self._rise_y)):
-                array.reshape(-1)[places] = values
-            progress(stop / rows)
+        self.counts.shared = self._repeated.shared
+        self.counts.duplicates = self._repeated.duplicates
+        (rows, columns), size = self.grids.fine.window.shape, self.grids.fine.size
+        for south in range(0, rows, _TILE):
+            for west in range(0, columns, _TILE):
+                low, left = max(south - WINDOWS[-1], 0), max(west - WINDOWS[-1], 0)
+                tile = (
+                    slice(low, south + _TILE + WINDOWS[-1]),
+                    slice(left, west + _TILE + WINDOWS[-1]),
+                )
+                number = self._number[tile].astype(np.float64)
+                sums = (self._x, self._y, self._z)
+                means = (values[tile] / np.maximum(number, 1.0) for values in sums)
+                wanted = np.zeros(number.shape, dtype=bool)
+                own = wanted[south - low :, west - left :][:_TILE, :_TILE]
+                own[:] = twice(self.highest > -np.inf, slice(south, south + own.shape[0]))[
+                    :, west : west + _TILE
+                ]
+                row, column = np.nonzero(wanted)
+                found = planes(number, *means, size, wanted)
+                for values, array in zip(found, (self._height, self._rise_x, self._rise_y)):
+                    array[row + low, column + left] = values
+            progress(min(south + _TILE, rows) / rows)
 
     def compare(self, part: PointCloud, frame: Frame) -> None:
         """Count a part of the points, and compare it with the planes."""
-        marks = Marks.of(part, self._all_synthetic)
-        used = marks.real & ~self._repeated.among(part)
+        used = self._real(part) & ~self._repeated.among(part)
         x, y, z = part.points(used, frame)
-        number, flagged = part.return_number[used], marks.flagged[used]
-        place, row, column = self._places(x, y, self.sizes.fine, self.sizes.cell)
+        number, flagged = part.return_number[used], overlapping(part)[used]
+        place, row, column = self.grids.fine.places(x, y)
         coarse = self._coarse(row, column)
         is_first = number <= 1
         _add(self.points, place[~flagged])
         _add(self.first, place[is_first & ~flagged])
-        filled = self._places(x, y, self.sizes.filled, self.sizes.spacing)[0]
-        for cells, where in ((self.marks, coarse), (self.filled, filled)):
+        spaced, _, _ = self.grids.spaced.places(x, y)
+        for cells, where in ((self.marks, coarse), (self.filled, spaced)):
             _mark(cells, where[is_first & ~flagged], PULSE)
             _mark(cells, where[is_first & flagged], FLAGGED)
         ground = self._ground.points_of(part, self._ground.ground_classes)[used]
         _add(self.ground_points, place[ground])
-        size, fine = self.sizes.cell, self.sizes.fine
         rise_x, rise_y, height = (
-            each.reshape(-1)[place] for each in (self._rise_x, self._rise_y, self._z)
+            values.reshape(-1)[place] for values in (self._rise_x, self._rise_y, self._height)
         )
-        height = height + rise_x * (x - (fine.column + column + 0.5) * size)
-        above = z - height - rise_y * (y - (fine.row + row + 0.5) * size)
+        east, north = self.grids.fine.from_centres(x, y, row, column)
+        above = z - (height + rise_x * east) - rise_y * north
         _add(self.low, place[(above >= LOW[0]) & (above <= LOW[1])])
         if part.strip is not None:
             of = part.number_of_returns[used]
             _mark(self.marks, coarse[of > 1], ROUGH)
             last = (number >= of) & ~np.isnan(above)
-            reach = _NEAR + (np.abs(rise_x) + np.abs(rise_y)) * 2 * size
-            some = (each[last] for each in (coarse, part.strip[used], z - reach, above))
+            reach = _NEAR + (np.abs(rise_x) + np.abs(rise_y)) * self.grids.coarse.size
+            some = (values[last] for values in (coarse, part.strip[used], z - reach, above))
             self._sum_strips(*some)
 
     def _sum_strips(
@@ -292,17 +319,32 @@ class QualityCells:
             _add(self.strip_sum[slot], coarse[near], above[near])
 
     def _coarse(self, row: np.ndarray, column: np.ndarray) -> np.ndarray:
-        return (row >> 1) * self.sizes.coarse.columns + (column >> 1)
+        return (row >> 1) * self.grids.coarse.window.columns + (column >> 1)
 
-    @staticmethod
-    def _places(
-        x: np.ndarray, y: np.ndarray, window: CellWindow, size: float
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return number, row and column of the cells of points."""
-        row, column = window.places(x, y, (0.0, 0.0), size)
-        # The extent in a header may be slightly smaller than that of the points.
-        row, column = np.clip(row, 0, window.rows - 1), np.clip(column, 0, window.columns - 1)
-        return row * window.columns + column, row, column
+    @cached_property
+    def extent(self) -> Extent:
+        """Where the survey lies, when all points are compared."""
+        from scipy import ndimage
+
+        rows, columns = self.grids.coarse.window.shape
+        side = max(round(_SQUARE / self.grids.coarse.size), 1)
+
+        def in_squares(values: np.ndarray) -> np.ndarray:
+            """Return whether any value in squares of cells is true."""
+            padded = np.pad(values, ((0, -rows % side), (0, -columns % side)))
+            return padded.reshape(-(-rows // side), side, -1, side).any(axis=(1, 3))
+
+        inside = ndimage.binary_fill_holes(in_squares(self.highest > -np.inf))
+        wet, flagged, pulses = (in_squares(self.marks & bit > 0) for bit in (WET, FLAGGED, PULSE))
+        inner = ndimage.binary_erosion(inside, np.ones((3, 3)))
+        if not inner.any():
+            inner = inside
+        return Extent(
+            *(
+                squares.repeat(side, axis=0).repeat(side, axis=1)[:rows, :columns]
+                for squares in (inside, inner, inner & ~wet, inner & ~(flagged & ~pulses))
+            )
+        )
 
 
 def _add(cells: np.ndarray, place: np.ndarray, values: np.ndarray | None = None) -> None:

@@ -2,34 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict, dataclass, field
-from typing import Any, NamedTuple, Sequence
-
-import numpy as np
+from typing import Any, Callable, Iterator, Mapping, NamedTuple
 
 from ...core.words import counted
-from ...grids.cells import cells_at
 from ...las.class_names import named_class
-from ...survey.files import Survey
-from ...survey.point_counts import by_class
-from .cells import FLAGGED, PULSE, ROUGH, WET, Counts, QualityCells, twice
-from .rasters import (
-    LIMITS,
-    QUALITY_RASTERS,
-    differences,
-    overlap,
-    rows_of,
-    strip_differences,
-)
 from .specifications import Specification
 
 PASS, FAIL, LOOK = "pass", "fail", "look"
-# Side in metres of the squares by which the area of the survey is told.
-_SQUARE = 10.0
 _GROUND = 2
-# Steepest land in degrees on which strips are judged, and fewest cells of it.
-_STEEPEST, _FEWEST_CELLS = 10.0, 30
+# Fewest cells of which differences between strips pass.
+_FEWEST_CELLS = 30
 
 
 class Line(NamedTuple):
@@ -82,294 +65,200 @@ class Quality:
     @property
     def passes(self) -> bool | None:
         """Whether all lines pass; None if none fails, but some could not be decided."""
-        if any(each.state == FAIL for each in self.lines):
+        if any(line.state == FAIL for line in self.lines):
             return False
         return None if self.left else True
 
     @property
     def left(self) -> list[Line]:
         """The lines that do not pass: those that fail, and those that a person must look at."""
-        return [each for each in self.lines if each.state != PASS]
+        return [line for line in self.lines if line.state != PASS]
+
+    @property
+    def strip_count(self) -> int:
+        """The number of flight strips."""
+        return len(self.strips)
+
+    @property
+    def no_pulses(self) -> str:
+        """The points and the area that densities leave out, beside withheld points and noise."""
+        counts = {
+            "shared by files": self.shared, "duplicates": self.duplicates,
+            "synthetic": self.synthetic, "flag of overlap": self.flagged,
+        }  # fmt: skip
+        area = f", {self.flagged_area:,.0f} m2 have only points with this flag"
+        return _counts(counts) + area * bool(self.flagged_area)
+
+    @property
+    def compared_cells(self) -> str:
+        """The number of cells in which strips are compared, of those with several strips."""
+        return f"{self.compared:,} of {counted(self.overlapping, 'cell')}"
 
     def as_dict(self) -> dict[str, Any]:
         """Return the figures as plain values."""
-        found = asdict(self)
-        found["lines"] = [each._asdict() for each in self.lines]
-        return {**found, "passes": self.passes}
-
-    def rows(self) -> list[tuple[str, str]]:
-        """Return titles and values of all figures as text."""
-        shares: Sequence[float | None] = self.strip_shares or (None, None, None)
-        return [
-            ("points", f"{self.points:,}"),
-            ("withheld", f"{self.withheld:,}"),
-            ("no pulses", self._no_pulses),
-            ("classes", ", ".join(f"{name}: {count:,}" for name, count in self.classes.items())),
-            ("returns", ", ".join(f"{name}: {count:,}" for name, count in self.returns.items())),
-            ("strips", f"{len(self.strips):,}"),
-            ("area", f"{self.area:,.0f} m2"),
-            ("pulses", _number(self.pulse_density, " first returns/m2")),
-            ("density", _number(self.point_density, " points/m2")),
-            ("ground", _number(self.ground_density, " ground points/m2")),
-            ("dense cells", _share(self.dense_share)),
-            ("filled cells", _share(self.filled_share)),
-            ("void squares", "not measured" if self.void_count is None else f"{self.void_count:,}"),
-            ("ground voids", _share(self.ground_void_share)),
-            ("overlap", _share(self.overlap_share)),
-            ("compared", f"{self.compared:,} of {counted(self.overlapping, 'cell')}"),
-            ("strips RMSDz", _metres(self.strip_rms)),
-            ("largest", _metres(self.strip_largest)),
-            ("below 8 cm", _share(shares[0])),
-            ("8 to 16 cm", _share(shares[1])),
-            ("over 16 cm", _share(shares[2])),
-        ]
-
-    @property
-    def _no_pulses(self) -> str:
-        """The points and the area that densities leave out, beside withheld points and noise."""
-        words = [
-            f"{named}: {count:,}"
-            for named, count in (
-                ("shared by files", self.shared), ("duplicates", self.duplicates),
-                ("synthetic", self.synthetic), ("flag of overlap", self.flagged),
-            )
-        ]  # fmt: skip
-        if self.flagged_area:
-            words.append(f"{self.flagged_area:,.0f} m2 have only points with this flag")
-        return ", ".join(words)
+        lines = [line._asdict() for line in self.lines]
+        return {**asdict(self), "lines": lines, "passes": self.passes}
 
     def text(self) -> list[str]:
         """Return the figures and the comparison as lines of text."""
-        lines = [f"{title:<13} {value}" for title, value in self.rows()]
-        for each in self.lines:
-            lines.append(f"{each.state:<5} {each.name}: {each.found}; asked: {each.asked}")
+        lines = [f"{figure.name:<13} {figure.text(self)}" for figure in FIGURES]
+        for line in self.lines:
+            lines.append(f"{line.state:<5} {line.name}: {line.found}; asked: {line.asked}")
         return lines
 
 
-def _number(value: float | None, unit: str) -> str:
-    return "not measured" if value is None else f"{value:.2f}{unit}"
+# Values as text.
+_metres, _points = "{:.3f} m".format, "{:.2f} points/m2".format
+_pulses, _ground = "{:.2f} first returns/m2".format, "{:.2f} ground points/m2".format
 
 
-def _share(value: float | None) -> str:
-    return "not measured" if value is None else f"{100 * value:.2f} %"
+def _share(value: float) -> str:
+    return f"{100 * value:.2f} %"
 
 
-def _metres(value: float | None) -> str:
-    return "not measured" if value is None else f"{value:.3f} m"
+def _counts(values: Mapping[Any, int]) -> str:
+    return ", ".join(f"{name}: {count:,}" for name, count in values.items())
 
 
-class Extent(NamedTuple):
-    """Where the survey lies, in its coarse cells; boolean."""
-
-    inside: np.ndarray  # all cells of the survey, with gaps that it encloses
-    inner: np.ndarray  # those for figures: without squares of 10 m along the edge, partly filled
-    dry: np.ndarray  # those of `inner` in squares of 10 m without points of water
-    # those of `inner` without squares in which all first returns have the flag of overlap. Where
-    # this flag marks all points of an overlap, not only those of one strip, nothing would be left
-    # to count.
-    pulses: np.ndarray
-
-    @classmethod
-    def of(cls, cells: QualityCells) -> Extent:
-        """Return where the survey lies."""
-        from scipy import ndimage
-
-        side = max(round(_SQUARE / (2 * cells.sizes.cell)), 1)
-        some = _any(cells.highest > -np.inf, side)
-        wet, flagged, pulses = (_any(cells.marks & bit > 0, side) for bit in (WET, FLAGGED, PULSE))
-        inside = ndimage.binary_fill_holes(some)
-        inner = ndimage.binary_erosion(inside, np.ones((3, 3)))
-        if not inner.any():
-            inner = inside
-        shape = cells.sizes.coarse.shape
-        kinds = (inside, inner, inner & ~wet, inner & ~(flagged & ~pulses))
-        return cls(*(_spread(each, side, shape) for each in kinds))
+def _shown(value: Any, form: Callable[[Any], str]) -> str:
+    return "not measured" if value is None else form(value)
 
 
-def _any(values: np.ndarray, side: int) -> np.ndarray:
-    """Return whether any value in squares of cells is true."""
-    rows, columns = values.shape
-    padded = np.pad(values, ((0, -rows % side), (0, -columns % side)))
-    height, width = padded.shape
-    squares = padded.reshape(height // side, side, width // side, side)
-    return np.logical_or.reduce(squares, axis=(1, 3))
+class Figure(NamedTuple):
+    """A figure as users see it."""
+
+    name: str  # in the terminal
+    title: str  # on the page
+    attribute: str  # of `Quality`; None if it was not measured
+    form: Callable[[Any], str] = "{:,}".format  # returns the value as text
+
+    def text(self, quality: Quality) -> str:
+        """Return the figure of a survey."""
+        return _shown(getattr(quality, self.attribute), self.form)
 
 
-def _spread(squares: np.ndarray, side: int, shape: tuple[int, int]) -> np.ndarray:
-    """Return values of squares for each of their cells."""
-    return squares.repeat(side, axis=0).repeat(side, axis=1)[: shape[0], : shape[1]]
+FIGURES = (
+    Figure("points", "Points", "points"),
+    Figure("withheld", "Withheld points", "withheld"),
+    Figure("no pulses", "Points that do not count as pulses", "no_pulses", str),
+    Figure("classes", "Classes", "classes", _counts),
+    Figure("returns", "Returns", "returns", _counts),
+    Figure("strips", "Flight strips (point source ids)", "strip_count"),
+    Figure("area", "Area of the figures below", "area", "{:,.0f} m2".format),
+    Figure("pulses", "Density of first returns", "pulse_density", _pulses),
+    Figure("density", "Density of all returns", "point_density", _points),
+    Figure("ground", "Density of ground points", "ground_density", _ground),
+    Figure("dense cells", "Cells that reach the demanded density", "dense_share", _share),
+    Figure(
+        "filled cells", "Cells of twice the pulse spacing that hold a first return",
+        "filled_share", _share,
+    ),
+    Figure(
+        "void squares",
+        "Squares of four times the pulse spacing without a first return, outside water",
+        "void_count",
+    ),
+    Figure(
+        "ground voids", "Cells that are far from a ground point, outside water",
+        "ground_void_share", _share,
+    ),
+    Figure("overlap", "Cells with several strips", "overlap_share", _share),
+    Figure(
+        "compared",
+        "Cells on even, open land whose strips are compared, of those with several strips",
+        "compared_cells", str,
+    ),
+    Figure(
+        "strips RMSDz", "Differences between strips, RMSDz on even, open land", "strip_rms",
+        _metres,
+    ),
+    Figure("largest", "Largest difference there", "strip_largest", _metres),
+    Figure(
+        "below 8 cm", "Cells of all land whose strips differ by less than 8 cm", "strip_shares",
+        lambda shares: _share(shares[0]),
+    ),
+    Figure("8 to 16 cm", "By 8 to 16 cm", "strip_shares", lambda shares: _share(shares[1])),
+    Figure("over 16 cm", "By more than 16 cm", "strip_shares", lambda shares: _share(shares[2])),
+)  # fmt: skip
 
 
-def figures_of(
-    cells: QualityCells, extent: Extent, asked: Specification, void: float
-) -> dict[str, Any]:
-    """Return figures of cells, by names of `Quality`; ground is missing from `void` metres on."""
-    side = 2 * cells.sizes.cell
-    sums, far, dry, dense = np.zeros(3), 0.0, 0, 0
-    names = {"first": extent.pulses, "points": extent.pulses, "ground_points": extent.inner}
-    for rows in rows_of(cells.sizes.fine):
-        there = slice(rows.start // 2, rows.stop // 2)
-        if not extent.inner[there].any():
-            continue
-        sums += [
-            getattr(cells, name)[rows][twice(where, rows)].sum(dtype=np.float64)
-            for name, where in names.items()
-        ]
-        on_land = twice(extent.dry, rows)
-        voids = QUALITY_RASTERS["voids"].make(cells, rows, extent.inside, void)
-        far, dry = far + float(voids[on_land].sum()), dry + int(np.count_nonzero(on_land))
-        pulses = cells.first[rows].astype(np.int64)
-        four = pulses.reshape(len(pulses) // 2, 2, -1, 2).sum(axis=(1, 3))
-        enough = four[extent.pulses[there]] >= (asked.pulses or 0) * side**2
-        dense += int(np.count_nonzero(enough))
-    inner, counted_cells = (int(np.count_nonzero(each)) for each in (extent.inner, extent.pulses))
-    found: dict[str, Any] = {
-        "area": inner * side**2, "flagged_area": (inner - counted_cells) * side**2,
-        "ground_void_share": far / dry if dry else None,
-    }  # fmt: skip
-    if inner:
-        found["ground_density"] = float(sums[2]) / found["area"]
-    if counted_cells:
-        densities = (sums[:2] / (counted_cells * side**2)).tolist()
-        found["pulse_density"], found["point_density"] = densities
-        found["dense_share"] = dense / counted_cells if asked.pulses else None
-    return {**found, **_filled(cells, extent, asked), **_strips(cells, extent)}
-
-
-def _filled(cells: QualityCells, extent: Extent, asked: Specification) -> dict[str, Any]:
-    """Return where first returns are missing, outside water."""
-    if asked.spacing is None:
-        return {}
-    window, coarse, size = cells.sizes.filled, cells.sizes.coarse, cells.sizes.spacing
-    x, y = window.centres(size)
-    row, column = cells_at(x, y, 2 * cells.sizes.cell)
-    column = np.clip(column - coarse.column, 0, coarse.columns - 1)
-    row = np.clip(row - coarse.row, 0, coarse.rows - 1)
-    land, every, holding, voids = extent.dry & extent.pulses, 0, 0, 0
-    for rows in rows_of(window):
-        # With one row more, for the squares of two rows.
-        own = slice(0, rows.stop - rows.start)
-        rows = slice(rows.start, min(rows.stop + 1, window.rows))
-        values = cells.filled[rows]
-        there = land[np.ix_(row[rows], column)] & (values & WET == 0)
-        missing = there & (values & PULSE == 0)
-        squares = missing[:-1, :-1] & missing[1:, :-1] & missing[:-1, 1:] & missing[1:, 1:]
-        voids += int(np.count_nonzero(squares))
-        every += int(np.count_nonzero(there[own]))
-        holding += int(np.count_nonzero(there[own] & ~missing[own]))
-    if not every:
-        return {}
-    return {"filled_share": holding / every, "void_count": voids}
-
-
-def _strips(cells: QualityCells, extent: Extent) -> dict[str, Any]:
-    """Return how strips overlap and differ."""
-    several, total, squares, compared, largest = 0, 0, 0.0, 0, 0.0
-    kinds = np.zeros(3, dtype=np.int64)
-    for rows in rows_of(cells.sizes.coarse):
-        number = overlap(cells, rows, extent.inner, 0.0)
-        several += int(np.count_nonzero(number > 1))
-        total += int(np.count_nonzero(~np.isnan(number)))
-        every = differences(cells, rows, extent.inner, 0.0)
-        known = every[~np.isnan(every) & extent.inner[rows]]
-        kinds += np.bincount(np.searchsorted(LIMITS, known, side="right"), minlength=3)
-        open_land = extent.inner[rows] & (cells.marks[rows] & (ROUGH | WET) == 0)
-        even = strip_differences(cells, rows, _STEEPEST)[open_land]
-        even = even[~np.isnan(even)]
-        squares, compared = squares + float((even**2).sum()), compared + len(even)
-        largest = max(largest, float(even.max(initial=0.0)))
-    found: dict[str, Any] = {
-        "overlap_share": several / total if total else None, "overlapping": several,
-        "compared": compared,
-    }  # fmt: skip
-    if kinds.any():
-        found["strip_shares"] = (kinds / kinds.sum()).tolist()
-    if compared:
-        found.update(strip_rms=math.sqrt(squares / compared), strip_largest=largest)
-    return found
-
-
-def totals_of(counts: Counts) -> dict[str, Any]:
-    """Return the counts of points, by the names of `Quality`."""
-    return {
-        "points": counts.points,
-        "withheld": counts.withheld,
-        "shared": counts.shared,
-        "duplicates": counts.duplicates,
-        "synthetic": counts.synthetic,
-        "flagged": counts.flagged,
-        "classes": by_class(counts.classes),
-        "returns": by_class(counts.returns),
-        "strips": sorted(counts.strips),
-    }
-
-
-def lines_of(found: Quality, survey: Survey, asked: Specification) -> list[Line]:
+def lines_of(found: Quality, asked: Specification) -> list[Line]:
     """Return the comparison of a survey with a specification."""
-    lines: list[Line] = []
-
-    def add(key: str, name: str, value: str, wanted: str, state: str | bool) -> None:
-        if not isinstance(state, str):
-            state = PASS if state else FAIL
-        place = asked.places.get(key)
-        lines.append(Line(name, value, wanted, state, f"{asked.source}: {place}" * bool(place)))
-
-    def judged(value: float | None, is_enough: bool) -> str | bool:
-        """Return what could not be measured as something to look at."""
-        return LOOK if value is None else is_enough
-
-    for key, density, least, what in (
-        ("pulses", found.pulse_density, asked.pulses, "first returns/m2"),
-        ("points", found.point_density, asked.points, "points/m2"),
-    ):
-        if least is not None:
-            state = judged(density, (density or 0.0) >= least)
-            add(key, "Density", _number(density, f" {what}"), f"at least {least:g}", state)
-    if asked.filled is not None:
-        share, least = found.filled_share, asked.filled
-        wanted = f"at least {100 * least:g} % of cells of {2 * (asked.spacing or 0):g} m"
-        state = judged(share, (share or 0.0) >= least)
-        add("filled", "Cells with a first return", _share(share), wanted, state)
-    if asked.spacing is not None:
-        wanted = f"none of {4 * asked.spacing:g} x {4 * asked.spacing:g} m, outside water"
-        count = found.void_count
-        squares = "not measured" if count is None else counted(count, "square")
-        state = PASS if found.void_count == 0 else LOOK
-        add("voids", "Voids of first returns", squares, wanted, state)
-    if asked.strips is not None:
-        rms, wanted = found.strip_rms, f"RMSDz at most {asked.strips:g} m, on even, open land"
-        value = _metres(rms)
-        if rms is not None:
-            value += f" in {found.compared:,} of {counted(found.overlapping, 'cell')}"
-        enough = PASS if found.compared >= _FEWEST_CELLS else LOOK
-        state = judged(rms, False) if rms is None or rms > asked.strips else enough
-        add("strips", "Differences between strips", value, wanted, state)
-    _add_classes(add, found, asked)
-    if asked.is_modern:
-        count = len(found.files)
-        modern = sum(each["version"] >= "1.4" and each["format"] >= 6 for each in found.files)
-        for key, name, number, wanted in (
-            ("format", "Files", modern, "LAS 1.4, point format 6 or higher"),
-            ("crs", "CRS", sum(each["wkt"] for each in found.files), "stated as WKT"),
-        ):
-            words = f"so in {number:,} of {counted(count, 'file')}"
-            add(key, name, words, wanted, number == count)
+    lines = []
+    for compare in (_densities, _strips, _classes, _formats):
+        for key, name, value, wanted, passes in compare(found, asked):
+            state = {True: PASS, False: FAIL, None: LOOK}[passes]
+            place = asked.places.get(key)
+            source = f"{asked.source}: {place}" if place else ""
+            lines.append(Line(name, value, wanted, state, source))
     return lines
 
 
-def _add_classes(add: Any, found: Quality, asked: Specification) -> None:
-    """Add the comparison of classes."""
-    for each in asked.refused:
-        value = counted(found.classes.get(each, 0), "point")
-        add("classes", named_class(each).capitalize(), value, "none", each not in found.classes)
+# The key of where the specification says it, the name, what was found and what is asked for; and
+# whether that passes, None where a person must decide.
+_Comparisons = Iterator["tuple[str, str, str, str, bool | None]"]
+
+
+def _at_least(value: float | None, least: float) -> bool | None:
+    return None if value is None else value >= least
+
+
+def _densities(found: Quality, asked: Specification) -> _Comparisons:
+    for key, density, least, form in (
+        ("pulses", found.pulse_density, asked.pulses, _pulses),
+        ("points", found.point_density, asked.points, _points),
+    ):
+        if least is not None:
+            wanted, passes = f"at least {least:g}", _at_least(density, least)
+            yield key, "Density", _shown(density, form), wanted, passes
+    if asked.spacing is not None and asked.filled is not None:
+        share, least = found.filled_share, asked.filled
+        wanted = f"at least {100 * least:g} % of cells of {2 * asked.spacing:g} m"
+        name = "Cells with a first return"
+        yield "filled", name, _shown(share, _share), wanted, _at_least(share, least)
+    if asked.spacing is not None:
+        side, count = 4 * asked.spacing, found.void_count
+        squares = _shown(count, lambda count: counted(count, "square"))
+        wanted = f"none of {side:g} x {side:g} m, outside water"
+        yield "voids", "Voids of first returns", squares, wanted, count == 0 or None
+
+
+def _strips(found: Quality, asked: Specification) -> _Comparisons:
+    if asked.strips is None:
+        return
+    rms, passes, value = found.strip_rms, None, _shown(found.strip_rms, _metres)
+    if rms is not None:
+        value += f" in {found.compared_cells}"
+        enough = found.compared >= _FEWEST_CELLS or None
+        passes = enough if rms <= asked.strips else False
+    wanted = f"RMSDz at most {asked.strips:g} m, on even, open land"
+    yield "strips", "Differences between strips", value, wanted, passes
+
+
+def _classes(found: Quality, asked: Specification) -> _Comparisons:
+    def row(value: int, wanted: str, passes: bool | None) -> tuple[str, str, str, str, bool | None]:
+        points = counted(found.classes.get(value, 0), "point")
+        return "classes", named_class(value).capitalize(), points, wanted, passes
+
+    for value in asked.refused:
+        yield row(value, "none", value not in found.classes)
     if asked.classes is not None:
-        others = [each for each in found.classes if each not in asked.classes]
-        others = [each for each in others if each not in asked.refused]
-        value = ", ".join(map(named_class, others)) or "none"
-        add("classes", "Classes that are not listed", value, "none", not others)
-    for each in asked.needed:
-        count = found.classes.get(each, 0)
+        others = sorted({*found.classes} - {*asked.classes, *asked.refused})
+        names = ", ".join(map(named_class, others)) or "none"
+        yield "classes", "Classes that are not listed", names, "none", not others
+    for value in asked.needed:
         # Land without buildings has no class of buildings: a person must decide.
-        state: str | bool = count > 0 if each == _GROUND or count else LOOK
-        name = named_class(each).capitalize()
-        add("classes", name, counted(count, "point"), "used", state)
+        missing = False if value == _GROUND else None
+        yield row(value, "used", value in found.classes or missing)
+
+
+def _formats(found: Quality, asked: Specification) -> _Comparisons:
+    if not asked.is_modern:
+        return
+    count = len(found.files)
+    modern = sum(file["version"] >= "1.4" and file["format"] >= 6 for file in found.files)
+    for key, name, number, wanted in (
+        ("format", "Files", modern, "LAS 1.4, point format 6 or higher"),
+        ("crs", "CRS", sum(file["wkt"] for file in found.files), "stated as WKT"),
+    ):
+        yield key, name, f"so in {number:,} of {counted(count, 'file')}", wanted, number == count

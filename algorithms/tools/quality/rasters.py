@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from pathlib import Path
 from typing import Callable, Iterator, NamedTuple
@@ -10,17 +11,20 @@ import numpy as np
 
 from ...core.files import Outputs
 from ...core.points import Frame
-from ...core.progress import SILENT, Progress
-from ...grids.cell_window import CellWindow
+from ...core.progress import Progress
+from ...grids.cells import are_inside
 from ...rasters import looks
 from ...rasters.geotiff import NODATA, RasterGrid
 from ...rasters.looks import Categories, Look, Ramp, Steps
-from ...rasters.writing import Rows, check_raster_output, raster_file, write_geotiff
-from .cells import STRIPS, QualityCells, twice
-from .planes import plane_of
+from ...rasters.writing import Rows, raster_file, write_geotiff
+from ...report.pictures import HEIGHTS
+from .cells import STRIPS, Grid, QualityCells, twice
+from .planes import moments, plane_of
 
+# Limits of the classes of differences between strips, in metres.
+LIMITS = (0.08, 0.16)
 # Value of bytes without data, and least number of points of a strip in a cell that is compared.
-NO_BYTE, _LEAST_POINTS = 255, 3
+_NO_BYTE, _LEAST_POINTS = 255, 3
 # A strip is even where its lowest points lie so near to a plane through those of the cells around,
 # in metres. Edges of roofs, cars and single trees are not; a strip that is off as a whole is.
 _UNEVEN = 0.25
@@ -29,10 +33,8 @@ _UNEVEN = 0.25
 _FROM_AROUND, _AROUND = 0.25, 2
 # Cells whose surroundings are looked at together.
 _LOOKED_AT = 1 << 18
-# Cells that are made together.
-_TOGETHER = 1 << 21
-# Limits of the classes of differences between strips, in metres.
-LIMITS = (0.08, 0.16)
+_STEEPEST = 45.0
+_BLUES = ("#c6dbef", "#6baed6", "#2171b5", "#08306b")
 
 
 class QualityRaster(NamedTuple):
@@ -40,67 +42,66 @@ class QualityRaster(NamedTuple):
 
     title: str
     shows: str  # what its cells mean
-    # ``make(cells, rows, inside, void)`` returns some rows, as floats with NaN for no value: `rows`
-    # is a slice of rows, `inside` says which of all cells lie in the survey, and `void` is the
-    # distance in metres from which on ground is missing.
-    make: Callable[[QualityCells, slice, np.ndarray, float], np.ndarray]
+    # Returns some rows, given as a slice; NaN for no value.
+    make: Callable[[QualityCells, slice], np.ndarray]
     look: Look
     is_coarse: bool = False  # its cells have twice the size
     kind: str = "float32"  # "float32" or "uint8"
     is_height: bool = False  # written in the vertical unit of the CRS; made in metres
     label: str = ""  # on the page, where that is not the title
+    # Colours of the map on the page, from the least to the greatest value, or of classes of values,
+    # which are counted from 0, with what they mean.
+    colours: tuple[str, ...] = ("#f7fbff", *_BLUES)
+    class_of: Callable[[np.ndarray], np.ndarray] | None = None
+    words: tuple[str, ...] = ()
+    shows_greatest: bool = False  # where the map has larger cells; otherwise it shows their mean
+
+    def grid(self, cells: QualityCells) -> Grid:
+        """Return the cells of the raster."""
+        return cells.grids.coarse if self.is_coarse else cells.grids.fine
+
+    def values(self, cells: QualityCells, rows: slice) -> np.ndarray:
+        """Return some rows, with NaN outside of the survey."""
+        inside = cells.extent.inside
+        inside = inside[rows] if self.is_coarse else twice(inside, rows)
+        return np.where(inside, self.make(cells, rows), np.nan)
 
 
-def _density(name: str) -> Callable[[QualityCells, slice, np.ndarray, float], np.ndarray]:
-    def make(cells: QualityCells, rows: slice, inside: np.ndarray, void: float) -> np.ndarray:
-        values = getattr(cells, name)[rows] / cells.sizes.cell**2
-        return np.where(twice(inside, rows), values, np.nan)
-
-    return make
+def _density(name: str) -> Callable[[QualityCells, slice], np.ndarray]:
+    return lambda cells, rows: getattr(cells, name)[rows] / cells.grids.fine.size**2
 
 
-def _voids(cells: QualityCells, rows: slice, inside: np.ndarray, void: float) -> np.ndarray:
-    """Return 1 in cells that are farther from the next cell with ground than allowed."""
+def voids(cells: QualityCells, rows: slice) -> np.ndarray:
+    """Return which cells are farther from the next cell with ground than allowed; boolean."""
     from scipy import ndimage
 
-    size, last = cells.sizes.cell, cells.sizes.fine.rows
-    margin = math.ceil(void / size) + 1
-    low, high = max(rows.start - margin, 0), min(rows.stop + margin, last)
-    empty = cells.ground_points[low:high] == 0
-    far = np.ones(empty.shape, dtype=bool)
-    if not empty.all():
-        far = ndimage.distance_transform_edt(empty, sampling=size) > void
-    far = far[rows.start - low : rows.stop - low].astype(np.float32)
-    return np.where(twice(inside, rows), far, np.nan)
+    size = cells.grids.fine.size
+    margin = math.ceil(cells.void / size) + 1
+    low = max(rows.start - margin, 0)
+    far = cells.ground_points[low : rows.stop + margin] == 0
+    if not far.all():
+        far = ndimage.distance_transform_edt(far, sampling=size) > cells.void
+    return far[rows.start - low : rows.stop - low]
 
 
-def overlap(cells: QualityCells, rows: slice, inside: np.ndarray, void: float) -> np.ndarray:
+def overlap(cells: QualityCells, rows: slice) -> np.ndarray:
     """Return the number of strips in cells."""
-    number = np.count_nonzero(cells.strip[:, rows], axis=0).astype(np.float32)
-    return np.where(inside[rows], number, np.nan)
+    return np.count_nonzero(cells.strip[:, rows], axis=0)
 
 
-def differences(cells: QualityCells, rows: slice, inside: np.ndarray, void: float) -> np.ndarray:
-    """Return the range of the mean heights of strips in metres; NaN without two even ones."""
-    return strip_differences(cells, rows, 45.0)
-
-
-def strip_differences(cells: QualityCells, rows: slice, steepest: float) -> np.ndarray:
-    """Return the differences on ground that is not steeper than some degrees."""
-    low, high = max(rows.start - _AROUND, 0), min(rows.stop + _AROUND, cells.sizes.coarse.rows)
-    found = _of_even_strips(cells, slice(low, high), steepest)
+def strip_differences(cells: QualityCells, rows: slice, steepest: float = _STEEPEST) -> np.ndarray:
+    """Return the range of the mean heights of strips in metres, on ground that is not steeper than
+    some degrees; NaN without two even strips.
+    """
+    low = max(rows.start - _AROUND, 0)
+    found = _of_even_strips(cells, slice(low, rows.stop + _AROUND), steepest)
     wide = np.pad(found, _AROUND, constant_values=np.nan)
-    places = np.flatnonzero(~np.isnan(found))
-    side = np.arange(2 * _AROUND + 1)
-    around = (side[:, None] * wide.shape[1] + side).ravel()
-    lonely = np.zeros(len(places), dtype=bool)
-    for start in range(0, len(places), _LOOKED_AT):
-        part = slice(start, start + _LOOKED_AT)
-        row, column = np.divmod(places[part], found.shape[1])
-        values = wide.ravel()[(row * wide.shape[1] + column)[:, None] + around]
-        off = np.abs(found.ravel()[places[part]] - np.nanmedian(values, axis=1))
-        lonely[part] = off > _FROM_AROUND
-    found.ravel()[places[lonely]] = np.nan
+    around = np.lib.stride_tricks.sliding_window_view(wide, (2 * _AROUND + 1,) * 2)
+    row, column = np.nonzero(~np.isnan(found))
+    for start in range(0, len(row), _LOOKED_AT):
+        place = row[start : start + _LOOKED_AT], column[start : start + _LOOKED_AT]
+        off = np.abs(found[place] - np.nanmedian(around[place], axis=(1, 2)))
+        found[place] = np.where(off > _FROM_AROUND, np.nan, found[place])
     return found[rows.start - low : rows.stop - low]
 
 
@@ -109,17 +110,15 @@ def _of_even_strips(cells: QualityCells, rows: slice, steepest: float) -> np.nda
     number = cells.strip_points[:, rows]
     enough = number >= _LEAST_POINTS
     found = np.full(number.shape[1:], np.nan)
-    places = np.flatnonzero(enough.sum(axis=0) > 1)
-    for start in range(0, len(places), _LOOKED_AT):
-        some = places[start : start + _LOOKED_AT]
-        row, column = np.divmod(some, number.shape[2])
+    rows_found, columns_found = np.nonzero(enough.sum(axis=0) > 1)
+    for start in range(0, len(rows_found), _LOOKED_AT):
+        row, column = (values[start : start + _LOOKED_AT] for values in (rows_found, columns_found))
         is_known = enough[:, row, column] & _is_even(cells, row + rows.start, column, steepest)
         sums = cells.strip_sum[:, rows][:, row, column]
         means = sums / np.maximum(number[:, row, column], 1)
         lowest = np.where(is_known, means, np.inf).min(axis=0)
         highest = np.where(is_known, means, -np.inf).max(axis=0)
-        several = is_known.sum(axis=0) > 1
-        found.ravel()[some[several]] = (highest - lowest)[several]
+        found[row, column] = np.where(is_known.sum(axis=0) > 1, highest - lowest, np.nan)
     return found
 
 
@@ -129,32 +128,26 @@ def _is_even(
     """Return where each strip of some cells is even; boolean, shape (4, n)."""
     # A plane through the lowest points of the strip itself, in the 3 x 3 cells around, tells. So
     # strips that are far apart count as even, and what rises in single cells does not.
-    rows, columns = cells.sizes.coarse.shape
-    size = 2 * cells.sizes.cell
+    (rows, columns), size = cells.grids.coarse.window.shape, cells.grids.coarse.size
     names, own = cells.strip[:, row, column], cells.strip_low[:, row, column]
-    sums = np.zeros((STRIPS, 9, len(row)))
-    for down in (-1, 0, 1):
-        for right in (-1, 0, 1):
-            there = (row + down >= 0) & (row + down < rows)
-            there &= (column + right >= 0) & (column + right < columns)
-            beside = np.clip(row + down, 0, rows - 1), np.clip(column + right, 0, columns - 1)
-            for slot in range(STRIPS):
-                strip, low = cells.strip[slot][beside], cells.strip_low[slot][beside]
-                # The same strip can be in another slot there.
-                n = (strip == names) & (names > 0) & there & np.isfinite(low)
-                z = np.where(n, low - own, 0.0)
-                x, y = right * size, down * size
-                products = (1.0, x, y, z, x * x, x * y, y * y, x * z, y * z)
-                for total, product in zip(sums.swapaxes(0, 1), products):
-                    total += n * product
-    found = [plane_of(each) for each in sums]
-    is_good, values = np.stack([each[0] for each in found]), np.stack([each[1] for each in found])
-    slope = np.hypot(values[:, 1], values[:, 2])
-    near = np.abs(values[:, 0]) <= _UNEVEN
-    return is_good & near & (slope <= math.tan(math.radians(steepest)))
+    known = (names > 0) & np.isfinite(own)
+    sums = np.zeros((9, STRIPS, len(row)))
+    for down, right in itertools.product((-1, 0, 1), repeat=2):
+        there = are_inside(row + down, column + right, (rows, columns))
+        beside = np.clip(row + down, 0, rows - 1), np.clip(column + right, 0, columns - 1)
+        for slot in range(STRIPS):
+            strip, low = cells.strip[slot][beside], cells.strip_low[slot][beside]
+            # The same strip can be in another slot there.
+            n = known & (strip == names) & there & np.isfinite(low)
+            z = np.subtract(low, own, out=np.zeros(n.shape), where=n)
+            for total, moment in zip(sums, moments(n, right * size, down * size, z)):
+                total += moment
+    is_good, (height, rise_x, rise_y) = plane_of(sums)
+    is_flat = np.hypot(rise_x, rise_y) <= math.tan(math.radians(steepest))
+    return is_good & (np.abs(height) <= _UNEVEN) & is_flat
 
 
-def _highest(cells: QualityCells, rows: slice, inside: np.ndarray, void: float) -> np.ndarray:
+def _highest(cells: QualityCells, rows: slice) -> np.ndarray:
     heights = cells.highest[rows]
     return np.where(np.isfinite(heights), heights, np.nan)
 
@@ -162,6 +155,7 @@ def _highest(cells: QualityCells, rows: slice, inside: np.ndarray, void: float) 
 _DENSITY = Ramp(looks.DENSITY, low=0.0)
 # From none to all of the strips of a cell.
 _NUMBERS = tuple((number, str(number), colour) for number, (_, colour) in enumerate(looks.DENSITY))
+_DIFFERENCES = ("#3a9d5d", "#f0c93a", "#c0262d")
 
 QUALITY_RASTERS = {
     "pulse_density": QualityRaster(
@@ -173,8 +167,10 @@ QUALITY_RASTERS = {
         Look(_DENSITY, 3, hides=2),
     ),
     "voids": QualityRaster(
-        "Voids of the ground", "1 where ground points are far away", _voids,
+        "Voids of the ground", "1 where ground points are far away", voids,
         Look(Categories(((1, "No ground near", "#c0262d"),)), 7), kind="uint8",
+        colours=("#e4ecdf", "#c0262d"), class_of=lambda values: values > 0,
+        words=("ground", "void"), shows_greatest=True,
     ),
     "low_vegetation": QualityRaster(
         "Density of low vegetation", "Points 0.2 to 2 m above the ground, 1/m2", _density("low"),
@@ -183,23 +179,21 @@ QUALITY_RASTERS = {
     "overlap": QualityRaster(
         "Overlap of strips", "Number of strips", overlap, Look(Categories(_NUMBERS), 5, hides=1),
         True, "uint8", label=f"Overlap of strips (up to {STRIPS})",
+        colours=("#ffffff", *_BLUES), class_of=np.rint,
+        words=("no strip", "1 strip", "2 strips", "3 strips", "4 strips or more"),
     ),
     "strip_differences": QualityRaster(
-        "Differences between strips", "Difference between strips, {unit}", differences,
-        Look(Steps(LIMITS, ("#3a9d5d", "#f0c93a", "#c0262d")), 6), True, is_height=True,
+        "Differences between strips", "Difference between strips, {unit}", strip_differences,
+        Look(Steps(LIMITS, _DIFFERENCES), 6), True, is_height=True, colours=_DIFFERENCES,
+        class_of=lambda values: np.searchsorted(LIMITS, values, side="right"),
+        words=("below 8 cm", "to 16 cm", "above"), shows_greatest=True,
     ),
     "surface_height": QualityRaster(
         "Maximum surface height", "Height, {unit}", _highest,
         Look(Ramp(looks.SURFACE, line="#2a9d8f"), 1, hides=1), True, is_height=True,
+        colours=HEIGHTS, shows_greatest=True,
     ),
 }  # fmt: skip
-
-
-def rows_of(window: CellWindow) -> list[slice]:
-    """Return slices of rows, of an even number and from south to north, that fit into memory."""
-    step = max(_TOGETHER // window.columns // 2 * 2, 2)
-    starts = range(0, window.rows, step)
-    return [slice(start, min(start + step, window.rows)) for start in starts]
 
 
 def raster_paths(folder: Path) -> dict[str, Path]:
@@ -207,51 +201,29 @@ def raster_paths(folder: Path) -> dict[str, Path]:
     return {name: folder / f"{name}.tif" for name in QUALITY_RASTERS}
 
 
-def check_rasters(folder: Path, sources: tuple[Path, ...]) -> None:
-    """Refuse, before any work is done, rasters that could not be written at the end."""
-    for path in raster_paths(folder).values():
-        check_raster_output(path, sources)
-
-
 def write_rasters(
-    folder: Path,
-    cells: QualityCells,
-    inside: np.ndarray,
-    void: float,
-    frame: Frame,
-    outputs: Outputs,
-    progress: Progress = SILENT,
+    folder: Path, cells: QualityCells, frame: Frame, outputs: Outputs, progress: Progress
 ) -> None:
-    """Write all rasters into a folder, with names when `outputs` is closed, of coarse cells
-    `inside` the survey; ground is missing from `void` metres on.
-    """
+    """Write all rasters into a folder, with names when `outputs` is closed."""
     paths = raster_paths(folder)
     for number, (name, path) in enumerate(paths.items(), start=1):
         raster = QUALITY_RASTERS[name]
-        window = cells.sizes.coarse if raster.is_coarse else cells.sizes.fine
-        size = cells.sizes.cell * (2 if raster.is_coarse else 1) / frame.horizontal_unit
+        window, metres = raster.grid(cells)
+        size = metres / frame.horizontal_unit
         north = (window.row + window.rows) * size
         grid = RasterGrid(window.column * size, north, size, window.columns, window.rows, frame)
-        nodata = NO_BYTE if raster.kind == "uint8" else NODATA
-        strips = _strips(raster, window, cells, inside, void, frame, nodata)
-        rows = Rows(window.shape, raster.kind, strips)
-        waiting = raster_file(outputs, path)
-        write_geotiff(waiting, rows, grid, nodata, progress, raster.shows)
+        nodata = _NO_BYTE if raster.kind == "uint8" else NODATA
+        rows = Rows(window.shape, raster.kind, _rows_of(raster, cells, frame, nodata))
+        write_geotiff(raster_file(outputs, path), rows, grid, nodata, progress, raster.shows)
         progress(number / len(paths))
 
 
-def _strips(
-    raster: QualityRaster,
-    window: CellWindow,
-    cells: QualityCells,
-    inside: np.ndarray,
-    void: float,
-    frame: Frame,
-    nodata: float,
+def _rows_of(
+    raster: QualityRaster, cells: QualityCells, frame: Frame, nodata: float
 ) -> Iterator[np.ndarray]:
     """Yield rows of a raster from north to south."""
-    for rows in reversed(rows_of(window)):
-        values = raster.make(cells, rows, inside, void)
+    for rows in reversed(raster.grid(cells).parts()):
+        values = raster.values(cells, rows)
         if raster.is_height:
             values = values / frame.vertical_unit
         yield np.where(np.isnan(values), nodata, values).astype(raster.kind)[::-1]

@@ -29,30 +29,26 @@ class Specification(NamedTuple):
     places: Mapping[str, str] = MappingProxyType({})  # sections by the name of a check
 
 
-_LBS = "USGS Lidar Base Specification 2.1 and later"
-_LBS_PLACES = {
-    "classes": "Point Classification, table 5",
-    "format": "American Society for Photogrammetry and Remote Sensing LAS File Format",
-    "crs": "Coordinate Reference System: Well-Known Text",
-    "pulses": "Nominal Pulse Spacing, table 1",
-    "filled": "Spatial Distribution and Regularity",
-    "voids": "Data Voids",
-    "strips": "Interswath (Overlap) Consistency, table 2",
-}
-
-
-def _lbs(level: str, pulses: float, spacing: float) -> Specification:
-    """Return the base specification of the USGS for a quality level."""
-    return Specification(
-        f"USGS Lidar Base Specification, {level}", _LBS, pulses=pulses, spacing=spacing,
-        filled=0.9, strips=0.08, refused=(0,), needed=(1, 2), is_modern=True, places=_LBS_PLACES,
-    )  # fmt: skip
-
-
+_QL2 = Specification(
+    "USGS Lidar Base Specification, QL2",
+    "USGS Lidar Base Specification 2.1 and later", pulses=2.0, spacing=0.71,
+    filled=0.9, strips=0.08, refused=(0,), needed=(1, 2), is_modern=True,
+    places={
+        "classes": "Point Classification, table 5",
+        "format": "American Society for Photogrammetry and Remote Sensing LAS File Format",
+        "crs": "Coordinate Reference System: Well-Known Text",
+        "pulses": "Nominal Pulse Spacing, table 1",
+        "filled": "Spatial Distribution and Regularity",
+        "voids": "Data Voids",
+        "strips": "Interswath (Overlap) Consistency, table 2",
+    },
+)  # fmt: skip
 SPECIFICATIONS = {
     "none": Specification("No specification", ""),
-    "lbs-ql1": _lbs("QL1", 8.0, 0.35),
-    "lbs-ql2": _lbs("QL2", 2.0, 0.71),
+    "lbs-ql1": _QL2._replace(
+        label="USGS Lidar Base Specification, QL1", pulses=8.0, spacing=0.35
+    ),
+    "lbs-ql2": _QL2,
     "linz": Specification(
         "LINZ, New Zealand National Aerial LiDAR Base Specification (PGF version)",
         "LINZ (2020), PGF version of the New Zealand National Aerial LiDAR Base Specification",
