@@ -34,7 +34,7 @@ _FROM_AROUND, _AROUND = 0.25, 2
 # Cells whose surroundings are looked at together.
 _LOOKED_AT = 1 << 18
 _STEEPEST = 45.0
-_BLUES = ("#c6dbef", "#6baed6", "#2171b5", "#08306b")
+_BLUES = tuple(colour for _, colour in looks.DENSITY)
 
 
 class QualityRaster(NamedTuple):
@@ -51,7 +51,7 @@ class QualityRaster(NamedTuple):
     label: str = ""  # on the page, where that is not the title
     # Colours of the map on the page, from the least to the greatest value, or of classes of values,
     # which are counted from 0, with what they mean.
-    colours: tuple[str, ...] = ("#f7fbff", *_BLUES)
+    colours: tuple[str, ...] = _BLUES
     class_of: Callable[[np.ndarray], np.ndarray] | None = None
     words: tuple[str, ...] = ()
     shows_greatest: bool = False  # where the map has larger cells; otherwise it shows their mean
@@ -179,7 +179,7 @@ QUALITY_RASTERS = {
     "overlap": QualityRaster(
         "Overlap of strips", "Number of strips", overlap, Look(Categories(_NUMBERS), 5, hides=1),
         True, "uint8", label=f"Overlap of strips (up to {STRIPS})",
-        colours=("#ffffff", *_BLUES), class_of=np.rint,
+        colours=("#ffffff", *_BLUES[1:]), class_of=np.rint,
         words=("no strip", "1 strip", "2 strips", "3 strips", "4 strips or more"),
     ),
     "strip_differences": QualityRaster(
