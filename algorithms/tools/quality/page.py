@@ -73,7 +73,7 @@ def _maps(cells: QualityCells, survey: Survey) -> Iterator[Html]:
         step = math.ceil(max(window.shape) / _LONGEST)
         for rows in raster.grid(cells).parts(2 * step):
             parts.append(reduced(raster.values(cells, rows), step, raster.shows_greatest))
-        values = np.vstack(parts)[::-1]
+        values = np.vstack(parts)[::-1].astype(np.float64)
         if not np.isnan(values).all():
             pixels, legend = _coloured(raster, values, units)
             yield map_of(Picture(pixels, size * step), raster.label or raster.title, legend, units)
