@@ -282,9 +282,8 @@ def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how
         water=(_square(20.0, 20.0, 60.0, 50.0),),
     )
     # With a surface, so that the rasters reach as far as all points in both runs.
-    rasters = [
-        RasterFiles(dtm=tmp_path / f"{i}.tif", dsm=tmp_path / f"dsm{i}.tif") for i in range(2)
-    ]
+    paths = [(tmp_path / f"{i}.tif", tmp_path / f"dsm{i}.tif") for i in range(2)]
+    rasters = [RasterFiles(dtm=dtm, dsm=dsm) for dtm, dsm in paths]
     request = ClassifyRequest(parameters=SlopeFilter(), rasters=rasters[0], constraints=known)
     if how == "many":
         cloud = laspy.read(source)
