@@ -18,15 +18,17 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any, Callable, NamedTuple
 
-from bare_earth.algorithms import FindKeyPoints, MeasureHeights, heights, key_points
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.runs.entry import classify, terrain
+from bare_earth.algorithms.runs.entry import write as write_with
 from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.runs.terrain_maps import MapFiles, MapRequest, make_maps
 from bare_earth.algorithms.tools.assess import AssessmentOptions, assess_files
 from bare_earth.algorithms.tools.ground.output import Output
+from bare_earth.algorithms.tools.heights import MeasureHeights
+from bare_earth.algorithms.tools.key_points import FindKeyPoints
 from bare_earth.algorithms.tools.rasters.step import RasterFiles
 
 _RASTERS = ("dtm", "dsm", "chm", "hillshade", "confidence")
@@ -137,8 +139,8 @@ def runs(source: Path, folder: Path, resources: Resources) -> dict[str, Callable
     found["All rasters"] = lambda it: terrain(ground, all_rasters, it)
     above = PointRequest(MeasureHeights(), resources=resources)
     keys = PointRequest(FindKeyPoints(), resources=resources)
-    found["Height above ground"] = lambda it: heights(ground, folder / "h.laz", above, it)
-    found["Model key points"] = lambda it: key_points(ground, folder / "k.laz", keys, it)
+    found["Height above ground"] = lambda it: write_with(ground, folder / "h.laz", above, it)
+    found["Model key points"] = lambda it: write_with(ground, folder / "k.laz", keys, it)
     pages = folder / "report.html", folder / "errors.tif"
     found["Assess"] = lambda it: assess_files(ground, ground, AssessmentOptions(), *pages, it)
     request = MapRequest(resources=resources)

@@ -35,14 +35,7 @@ from relief_figure import relief, walls
 from tutorial_figures import JOBS, tutorial_figures
 from water_figure import water
 
-from bare_earth.algorithms import (
-    ClassifyRequest,
-    RasterFiles,
-    TerrainModel,
-    TerrainRequest,
-    classify,
-    terrain,
-)
+import bare_earth
 from bare_earth.algorithms.filters.tin import PRESETS
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.inpaint import inpaint
@@ -119,14 +112,8 @@ def tutorial() -> None:
         cloud, truth, ground = (folder / f"{each}.las" for each in ("scene", "truth", "ground"))
         write_scene(cloud, truth)
         rasters = {each: folder / f"{each}.tif" for each in ("dtm", "hillshade", "dsm", "chm")}
-        classify(
-            cloud,
-            ground,
-            ClassifyRequest(
-                rasters=RasterFiles(dtm=rasters["dtm"], hillshade=rasters["hillshade"])
-            ),
-        )
-        terrain(ground, TerrainRequest(rasters=RasterFiles(dsm=rasters["dsm"], chm=rasters["chm"])))
+        bare_earth.classify(cloud, ground, dtm=rasters["dtm"], hillshade=rasters["hillshade"])
+        bare_earth.terrain(ground, dsm=rasters["dsm"], chm=rasters["chm"])
         grids = {}
         for each, path in rasters.items():
             with rasterio.open(path) as raster:
@@ -203,12 +190,7 @@ def relief_smoothing() -> None:
     for row, (name, (top, left)) in zip(axes, places.items()):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "dtm.tif"
-            terrain(
-                real(f"{name}.laz"),
-                TerrainRequest(
-                    rasters=RasterFiles(dtm=path), terrain=TerrainModel(dtm_cell_size=0.5)
-                ),
-            )
+            bare_earth.terrain(real(f"{name}.laz"), dtm=path, dtm_cell_size=0.5)
             with rasterio.open(path) as raster:
                 heights = raster.read(1, masked=True).astype(float).filled(np.nan)
         window = np.s_[top : top + 360, left : left + 360]

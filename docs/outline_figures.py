@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import laspy
 import numpy as np
 from drawing import FEW_COLOURS, save
 from matplotlib import pyplot
 
-from bare_earth.algorithms import RasterFiles, TerrainRequest, terrain
+import bare_earth
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.canopy import without_pits
 from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.rasters.geotiff import read_raster
-from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 
 _SIDE = 300
 
@@ -76,6 +76,6 @@ def _made(
         path = Path(folder, "points.las")
         las.write(str(path))
         target = Path(folder, "raster.tif")
-        files, model = RasterFiles(**{name: target}), TerrainModel(cell)
-        terrain(path, TerrainRequest(rasters=files, terrain=model, surface=SurfaceModel()))
+        rasters: dict[str, Any] = {name: target}
+        bare_earth.terrain(path, dtm_cell_size=cell, **rasters)
         return read_raster(target)[0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import laspy
 import numpy as np
@@ -12,14 +13,7 @@ from drawing import save
 from matplotlib import pyplot
 from matplotlib.axes import Axes
 
-from bare_earth.algorithms import (
-    ClassifyRequest,
-    RasterFiles,
-    TerrainModel,
-    TinDensification,
-    classify,
-    write_relief,
-)
+import bare_earth
 from benchmarks.data import real
 
 # A tile, side of its cells, first row and column that are shown, and a word for it.
@@ -52,10 +46,8 @@ def relief() -> None:
 def _draw(folder: Path, tile: str, cell: float, window: tuple[slice, ...], number: int) -> None:
     """Draw all pictures of a part of a tile."""
     dtm = folder / "dtm.tif"
-    request = ClassifyRequest(
-        rasters=RasterFiles(dtm=dtm), terrain=TerrainModel(dtm_cell_size=cell)
-    )
-    classify(real(f"{tile}.laz"), folder / "ground.laz", request)
+    source = real(f"{tile}.laz")
+    bare_earth.classify(source, folder / "ground.laz", dtm=dtm, dtm_cell_size=cell)
     figure, axes = pyplot.subplots(2, 5, figsize=(12.5, 5.9), layout="constrained")
     for panel, (kind, (title, *ends)) in zip(axes.flat, _PICTURES.items()):
         (values,) = _made(dtm, kind, window)
@@ -67,10 +59,10 @@ def _draw(folder: Path, tile: str, cell: float, window: tuple[slice, ...], numbe
     save(figure, f"relief-{tile.replace('_', '-')}", 75, 64)
 
 
-def _made(dtm: Path, kind: str, window: tuple[slice, ...]) -> np.ndarray:
+def _made(dtm: Path, kind: Any, window: tuple[slice, ...]) -> np.ndarray:
     """Return a picture of a terrain model; shape (bands, rows, columns)."""
     target = dtm.with_name(f"{kind}.tif")
-    write_relief(dtm, target, kind)
+    bare_earth.relief(dtm, target, kind=kind)
     with rasterio.open(target) as raster:
         return raster.read()[window].astype(float)
 
@@ -113,8 +105,7 @@ def walls() -> None:
         source, target = Path(name) / "in.las", Path(name) / "out.las"
         cloud.write(source)
         for tolerance in _TOLERANCES:
-            request = ClassifyRequest(parameters=TinDensification(ground_tolerance=tolerance))
-            classify(source, target, request)
+            bare_earth.classify(source, target, ground_tolerance=tolerance)
             ground = np.asarray(laspy.read(target).classification) == 2
             shares = [
                 ", ".join(

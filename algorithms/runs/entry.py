@@ -5,14 +5,12 @@ Here it is decided whether a run works on one file, or on many files as one surv
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterable, Protocol, Union
+from typing import TYPE_CHECKING, Any, Iterable, Union
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..survey.files import is_one_file
-from ..tools import POINT_TOOLS, point_tool
 from ..tools.rasters.output import RasterSize
 from .one_file import classify_file, rasters_of_file, write_points
 from .requests import ClassifyRequest, PointRequest, TerrainRequest
@@ -119,69 +117,6 @@ def terrain(
     from .many_files import rasters_of_files
 
     return rasters_of_files(paths, request, progress, workers)
-
-
-class PointFunction(Protocol):
-    """The function of the library for a tool that writes classified files anew."""
-
-    def __call__(
-        self,
-        sources: Sources,
-        output: str | Path,
-        request: PointRequest | None = None,
-        progress: Progress = SILENT,
-        workers: Workers | None = None,
-        as_survey: bool | None = None,
-    ) -> Any:
-        """Write them as its request says, by default with the values of its parameters."""
-
-
-_DOCUMENTATION = """Write classified files with {tool.writes}.
-
-Parameters
-----------
-request : PointRequest, optional
-    What to do, with a `{step}` as its step; by default with its default values.
-sources, output, progress, workers, as_survey
-    As for `classify`.
-
-Returns
--------
-{summary} or SurveySummary
-    What was done, of one file or of many.
-
-Raises
-------
-BareEarthError, Cancelled
-    As for `classify`, and if the input has no ground, or does not fit the further inputs.
-
-Examples
---------
->>> from bare_earth.algorithms import PointRequest, {step}, {name}
->>> {name}("ground.laz", "out.laz", PointRequest({step}()))  # doctest: +SKIP
-"""
-
-
-@cache
-def function_of(command: str) -> PointFunction:
-    """Return the function of the library for a tool, given its command."""
-    tool, name = point_tool(command), POINT_TOOLS[command].file
-
-    def write_tool(
-        sources: Sources,
-        output: str | Path,
-        request: PointRequest | None = None,
-        progress: Progress = SILENT,
-        workers: Workers | None = None,
-        as_survey: bool | None = None,
-    ) -> Any:
-        asked = PointRequest(tool.step()) if request is None else request
-        return write(sources, output, asked, progress, workers, as_survey)
-
-    step, summary = tool.step.__name__, tool.step.summary_type.__name__
-    write_tool.__doc__ = _DOCUMENTATION.format(tool=tool, name=name, step=step, summary=summary)
-    write_tool.__name__ = write_tool.__qualname__ = name
-    return write_tool
 
 
 def write(

@@ -16,7 +16,7 @@ from typing import Dict, Iterable, Iterator
 
 import numpy as np
 
-from bare_earth.algorithms import __version__
+from bare_earth import __version__
 
 # Of each output, "tool/case/output", the digests of its parts.
 Digests = Dict[str, str]

@@ -8,16 +8,7 @@ import os
 import sys
 from pathlib import Path
 
-import bare_earth.algorithms as package
-from bare_earth.algorithms import (
-    FindKeyPoints,
-    HeightOutput,
-    KeyPointMark,
-    MeasureHeights,
-    PointRequest,
-    heights,
-    key_points,
-)
+import bare_earth
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.progress import SILENT, Progress
@@ -28,11 +19,14 @@ from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.runs import many_files
 from bare_earth.algorithms.runs.entry import classify, terrain
+from bare_earth.algorithms.runs.entry import write as write_with
 from bare_earth.algorithms.runs.options import RasterOutput, TileInput, TileOutput
-from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
+from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground.output import Output
+from bare_earth.algorithms.tools.heights import HeightOutput, MeasureHeights
+from bare_earth.algorithms.tools.key_points import FindKeyPoints, KeyPointMark
 from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 from bare_earth.algorithms.tools.rasters.step import RasterFiles
 
@@ -69,7 +63,7 @@ def command(*words):
 
 def environment():
     """Return the environment of such a process, which finds the package."""
-    path = [str(Path(package.__file__).parents[2]), os.environ.get("PYTHONPATH", "")]
+    path = [str(Path(bare_earth.__file__).parents[1]), os.environ.get("PYTHONPATH", "")]
     return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, path))}
 
 
@@ -101,7 +95,7 @@ def write_height_above_ground(
     progress=SILENT,
 ):  # fmt: skip
     request = PointRequest(MeasureHeights(ground, output), resources=resources)
-    return heights(source, target, request, progress)
+    return write_with(source, target, request, progress)
 
 
 def write_key_points(
@@ -109,7 +103,7 @@ def write_key_points(
     progress=SILENT,
 ):  # fmt: skip
     request = PointRequest(FindKeyPoints(parameters, ground, mark))
-    return key_points(source, target, request, progress)
+    return write_with(source, target, request, progress)
 
 
 def write_terrain_models(

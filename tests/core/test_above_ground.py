@@ -6,18 +6,20 @@ import pytest
 from conftest import Heard
 from runs import said
 
-from bare_earth.algorithms import ClassifyAboveGround, PointRequest, above_ground
+import bare_earth
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.runs.entry import classify
+from bare_earth.algorithms.runs.entry import write as write_with
 from bare_earth.algorithms.runs.options import TileOutput
-from bare_earth.algorithms.runs.requests import ClassifyRequest
+from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.corrections import Corrections
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.above_ground import ClassifyAboveGround
 from bare_earth.algorithms.tools.above_ground.buildings import Buildings, planes_through
 from bare_earth.algorithms.tools.above_ground.classes import (
     AboveGround,
@@ -70,7 +72,7 @@ def file(village, tmp_path_factory):
 @pytest.fixture(scope="module")
 def finished(file):
     """Return the file with its classes above the known ground."""
-    above_ground(file, path := file.with_name("finished.laz"))
+    bare_earth.above_ground(file, path := file.with_name("finished.laz"))
     return path
 
 
@@ -277,7 +279,7 @@ def test_the_order_of_the_points_and_threads_do_not_matter(village):
 
 def test_one_file(file, village, tmp_path):
     out = tmp_path / "out.laz"
-    summary = above_ground(file, out)
+    summary = bare_earth.above_ground(file, out)
     classes = _classes(out)
     assert _iou(classes == 6, village.classes == 6) > 0.94
     assert summary.point_count == len(classes) and summary.ground_count == village.ground.sum()
@@ -289,7 +291,7 @@ def test_one_file(file, village, tmp_path):
         if name != "classification":
             assert np.array_equal(before[name], after[name])
     # All that can get a class has one now, so that a second run changes nothing.
-    again = above_ground(out, tmp_path / "again.laz")
+    again = bare_earth.above_ground(out, tmp_path / "again.laz")
     changed = np.flatnonzero(_classes(tmp_path / "again.laz") != classes)
     assert again.changed_count == len(changed) and len(changed) < 1e-3 * len(classes)
 
@@ -304,27 +306,27 @@ def test_the_files_of_a_survey_do_not_matter(finished, village, tmp_path):
     for each in range(4):
         which = random.permutation(np.flatnonzero(number == each))
         _write(folder / f"{each}.laz", points, classes, returns, which)
-    summary = above_ground([folder], tmp_path / "out")
+    summary = bare_earth.above_ground([folder], tmp_path / "out")
     assert summary.done_count == 4 and summary.class_counts[6] > 2000
     made = sorted((tmp_path / "out").glob("*.laz"))
     assert np.array_equal(_rows(made), _rows([finished]))
     # Finished files are kept.
     resumed = PointRequest(ClassifyAboveGround(), tiles=TileOutput(resume=True))
-    assert above_ground([folder], tmp_path / "out", resumed).kept_count == 4
+    assert write_with([folder], tmp_path / "out", resumed).kept_count == 4
     anew = PointRequest(ClassifyAboveGround(AboveGround("ign")), tiles=resumed.tiles)
-    assert above_ground([folder], tmp_path / "out", anew).kept_count == 0
+    assert write_with([folder], tmp_path / "out", anew).kept_count == 0
 
 
 def test_there_are_no_seams_between_blocks(file, finished, tmp_path, monkeypatch):
     monkeypatch.setattr(ClassifyAboveGround, "blocks", Blocks(70.0, 60.0, start=-0.00005))
-    above_ground(file, tmp_path / "blocks.laz")
+    bare_earth.above_ground(file, tmp_path / "blocks.laz")
     one, blocks = _classes(finished), _classes(tmp_path / "blocks.laz")
     assert np.mean(one != blocks) < 1e-4
 
 
 def test_points_on_disk_get_the_same_classes(file, finished, tmp_path):
     few, heard = PointRequest(ClassifyAboveGround(), resources=Resources(1, 0.001)), Heard()
-    above_ground(file, tmp_path / "disk.laz", few, heard)
+    write_with(file, tmp_path / "disk.laz", few, heard)
     assert any("wait in a temporary file" in text for text in heard.infos)
     assert np.array_equal(_classes(finished), _classes(tmp_path / "disk.laz"))
 
@@ -338,11 +340,11 @@ def test_classes_with_a_meaning_stay(village, tmp_path):
         tmp_path / "in.laz", village.points, classes,
         (village.return_number, village.number_of_returns),
     )  # fmt: skip
-    above_ground(source, tmp_path / "kept.laz")
+    bare_earth.above_ground(source, tmp_path / "kept.laz")
     found = _classes(tmp_path / "kept.laz")
     assert np.array_equal(found[classes > 1], classes[classes > 1])
     request = PointRequest(ClassifyAboveGround(AboveGround(reclassify=True)))
-    above_ground(source, tmp_path / "anew.laz", request)
+    write_with(source, tmp_path / "anew.laz", request)
     anew = _classes(tmp_path / "anew.laz")
     fixed = np.isin(classes, (2, 7, 9))
     assert np.array_equal(anew[fixed], classes[fixed])
@@ -353,7 +355,7 @@ def test_only_points_of_the_area_change(file, finished, village, tmp_path):
     x, y = village.points.x + ORIGIN[0], village.points.y + ORIGIN[1]
     west, south, east, north = (*map(np.median, (x, y)), x.max(), y.max())
     area = Area(box=(west, south, east, north))
-    above_ground(file, tmp_path / "out.laz", PointRequest(ClassifyAboveGround(area=area)))
+    write_with(file, tmp_path / "out.laz", PointRequest(ClassifyAboveGround(area=area)))
     before, after, whole = map(_classes, (file, tmp_path / "out.laz", finished))
     inside = (x >= west) & (y >= south)
     assert np.array_equal(after[inside], whole[inside])
@@ -367,7 +369,7 @@ def test_a_class_that_was_set_by_hand_stays(file, tmp_path):
     mine = np.flatnonzero(np.asarray(las.classification) == 2)[::50]
     las.classification[mine] = 1
     las.write(str(marked))
-    above_ground(marked, tmp_path / "out.laz")
+    bare_earth.above_ground(marked, tmp_path / "out.laz")
     found = _classes(tmp_path / "out.laz")
     assert set(found[mine]) == {1} and set(np.unique(found)) > {2, 5, 6}
 
@@ -375,7 +377,7 @@ def test_a_class_that_was_set_by_hand_stays(file, tmp_path):
 def test_a_file_without_ground_is_refused(village, tmp_path):
     source = _write(tmp_path / "in.laz", village.points, np.ones(village.points.count, np.uint8))
     with pytest.raises(BareEarthError, match="no ground points"):
-        above_ground(source, tmp_path / "out.laz")
+        bare_earth.above_ground(source, tmp_path / "out.laz")
     assert not (tmp_path / "out.laz").exists()
 
 
@@ -383,7 +385,7 @@ def test_a_file_with_nothing_to_change_is_told(village, tmp_path, las):
     classes = np.where(village.ground, 2, 6).astype(np.uint8)
     source = _write(tmp_path / "in.laz", village.points, classes)
     heard = las.Heard()
-    assert above_ground(source, tmp_path / "out.laz", progress=heard).changed_count == 0
+    assert bare_earth.above_ground(source, tmp_path / "out.laz", progress=heard).changed_count == 0
     assert any("decided anew" in each for each in heard.warnings)
 
 
@@ -392,7 +394,7 @@ def test_the_command(file, tmp_path):
     code, text, errors = said("above-ground", file, out, "--above-ground", "ign", "--verbose")
     assert code == 0, errors
     assert "are buildings and" in text
-    above_ground(file, tmp_path / "same.laz", PointRequest(ClassifyAboveGround(AboveGround("ign"))))
+    write_with(file, tmp_path / "same.laz", PointRequest(ClassifyAboveGround(AboveGround("ign"))))
     assert np.array_equal(_classes(out), _classes(tmp_path / "same.laz"))
     code, _, errors = said(
         "above-ground", file, out, "--above-ground", "own", "--medium-height", 3, "--high-height", 1
@@ -410,7 +412,7 @@ def _run(**options):
 def test_one_run_finds_the_ground_and_what_is_above(file, classified, village, tmp_path):
     (one, summary), ground, two = classified, tmp_path / "ground.laz", tmp_path / "two.laz"
     classify(file, ground)
-    above_ground(ground, two, PointRequest(ClassifyAboveGround(AboveGround("ign"))))
+    write_with(ground, two, PointRequest(ClassifyAboveGround(AboveGround("ign"))))
     assert np.array_equal(_classes(one), _classes(two))
     assert summary.class_counts == dict(zip(*np.unique(_classes(one), return_counts=True)))
     assert _iou(_classes(one) == 6, village.classes == 6) > 0.93

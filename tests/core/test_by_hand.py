@@ -8,25 +8,21 @@ import pytest
 from copc_edits import give_class
 from surveys import ORIGIN, cut, finished, points_of, write
 
-from bare_earth.algorithms import (
-    BareEarthError,
-    ClassifyRequest,
-    Corrections,
-    FindKeyPoints,
-    GridMinimum,
-    KeyPointMark,
-    Output,
-    PointRequest,
-    RasterFiles,
-    Resources,
-    Selection,
-    classify,
-    key_points,
-)
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters.grid_minimum import GridMinimum
+from bare_earth.algorithms.runs.entry import classify
+from bare_earth.algorithms.runs.entry import write as write_with
 from bare_earth.algorithms.runs.options import TileOutput
+from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest
+from bare_earth.algorithms.survey.corrections import Corrections
+from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.vector_files import read_corrections
+from bare_earth.algorithms.tools.ground.output import Output
+from bare_earth.algorithms.tools.key_points import FindKeyPoints, KeyPointMark
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 # Objects narrower than so many metres go: at 8 m hall and mound stay ground, at 60 m none does.
 KEPT, GONE = 8.0, 60.0
@@ -303,7 +299,7 @@ def test_changes_in_files_hold_in_tiles_and_with_heights(edited, integers, tmp_p
 
 def test_key_points_are_no_changes_by_hand(edited, tmp_path):
     marked, out = tmp_path / "marked.laz", tmp_path / "out.laz"
-    key_points(edited, marked, PointRequest(FindKeyPoints(mark=KeyPointMark(mark_as="class"))))
+    write_with(edited, marked, PointRequest(FindKeyPoints(mark=KeyPointMark(mark_as="class"))))
     assert np.any(_whole(marked) == 8)
     classify(marked, out, _request(GONE))
     # Those on the mound are not known any more.

@@ -14,36 +14,32 @@ from independent_water import compare, corners_in_flat_water
 from scipy.spatial import cKDTree
 from surveys import finished
 
-from bare_earth.algorithms import (
-    BareEarthError,
-    Cancelled,
-    Checkpoints,
-    ClassifyRequest,
-    Constraints,
-    DeliveryOptions,
-    DeliveryRequest,
-    DeliveryTerrain,
-    DeliveryWater,
-    RasterFiles,
-    Selection,
-    TerrainModel,
-    TerrainRequest,
-    TileOutput,
-    TinDensification,
-    classify,
-    deliver,
-    read_boundary,
-    terrain,
-)
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import FinishedFilesStay, OutputInUse
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.delivery.deliveries import DELIVERIES
+from bare_earth.algorithms.delivery.delivering import deliver
+from bare_earth.algorithms.delivery.request import (
+    DeliveryOptions,
+    DeliveryRequest,
+    DeliveryTerrain,
+    DeliveryWater,
+)
+from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.grids.lines import along
 from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.runs.entry import classify, terrain
+from bare_earth.algorithms.runs.options import TileOutput
+from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.survey.area import Area
-from bare_earth.algorithms.survey.vector_files import read_lines
+from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc
+from bare_earth.algorithms.tools.check.checkpoints import Checkpoints
+from bare_earth.algorithms.tools.rasters.constraints import Constraints
+from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 pyproj = pytest.importorskip("pyproj")
 EAST, NORTH, WIDTH, DEPTH = 500_000.0, 5_600_000.0, 150.0, 90.0

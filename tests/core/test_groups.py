@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from realdata import real
 
-from bare_earth.algorithms import ClassifyRequest, TerrainRequest, classify, terrain
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.low_noise import BelowWater, LowGroups, WideLowGroups
@@ -13,7 +12,9 @@ from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.high_groups import HighGroups
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.one_file import classify_cloud
+from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from benchmarks.peers import write_las

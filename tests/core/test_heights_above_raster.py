@@ -12,7 +12,6 @@ from conftest import Heard
 from realdata import real
 from runs import said
 
-from bare_earth.algorithms import HeightOutput, MeasureHeights, PointRequest, heights
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import SILENT, Notes
@@ -25,6 +24,9 @@ from bare_earth.algorithms.rasters import sampling
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
 from bare_earth.algorithms.rasters.sampling import HeightRaster, HeightSampler
 from bare_earth.algorithms.rasters.writing import write_geotiff
+from bare_earth.algorithms.runs.entry import write as write_with
+from bare_earth.algorithms.runs.requests import PointRequest
+from bare_earth.algorithms.tools.heights import HeightOutput, MeasureHeights
 
 EAST, NORTH, SIDE = 500_000.0, 5_700_000.0, 60
 SURVEY, UTM = 1200 / 3937, wkt_of_epsg(25832)
@@ -78,7 +80,7 @@ def true_heights(path):
 def test_heights_above_a_raster_need_no_classes(tmp_path, cell):
     source, target = points(tmp_path / "in.las"), tmp_path / "out.laz"
     raster = HeightRaster.of(dtm(tmp_path / "dtm.tif", cell))
-    summary = heights(source, target, PointRequest(MeasureHeights(dtm=raster)))
+    summary = write_with(source, target, PointRequest(MeasureHeights(dtm=raster)))
     expected = true_heights(source)
     np.testing.assert_allclose(found(target), expected, atol=0.001)
     assert summary.maximum == pytest.approx(expected.max(), abs=0.001)
@@ -88,7 +90,7 @@ def test_heights_above_a_raster_need_no_classes(tmp_path, cell):
 def test_heights_above_a_raster_as_z(tmp_path):
     source, target = points(tmp_path / "in.las"), tmp_path / "out.las"
     raster = HeightRaster.of(dtm(tmp_path / "dtm.tif"))
-    heights(
+    write_with(
         source, target, PointRequest(MeasureHeights(output=HeightOutput(output_as="z"), dtm=raster))
     )
     np.testing.assert_allclose(np.asarray(laspy.read(target).z), true_heights(source), atol=0.0015)
@@ -99,12 +101,12 @@ def test_memory_and_squares_change_nothing(tmp_path, monkeypatch):
     request = PointRequest(
         MeasureHeights(dtm=HeightRaster.of(dtm(tmp_path / "dtm.tif", hole=True)))
     )
-    heights(source, tmp_path / "one.las", request)
+    write_with(source, tmp_path / "one.las", request)
     monkeypatch.setattr(sampling, "_SIDE", 7)
     monkeypatch.setattr(sampling, "_MOST_KEPT", 2)
-    heights(source, tmp_path / "squares.las", request)
+    write_with(source, tmp_path / "squares.las", request)
     few, heard = Resources(memory=0.001), Heard()
-    heights(
+    write_with(
         source,
         tmp_path / "disk.las",
         PointRequest(MeasureHeights(dtm=request.step.dtm), resources=few),
@@ -140,7 +142,7 @@ def test_places_without_a_value_have_no_height_and_it_is_told(tmp_path):
     source, target = points(tmp_path / "in.las"), tmp_path / "out.las"
     raster = HeightRaster.of(dtm(tmp_path / "dtm.tif", hole=True))
     heard = Notes()
-    heights(source, target, PointRequest(MeasureHeights(dtm=raster)), heard)
+    write_with(source, target, PointRequest(MeasureHeights(dtm=raster)), heard)
     las = laspy.read(source)
     empty = (np.asarray(las.x) < EAST + 10) & (np.asarray(las.y) < NORTH + 10)
     values = found(target)
@@ -151,10 +153,10 @@ def test_places_without_a_value_have_no_height_and_it_is_told(tmp_path):
     assert any(text in told for _, told in heard.messages)
     request = PointRequest(MeasureHeights(output=HeightOutput(output_as="z"), dtm=raster))
     with pytest.raises(BareEarthError, match="as an extra dimension"):
-        heights(source, tmp_path / "z.las", request)
+        write_with(source, tmp_path / "z.las", request)
     small = HeightRaster.of(dtm(tmp_path / "small.tif", side=1))
     with pytest.raises(BareEarthError, match=r"no value at any point of .*in\.las"):
-        heights(source, tmp_path / "none.las", PointRequest(MeasureHeights(dtm=small)))
+        write_with(source, tmp_path / "none.las", PointRequest(MeasureHeights(dtm=small)))
     assert not (tmp_path / "z.las").exists() and not (tmp_path / "none.las").exists()
 
 
@@ -171,7 +173,9 @@ def test_a_raster_in_another_crs_is_refused(tmp_path, many, threads_for_processe
 
 def test_a_raster_without_crs_is_taken_as_that_of_the_points(tmp_path):
     source, raster = points(tmp_path / "in.las"), dtm(tmp_path / "dtm.tif", epsg=None)
-    heights(source, tmp_path / "out.las", PointRequest(MeasureHeights(dtm=HeightRaster.of(raster))))
+    write_with(
+        source, tmp_path / "out.las", PointRequest(MeasureHeights(dtm=HeightRaster.of(raster)))
+    )
     np.testing.assert_allclose(found(tmp_path / "out.las"), true_heights(source), atol=0.001)
 
 
@@ -185,7 +189,7 @@ def test_heights_of_a_raster_in_its_stated_unit(tmp_path):
     write_geotiff(feet, cells, grid, NODATA, SILENT, "Height, {unit}")
     known = HeightRaster.of(feet)
     assert known.unit == 0.3048 and known.shape == (SIDE, SIDE)
-    heights(source, tmp_path / "out.las", PointRequest(MeasureHeights(dtm=known)))
+    write_with(source, tmp_path / "out.las", PointRequest(MeasureHeights(dtm=known)))
     np.testing.assert_allclose(found(tmp_path / "out.las"), true_heights(source), atol=0.001)
 
 
@@ -214,7 +218,7 @@ def test_a_raster_beside_points_whose_heights_are_feet(tmp_path, shows, unit, ex
     write_geotiff(tmp_path / "dtm.tif", values, grid, NODATA, SILENT, shows)
     raster, heard = HeightRaster.of(tmp_path / "dtm.tif"), Heard()
     assert raster.unit == pytest.approx(expected, rel=1e-8)
-    heights(source, target, PointRequest(MeasureHeights(dtm=raster)), heard)
+    write_with(source, target, PointRequest(MeasureHeights(dtm=raster)), heard)
     assert len(heard.warnings) == len(warnings)
     for told, words in zip(heard.warnings, warnings):
         assert words in told and "gdal_edit.py -units" in told
@@ -228,7 +232,7 @@ def test_points_far_above_a_raster_or_above_another_datum_are_told(tmp_path):
     far = dtm(tmp_path / "far.tif")
     with rasterio.open(far, "r+", IGNORE_COG_LAYOUT_BREAK="YES") as raster:
         raster.write(raster.read() - 47.0)
-    heights(
+    write_with(
         source, tmp_path / "out.las", PointRequest(MeasureHeights(dtm=HeightRaster.of(far))), heard
     )
     (warning,) = heard.warnings
@@ -259,7 +263,7 @@ def test_points_in_feet_above_a_raster_in_feet(tmp_path):
     # EPSG:2260 is in US survey feet; neither states the unit of heights.
     source, target = points(tmp_path / "in.las", epsg=2260), tmp_path / "out.las"
     raster = HeightRaster.of(dtm(tmp_path / "dtm.tif", epsg=2260))
-    summary = heights(source, target, PointRequest(MeasureHeights(dtm=raster)))
+    summary = write_with(source, target, PointRequest(MeasureHeights(dtm=raster)))
     np.testing.assert_allclose(found(target), true_heights(source), atol=0.001)
     assert summary.unit == "US survey foot"
 

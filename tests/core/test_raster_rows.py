@@ -6,7 +6,9 @@ from runs import said
 from surveys import write
 from toy_raster import NAME, add_toy, is_right
 
-from bare_earth.algorithms import RasterFiles, TerrainRequest, terrain
+from bare_earth.algorithms.runs.entry import terrain
+from bare_earth.algorithms.runs.requests import TerrainRequest
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 rasterio = pytest.importorskip("rasterio")
 

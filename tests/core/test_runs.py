@@ -1,11 +1,7 @@
 """What is made of many files in one go, and the public API."""
 
 import json
-import re
-import subprocess
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import laspy
 import numpy as np
@@ -13,8 +9,7 @@ import pytest
 from runs import classify_file, classify_tiles, write_heights, write_key_points
 from surveys import bytes_of, cut, finished, strip, write
 
-import bare_earth.algorithms as api
-from bare_earth.algorithms import FindKeyPoints, MeasureHeights, PointRequest, TileOutput
+import bare_earth
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.engine.memory import Resources
@@ -22,11 +17,14 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.runs import entry as runs_module
 from bare_earth.algorithms.runs.many_files import write_files
-from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
+from bare_earth.algorithms.runs.options import TileOutput
+from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools import point_tool
 from bare_earth.algorithms.tools.ground.output import Output
+from bare_earth.algorithms.tools.heights import MeasureHeights
+from bare_earth.algorithms.tools.key_points import FindKeyPoints
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 SLOPE = SlopeFilter(preset="whitebox")
@@ -143,37 +141,16 @@ def test_a_request_takes_parameter_sets_in_any_order():
     assert keys.resources == sets[2] and keys.crs == "EPSG:25832"
 
 
-def test_the_public_api_is_there_and_costs_nothing_before_it_is_used():
-    assert set(api.__all__) <= set(dir(api))
-    assert all(getattr(api, name) is not None for name in api.__all__)
-    with pytest.raises(AttributeError, match="nothing_of_that_name"):
-        api.nothing_of_that_name  # noqa: B018
-    text = Path(api.__file__).read_text(encoding="utf-8")
-    typed = {line.split()[-1] for line in text.splitlines() if line.startswith("    from .")}
-    typed |= set(re.findall(r"^    (\w+): PointFunction$", text, re.MULTILINE))
-    assert {*api.__all__} - {"assess", "check", "find_water", "quality"} <= typed
-    page = (Path(api.__file__).parents[1] / "docs" / "api.md").read_text(encoding="utf-8")
-    shown = re.findall(r"^::: bare_earth\.algorithms\.(\w+)$", page, re.MULTILINE)
-    assert sorted(shown) == sorted({*api.__all__} - {"__version__"})
-    code = (
-        "import sys, bare_earth.algorithms; print('scipy' in sys.modules, 'numpy' in sys.modules)"
-    )
-    root = str(Path(api.__file__).parents[2])
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True,
-        env={"PYTHONPATH": root, "PATH": ""},
-    )  # fmt: skip
-    assert done.stdout.split() == ["False", "False"]
-
-
 def test_the_public_functions_take_one_file_and_many(survey, tmp_path):
-    request = api.ClassifyRequest(parameters=SLOPE)
-    one = api.classify(str(survey), tmp_path / "one-out.laz", request)
-    many = api.classify(tmp_path / "in", tmp_path / "many", request)
+    one = bare_earth.classify(str(survey), tmp_path / "one-out.laz", method="slope")
+    many = bare_earth.classify(tmp_path / "in", tmp_path / "many", method="slope")
     assert one.ground_count == many.ground_count > 5000
-    heights = api.heights(tmp_path / "one-out.laz", tmp_path / "heights.laz")
+    heights = bare_earth.heights(tmp_path / "one-out.laz", tmp_path / "heights.laz")
     assert heights.maximum > 5.0 and heights.unit == "metre"
-    rasters = api.RasterFiles(dtm=tmp_path / "dtm.tif", dsm=tmp_path / "dsm.tif")
-    size = api.terrain([tmp_path / "many"], api.TerrainRequest(rasters=rasters))
-    assert size.ground_count == one.ground_count and (tmp_path / "dsm.tif").stat().st_size
+    shares, files = [], {name: tmp_path / f"{name}.tif" for name in ("dtm", "dsm")}
+    size = bare_earth.terrain([tmp_path / "many"], **files, progress=shares.append)
+    assert size.ground_count == one.ground_count and files["dsm"].stat().st_size
+    assert shares and shares == sorted(shares) and shares[-1] == 1.0
     assert json.dumps(many.failures) == "{}"
+    again = bare_earth.classify(tmp_path / "in", tmp_path / "many", method="slope", resume=True)
+    assert again.kept_count == many.done_count

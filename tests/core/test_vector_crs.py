@@ -9,15 +9,16 @@ import pytest
 from conftest import Heard
 from realdata import real
 
-from bare_earth.algorithms import ClassifyAboveGround, PointRequest, above_ground
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.runs.entry import classify, terrain
-from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
+from bare_earth.algorithms.runs.entry import write as write_with
+from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_corrections, read_lines
+from bare_earth.algorithms.tools.above_ground import ClassifyAboveGround
 from bare_earth.algorithms.tools.rasters.constraints import Constraints
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
@@ -299,7 +300,7 @@ def test_the_area_of_classes_above_the_ground_is_transformed_for_one_file(cloud,
     las.write(str(cloud))
     west = np.minimum(CORNERS, (500_060.0, np.inf))
     area = read_boundary(geojson(tmp_path / "area.geojson", moved(west, "EPSG:4326")))
-    above_ground(
+    write_with(
         cloud, tmp_path / "out.laz", PointRequest(ClassifyAboveGround(area=Area(None, area)))
     )
     changed = np.asarray(laspy.read(tmp_path / "out.laz").classification) == 6
@@ -308,5 +309,5 @@ def test_the_area_of_classes_above_the_ground_is_transformed_for_one_file(cloud,
     assert not changed[x > 500_060.1].any()
     far = Area(None, (CORNERS[None] + 50_000.0,))
     with pytest.raises(BareEarthError, match="lies in the area"):
-        above_ground(cloud, tmp_path / "far.laz", PointRequest(ClassifyAboveGround(area=far)))
+        write_with(cloud, tmp_path / "far.laz", PointRequest(ClassifyAboveGround(area=far)))
     assert not (tmp_path / "far.laz").exists()

@@ -13,27 +13,22 @@ from runs import CancelAt, said
 from scipy.spatial import cKDTree
 from test_water import lake, lake_scene
 
-from bare_earth.algorithms import (
-    ClassifyWater,
-    PointRequest,
-    WaterClasses,
-    WaterPolygons,
-    find_water,
-    read_boundary,
-    water_classes,
-)
 from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.crs.provider import wkt_of_epsg
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.grids.lines import along, near_rings
 from bare_earth.algorithms.las.extrabytes import REMEMBERED
 from bare_earth.algorithms.runs.entry import classify
-from bare_earth.algorithms.runs.requests import ClassifyRequest
+from bare_earth.algorithms.runs.entry import write as write_with
+from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.shapes import Shapes
-from bare_earth.algorithms.tools.water.finding import Water
+from bare_earth.algorithms.survey.vector_files import read_boundary
 from bare_earth.algorithms.tools.water.tool import WaterRequest
+from bare_earth.algorithms.tools.water.tool import write_water as find_water
+from bare_earth.algorithms.tools.water.finding import Water
+from bare_earth.algorithms.tools.water_classes import ClassifyWater, WaterClasses, WaterPolygons
 
 pytest.importorskip("pyproj")
 EAST, NORTH, SIDE, DISTANCE = 500_000.0, 5_700_000.0, 80.0, 0.7
@@ -106,7 +101,7 @@ def request(distance=DISTANCE, unit=1.0, shapes=None, **others):
 @pytest.mark.parametrize("distance", [DISTANCE, 3.0, 0.0])
 def test_each_ground_point_gets_the_class_of_its_place(tmp_path, epsg, unit, distance):
     source = write(tmp_path / "in.laz", epsg=epsg, unit=unit)
-    summary = water_classes(source, tmp_path / "out.laz", request(distance, unit))
+    summary = write_with(source, tmp_path / "out.laz", request(distance, unit))
     before, after = laspy.read(source), laspy.read(tmp_path / "out.laz")
     old, new = np.asarray(before.classification), np.asarray(after.classification)
     water, beside = truth(*metres(before, unit), distance)
@@ -128,7 +123,7 @@ def test_other_classes_are_given_if_the_user_asks(tmp_path):
     ground = GroundClasses(ground_classes=(2, 20))
     water = WaterPolygons(polygons())
     asked = PointRequest(ClassifyWater(how, ground, water))
-    water_classes(source, target, asked)
+    write_with(source, target, asked)
     before = laspy.read(source)
     is_water, is_beside = truth(*metres(before), 2.0)
     old = np.asarray(before.classification)
@@ -140,17 +135,17 @@ def test_other_classes_are_given_if_the_user_asks(tmp_path):
 
 def test_a_second_run_changes_nothing(tmp_path):
     source = write(tmp_path / "in.las")
-    water_classes(source, tmp_path / "once.las", request())
-    again = water_classes(tmp_path / "once.las", tmp_path / "twice.las", request())
+    write_with(source, tmp_path / "once.las", request())
+    again = write_with(tmp_path / "once.las", tmp_path / "twice.las", request())
     assert (tmp_path / "twice.las").read_bytes() == (tmp_path / "once.las").read_bytes()
     assert again.water_count == again.ignored_count == 0
 
 
 def test_points_on_disk_get_the_same_classes(tmp_path):
     source, heard = write(tmp_path / "in.laz", 30_000), Heard()
-    water_classes(source, tmp_path / "memory.laz", request())
+    write_with(source, tmp_path / "memory.laz", request())
     few = request(resources=Resources(memory=0.001))
-    water_classes(source, tmp_path / "disk.laz", few, heard)
+    write_with(source, tmp_path / "disk.laz", few, heard)
     assert any("wait in a temporary file" in text for text in heard.infos)
     assert (tmp_path / "disk.laz").read_bytes() == (tmp_path / "memory.laz").read_bytes()
 
@@ -175,7 +170,7 @@ def test_many_files_have_no_seams_and_go_on(tmp_path, threads_for_processes):
     assert done["done_count"] == 3 and done["kept_count"] == 0
     for name in names:
         source, alone = tmp_path / "in" / f"{name}.laz", tmp_path / f"{name}.laz"
-        water_classes(source, alone, request())
+        write_with(source, alone, request())
         assert (tmp_path / "out" / f"{name}.laz").read_bytes() == alone.read_bytes()
         assert (classes_of(alone) == 9).sum() > 300
     assert json.loads(said(*words, "--json", "--resume")[1])["kept_count"] == 3
@@ -207,8 +202,8 @@ def test_polygons_can_be_in_another_crs(tmp_path):
     to = pyproj.Transformer.from_crs(UTM, 4326, always_xy=True)
     degrees = tuple(np.column_stack(to.transform(*each.T)) for each in polygons()[0])
     shapes = Shapes((degrees,), "EPSG:4326", "lake.geojson")
-    water_classes(source, tmp_path / "moved.las", request(shapes=shapes))
-    water_classes(source, tmp_path / "out.las", request())
+    write_with(source, tmp_path / "moved.las", request(shapes=shapes))
+    write_with(source, tmp_path / "out.las", request())
     assert np.array_equal(classes_of(tmp_path / "moved.las"), classes_of(tmp_path / "out.las"))
 
 
@@ -217,7 +212,7 @@ def test_remembered_classes_follow(tmp_path):
     write(source, classes=1)
     selection = Selection(remember_classes=True)
     classify(source, ground, ClassifyRequest(selection=selection))
-    water_classes(ground, target, request())
+    write_with(ground, target, request())
     las = laspy.read(target)
     assert (np.asarray(las.classification) == 9).sum() > 1000
     # So that the next run does not take them for changes by hand.
@@ -226,7 +221,7 @@ def test_remembered_classes_follow(tmp_path):
 
 def test_without_polygons_nothing_changes_and_the_user_is_told(tmp_path):
     source, heard = write(tmp_path / "in.las"), Heard()
-    water_classes(source, tmp_path / "out.las", PointRequest(ClassifyWater()), heard)
+    write_with(source, tmp_path / "out.las", PointRequest(ClassifyWater()), heard)
     assert (tmp_path / "out.las").read_bytes() == source.read_bytes()
     assert heard.warnings == ["There is no polygon of water, so that no class changes."]
 
@@ -235,10 +230,10 @@ def test_what_cannot_be_done_is_a_sentence(tmp_path):
     source, target = write(tmp_path / "in.las"), tmp_path / "out.las"
     far = WaterPolygons(polygons(origin=(0.0, 0.0)))
     with pytest.raises(BareEarthError, match=r"lies in the polygons of water .* Give the polygons"):
-        water_classes(source, target, PointRequest(ClassifyWater(water=far)))
+        write_with(source, target, PointRequest(ClassifyWater(water=far)))
     with pytest.raises(BareEarthError, match="has no ground points: none is of class 90,"):
         step = replace(request().step, ground=GroundClasses(ground_classes=(90,)))
-        water_classes(write(tmp_path / "no.las", classes=1), target, PointRequest(step))
+        write_with(write(tmp_path / "no.las", classes=1), target, PointRequest(step))
     with pytest.raises(BareEarthError, match="not a finite number"):
         WaterPolygons(((np.full((4, 2), np.nan),),))
     old = laspy.LasData(laspy.LasHeader(point_format=1, version="1.2"))
@@ -246,9 +241,9 @@ def test_what_cannot_be_done_is_a_sentence(tmp_path):
     old.write(str(tmp_path / "old.las"))
     how = WaterClasses(ignored_class=45)
     with pytest.raises(BareEarthError, match=r"holds classes up to 31, not 45.* ignored ground"):
-        water_classes(tmp_path / "old.las", target, PointRequest(ClassifyWater(how)))
+        write_with(tmp_path / "old.las", target, PointRequest(ClassifyWater(how)))
     with pytest.raises(Cancelled):
-        water_classes(source, target, request(), CancelAt(0.5))
+        write_with(source, target, request(), CancelAt(0.5))
     (tmp_path / "empty.geojson").write_text('{"type": "FeatureCollection", "features": []}')
     code, _, told = said("water-classes", source, target, "--water", tmp_path / "empty.geojson")
     assert code == 1 and "holds no polygon" in told
@@ -274,7 +269,7 @@ def test_water_of_real_tiles_gets_its_class_back(tmp_path, name, least):
     las.classification[water] = 2
     las.write(str(ground))
     shapes = read_boundary(Path(tmp_path / "water.geojson"))
-    water_classes(ground, target, request(shapes=shapes))
+    write_with(ground, target, request(shapes=shapes))
     assert (classes_of(target)[water] == 9).mean() > least
 
 
