@@ -9,10 +9,10 @@ imported when it is first used, so that this package is imported fast and needs 
 """
 
 from .algorithms.core.version import __version__ as __version__
-from .algorithms.library import names
+from .algorithms.library import names as _functions
 
 _OTHERS = {"BareEarthError": "errors", "Cancelled": "errors", "Progress": "progress"}
-__all__ = ["__version__", *_OTHERS, *names()]
+__all__ = ["__version__", *_OTHERS, *_functions()]
 
 
 def classFactory(iface):
@@ -27,10 +27,10 @@ def __getattr__(name):
 
     if name in _OTHERS:
         return getattr(import_module(f".algorithms.core.{_OTHERS[name]}", __name__), name)
-    if name in names():
+    if name in _functions():
         return import_module(".algorithms.library.table", __name__).function(name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__():
-    return sorted({*globals(), *__all__})
+    return sorted({*globals(), *_OTHERS, *_functions()})

@@ -30,41 +30,7 @@ def deliver(
     progress: Progress = SILENT,
     workers: Workers | None = None,
 ) -> DeliverySummary:
-    """Make all outputs of a job from raw points: a delivery.
-
-    Parameters
-    ----------
-    sources : path or iterable of paths
-        LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc) and lists (.txt); all
-        of them together are one survey.
-    folder : path
-        The folder for the outputs: new, empty, or that of an earlier delivery, which is replaced.
-    request : DeliveryRequest
-        Which delivery, and how it is made.
-    progress : Progress
-        Receives progress and messages.
-    workers : Workers, optional
-        The workers for many files; by default threads of this process.
-
-    Returns
-    -------
-    DeliverySummary
-        Its figures and files.
-
-    Raises
-    ------
-    BareEarthError
-        If an input cannot be read, there is no ground, or an output cannot be written.
-    Cancelled
-        If the user asked to stop; the folder is as it was. It is `FinishedFilesStay` for many
-        files: those that are classified stay, and the run can be continued.
-
-    Examples
-    --------
-    >>> from bare_earth.algorithms import DeliveryRequest, deliver
-    >>> deliver("tile.laz", "hand-over", DeliveryRequest(delivery="survey")).page  # doctest: +SKIP
-    'hand-over/index.html'
-    """
+    """Make all outputs of a job from raw points: a delivery."""
     given = [sources] if isinstance(sources, (str, Path)) else list(sources)
     paths, place = [Path(each) for each in given], DeliveryFolder(Path(folder))
     place.check(paths)

@@ -141,58 +141,31 @@ class DeliveryWater(Water):
 
 @dataclass(frozen=True)
 class DeliveryRequest(Request):
-    """A request for a delivery.
+    """A request for a delivery."""
 
-    Attributes
-    ----------
-    delivery : str
-        "survey", "archaeology", "forestry", "flood" or "drone-site"; see `DELIVERIES`.
-    options : DeliveryOptions
-        Specification, key points, and points to hold out.
-    parameters : ParameterSet
-        The parameters of one method. Those that are left to the preset get the values of the
-        delivery.
-    selection : Selection
-        Which points take part. Noise and bridges get their classes in any case.
-    terrain, surface : DeliveryTerrain, SurfaceModel
-        Cell size, light and so on of the rasters. Defaults get the values of the delivery.
-    contours : Contours
-        How contour lines are drawn.
-    water : DeliveryWater
-        Which water is found. Sizes that are None are those of the delivery.
-    accuracy : Accuracy
-        What the errors at checkpoints are compared with.
-    checkpoints : Checkpoints or None
-        Points that were surveyed on the ground.
-    area : Area or None
-        What is delivered; None for everything.
-    corrections : Corrections
-        Polygons in which the class is known.
-    constraints : Constraints
-        Breaklines, water, and areas without ground. If they have water, none is looked for.
-    raster_target : RasterTarget
-        A raster whose grid the rasters get, and their extent.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no such delivery.
-    """
-
+    # "survey", "archaeology", "forestry", "flood" or "drone-site"; see `DELIVERIES`
     delivery: str = DEFAULT_DELIVERY
+    # Specification, key points, and points to hold out
     options: DeliveryOptions = field(default_factory=DeliveryOptions)
+    # The parameters of one method. Those that are left to the preset get the values of the
+    # delivery.
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
+    # Which points take part. Noise and bridges get their classes in any case.
     selection: Selection = field(default_factory=Selection)
+    # Cell size, light and so on of the rasters. Defaults get the values of the delivery.
     terrain: DeliveryTerrain = field(default_factory=DeliveryTerrain)
     surface: SurfaceModel = field(default_factory=SurfaceModel)
-    contours: Contours = field(default_factory=Contours)
+    contours: Contours = field(default_factory=Contours)  # how contour lines are drawn
+    # Which water is found. Sizes that are None are those of the delivery.
     water: DeliveryWater = field(default_factory=DeliveryWater)
+    # What the errors at checkpoints are compared with
     accuracy: Accuracy = field(default_factory=Accuracy)
-    checkpoints: Checkpoints | None = None
-    area: Area | None = None
-    corrections: Corrections = NO_CORRECTIONS
+    checkpoints: Checkpoints | None = None  # points that were surveyed on the ground
+    area: Area | None = None  # what is delivered; None for everything
+    corrections: Corrections = NO_CORRECTIONS  # polygons in which the class is known
+    # Breaklines, water, and areas without ground. If they have water, none is looked for.
     constraints: Constraints = NO_CONSTRAINTS
-    raster_target: RasterTarget = ANYWHERE
+    raster_target: RasterTarget = ANYWHERE  # A raster whose grid the rasters get, and their extent
 
     def __post_init__(self) -> None:
         if self.delivery not in DELIVERIES:

@@ -25,7 +25,7 @@ _CGROUP = Path("/sys/fs/cgroup")
 
 @dataclass(frozen=True)
 class Resources(ParameterSet):
-    """The threads and memory that a run may use. The result does not depend on them."""
+    """The threads and memory that a run may use."""
 
     threads: int | None = parameter(
         None,

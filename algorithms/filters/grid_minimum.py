@@ -79,10 +79,7 @@ PRESETS = {
 
 @dataclass(frozen=True)
 class GridMinimum(ParameterSet):
-    """Parameters of the minimum-Z grid filter.
-
-    `resolve` fills empty ones from the preset.
-    """
+    """Parameters of the minimum-Z grid filter."""
 
     preset: str = parameter(
         "automatic",
@@ -149,19 +146,7 @@ class GridMinimum(ParameterSet):
             )
 
     def resolve(self, points: Points) -> GridMinimum:
-        """Return the parameters with values in place of empty ones.
-
-        Parameters
-        ----------
-        points : Points
-            All points of the survey, because all its blocks must be classified with the same
-            values.
-
-        Returns
-        -------
-        GridMinimum
-            Equal to this one if nothing was empty.
-        """
+        """Return the parameters with values in place of empty ones."""
         return self._resolved(_counting_cells(points, self))
 
     def _resolved(self, cells: Cells) -> GridMinimum:

@@ -64,10 +64,7 @@ MANY_SCALES = {
 
 @dataclass(frozen=True)
 class SlopeFilter(ParameterSet):
-    """Parameters of the slope filter, named as in Whitebox's *LidarGroundPointFilter*.
-
-    `resolve` fills empty ones from the preset.
-    """
+    """Parameters of the slope filter, named as in Whitebox's *LidarGroundPointFilter*."""
 
     preset: str = parameter(
         "automatic",
@@ -159,19 +156,7 @@ class SlopeFilter(ParameterSet):
     )
 
     def resolve(self, points: Points) -> SlopeFilter:
-        """Return the parameters with values in place of empty ones.
-
-        Parameters
-        ----------
-        points : Points
-            All points of the survey, because all its blocks must be classified with the same
-            values.
-
-        Returns
-        -------
-        SlopeFilter
-            Equal to this one if nothing was empty.
-        """
+        """Return the parameters with values in place of empty ones."""
         if self.preset == CLASSIC:
             chosen = {
                 "search_radius": _WHITEBOX_RADIUS,

@@ -70,10 +70,7 @@ PRESETS = {
 
 @dataclass(frozen=True)
 class TinDensification(ParameterSet):
-    """Parameters of improved progressive TIN densification.
-
-    Named as in LiDAR360's *Classify Ground Points* and TerraScan's *Ground*.
-    """
+    """Parameters of improved progressive TIN densification."""
 
     preset: str = parameter(
         "automatic",
@@ -203,14 +200,7 @@ class TinDensification(ParameterSet):
     )
 
     def resolve(self, points: Points) -> TinDensification:
-        """Return the parameters with values in place of those left to the preset.
-
-        Parameters
-        ----------
-        points : Points
-            All points of the survey, because all its blocks must be classified with the same
-            values.
-        """
+        """Return the parameters with values in place of those left to the preset."""
         return self.filled(vars(PRESETS[self.preset]))
 
 

@@ -24,25 +24,14 @@ _OFF = 0.01
 
 @dataclass(frozen=True)
 class RasterTarget:
-    """Which cells the rasters of a run get, beside their size.
+    """Which cells the rasters of a run get, beside their size."""
 
-    Attributes
-    ----------
-    like : Path or str, or None
-        A raster whose grid they get: CRS, size and position of the cells, extent. It replaces the
-        cell size.
-    extent : tuple of float, or None
-        Smallest x and y, largest x and y in units of the CRS: the rasters cover this rectangle,
-        wider by up to a cell on each side, as their cells stay where they are. It replaces the
-        extent of `like`.
-
-    Raises
-    ------
-    BareEarthError
-        If the extent is no rectangle.
-    """
-
+    # A raster whose grid they get: CRS, size and position of the cells, extent. It replaces the
+    # cell size.
     like: Path | str | None = None
+    # Smallest x and y, largest x and y in units of the CRS: the rasters cover this rectangle, wider
+    # by up to a cell on each side, as their cells stay where they are. It replaces the extent of
+    # `like`.
     extent: Box | None = None
 
     def __post_init__(self) -> None:

@@ -29,45 +29,22 @@ _STATE_IT = (
 
 @dataclass(frozen=True)
 class HeightRaster:
-    """A raster of heights, such as a terrain model, that need not fit into memory.
+    """A raster of heights, such as a terrain model, that need not fit into memory."""
 
-    Attributes
-    ----------
-    path : str
-        The file, or a part of one as GDAL names it.
-    state : tuple of int
-        Size and time of the last change of the file, so that a changed file is noticed.
-    shape : tuple of int
-        Rows and columns.
-    geotransform : tuple of float
-        Geotransform of GDAL.
-    crs : Crs or None
-        Its CRS; None if it states none.
-    unit : float or None
-        Metres in the unit of the heights: as the band or the CRS states, or else that of x and y;
-        None if it states neither a unit nor a CRS.
-    states_unit : bool
-        Whether it states the unit of the heights.
-    """
-
-    path: str
+    path: str  # the file, or a part of one as GDAL names it
+    # Size and time of the last change of the file, so that a changed file is noticed
     state: tuple[int, ...]
-    shape: tuple[int, int]
-    geotransform: tuple[float, ...]
-    crs: Crs | None
+    shape: tuple[int, int]  # rows and columns
+    geotransform: tuple[float, ...]  # geotransform of GDAL
+    crs: Crs | None  # its CRS; None if it states none
+    # Metres in the unit of the heights: as the band or the CRS states, or else that of x and y;
+    # None if it states neither a unit nor a CRS
     unit: float | None
-    states_unit: bool
+    states_unit: bool  # whether it states the unit of the heights
 
     @classmethod
     def of(cls, source: str | Path, progress: Progress = SILENT) -> HeightRaster:
-        """Return a raster, of which only one cell is read.
-
-        Raises
-        ------
-        BareEarthError
-            If there is no library to read rasters with, the raster is not on this computer or
-            cannot be read, or its CRS is geographic.
-        """
+        """Return a raster, of which only one cell is read."""
         first = read_raster(source, progress=progress, window=(0, 0, 1, 1))
         path, wkt = Path(source), first.frame.wkt
         state = path.stat() if path.exists() else None
@@ -78,13 +55,7 @@ class HeightRaster:
         return cls(name, stamp, first.whole, first.geotransform, crs, unit, first.states_unit)
 
     def check(self, crs: Crs, points: str | Path) -> None:
-        """Refuse points in another CRS.
-
-        Raises
-        ------
-        BareEarthError
-            If both state a CRS, and these differ.
-        """
+        """Refuse points in another CRS."""
         if self.crs is None or crs == Crs() or is_same_map(self.crs, crs):
             return
         raise BareEarthError(
@@ -112,19 +83,7 @@ class HeightRaster:
     def tell_of_heights(
         self, heights: np.ndarray, unit: float, above: float, progress: Progress
     ) -> None:
-        """Warn if nearly all points lie far above or far below the raster.
-
-        Parameters
-        ----------
-        heights : numpy.ndarray of float, shape (n,)
-            Heights of points above the raster; NaN for points without one.
-        unit : float
-            Metres in their unit.
-        above : float
-            How many metres above it points can lie.
-        progress : Progress
-            Receives the warning.
-        """
+        """Warn if nearly all points lie far above or far below the raster."""
         heights = heights[:: max(len(heights) // _ENOUGH, 1)]
         heights = heights[~np.isnan(heights)] * unit
         if not len(heights):

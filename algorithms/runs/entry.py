@@ -30,46 +30,7 @@ def classify(
     vpc: Path | None = None,
     as_survey: bool | None = None,
 ) -> Any:
-    """Classify the ground points of a file, or of many files as one survey.
-
-    Parameters
-    ----------
-    sources : path or iterable of paths
-        LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc) and lists (.txt).
-    output : path
-        For one file, the file to write (.las, .laz or .copc.laz). Otherwise a folder, which is made
-        if it is missing.
-    request : ClassifyRequest
-        What to do.
-    progress : Progress
-        Receives progress and messages.
-    workers : Workers, optional
-        The workers for many files; by default threads of this process.
-    vpc : path, optional
-        For many files, the virtual point cloud of the results; by default in the folder.
-    as_survey : bool, optional
-        Whether the inputs are a survey, whose outputs are in a folder, or one file. By default, one
-        file is not a survey, and all else is.
-
-    Returns
-    -------
-    Summary or SurveySummary
-        What was done, of one file or of many.
-
-    Raises
-    ------
-    BareEarthError
-        If an input cannot be read or an output cannot be written.
-    Cancelled
-        If the user asked to stop; no output is incomplete. It is `FinishedFilesStay` if some of
-        many files can be finished already.
-
-    Examples
-    --------
-    >>> from bare_earth.algorithms import ClassifyRequest, TinDensification, classify
-    >>> request = ClassifyRequest(parameters=TinDensification(preset="hilly"))
-    >>> summary = classify("tile.laz", "classified.laz", request)  # doctest: +SKIP
-    """
+    """Classify the ground points of a file, or of many files as one survey."""
     paths, target = _paths(sources), Path(output)
     if _is_one(paths, as_survey):
         return classify_file(paths[0], target, request, progress)
@@ -84,28 +45,7 @@ def terrain(
     progress: Progress = SILENT,
     workers: Workers | None = None,
 ) -> RasterSize:
-    """Write rasters of the terrain and of the objects on it; all of them or none.
-
-    Parameters
-    ----------
-    request : TerrainRequest
-        Which rasters, where they go, and how they are made.
-    sources, progress, workers
-        As for `classify`; all files together are one survey.
-
-    Returns
-    -------
-    RasterSize
-        The size of the rasters, and the number of points that they were made from.
-
-    Raises
-    ------
-    BareEarthError
-        If no raster is wanted, the input has no ground or cannot be read, or a raster cannot be
-        written.
-    Cancelled
-        If the user asked to stop; no output is left behind.
-    """
+    """Write rasters of the terrain and of the objects on it; all of them or none."""
     paths = _paths(sources)
     if not request.rasters.wanted:
         raise BareEarthError("Choose at least one raster to make.")

@@ -99,21 +99,7 @@ class _OfStep:
 
 @dataclass(frozen=True)
 class PointRequest(RunOptions, _OfStep):
-    """A request to write classified files with what a step finds for each point.
-
-    Attributes
-    ----------
-    step : MeasureHeights, FindKeyPoints, ClassifyAboveGround or ClassifyWater
-        What to find, with its parameters and further inputs.
-    files : TileInput
-        Which files of folders are read.
-    tiles : TileOutput
-        How many files are written, and whether finished ones are kept.
-    resources : Resources
-        Threads and memory.
-    crs : str or None
-        The CRS of the points in place of that of the files.
-    """
+    """A request to write classified files with what a step finds for each point."""
 
     @classmethod
     def of(
@@ -123,19 +109,7 @@ class PointRequest(RunOptions, _OfStep):
         inputs: Mapping[str, Any] = {},
         crs: str | None = None,
     ) -> PointRequest:
-        """Return a request for a tool.
-
-        Parameters
-        ----------
-        tool : PointTool
-            The declaration of the tool.
-        sets : iterable of ParameterSet
-            Sets of the tool and of the run in any order: their types decide where they go.
-        inputs : mapping of str
-            The further inputs of the tool, by their names.
-        crs : str or None
-            As the attribute.
-        """
+        """Return a request for a tool."""
         of_step = {type(value): name for name, value in vars(tool.step()).items()}
         of_run = {type(value): name for name, value in vars(RunOptions()).items()}
         fields: dict[str, Any] = dict(inputs)
@@ -150,30 +124,18 @@ class PointRequest(RunOptions, _OfStep):
 
 @dataclass(frozen=True)
 class ClassifyRequest(RasterRequest):
-    """A request to classify the ground, and to make products of it.
+    """A request to classify the ground, and to make products of it."""
 
-    Attributes
-    ----------
-    parameters : ParameterSet
-        The parameters of one method. Their type chooses the method.
-    selection : Selection
-        Which points take part, and what their classes become.
-    corrections : Corrections
-        Polygons in which the class is known.
-    output : Output
-        Which points are written, and whether their heights above ground are.
-    above_ground : ThenAboveGround
-        Whether the points above the ground are classified too.
-    explain : Path or None
-        Raster of the rule that decided each cell, for one file.
-    """
-
+    # The parameters of one method. Their type chooses the method.
     parameters: ParameterSet = field(default_factory=METHODS[DEFAULT_METHOD].parameters)
+    # Which points take part, and what their classes become
     selection: Selection = field(default_factory=Selection)
-    corrections: Corrections = NO_CORRECTIONS
+    corrections: Corrections = NO_CORRECTIONS  # polygons in which the class is known
+    # Which points are written, and whether their heights above ground are
     output: Output = field(default_factory=Output)
+    # Whether the points above the ground are classified too
     above_ground: ThenAboveGround = field(default_factory=ThenAboveGround)
-    explain: Path | None = None
+    explain: Path | None = None  # raster of the rule that decided each cell, for one file
 
     def __post_init__(self) -> None:
         self.output.check_area(self.area is not None)
@@ -201,7 +163,7 @@ class ClassifyRequest(RasterRequest):
 
     @property
     def steps(self) -> list[PointStep]:
-        """The steps for points. Each sees what those before it have found."""
+        """The steps for points."""
         steps: list[PointStep] = [self.step]
         if self.above_ground.wanted:
             steps.append(self.above_ground_step)
@@ -236,18 +198,10 @@ class ClassifyRequest(RasterRequest):
 
 @dataclass(frozen=True)
 class TerrainRequest(RasterRequest):
-    """A request to make rasters of the terrain and of the objects on it.
+    """A request to make rasters of the terrain and of the objects on it."""
 
-    Attributes
-    ----------
-    ground : GroundClasses
-        Which points are ground.
-    roads : tuple of int
-        Classes whose points are ground as well, where they lie on it.
-    """
-
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    roads: tuple[int, ...] = ()
+    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
+    roads: tuple[int, ...] = ()  # classes whose points are ground as well, where they lie on it
 
     @property
     def raster_step(self) -> MakeRasters:

@@ -21,20 +21,13 @@ Polygon = tuple[np.ndarray, ...]
 
 @dataclass(frozen=True, eq=False)
 class Area(Geometry):
-    """A part of the plane, in coordinates of the CRS.
+    """A part of the plane, in coordinates of the CRS."""
 
-    Attributes
-    ----------
-    box : tuple of float or None
-        Smallest x and y, largest x and y; the border belongs to the box.
-    polygons : tuple of tuples of numpy.ndarray of float64, shape (n, 2)
-        The rings of each polygon, closed or not, in any direction. By the even-odd rule, rings
-        inside another ring are holes. A point on the common border of two polygons belongs to one
-        of them. If there is a box as well, the area is the part of the polygons in the box.
-        Those of a file can be in another CRS until the points are known; see `located`.
-    """
-
-    box: Box | None = None
+    box: Box | None = None  # smallest x and y, largest x and y; the border belongs to the box
+    # float64 (n, 2): The rings of each polygon, closed or not, in any direction. By the even-odd
+    # rule, rings inside another ring are holes. A point on the common border of two polygons
+    # belongs to one of them. If there is a box as well, the area is the part of the polygons in the
+    # box. Those of a file can be in another CRS until the points are known; see `located`.
     polygons: tuple[Polygon, ...] = ()
 
     def __post_init__(self) -> None:
@@ -54,15 +47,7 @@ class Area(Geometry):
             )
 
     def located(self, place: Place, progress: Progress = SILENT) -> Area:
-        """Return the area in the CRS of the points.
-
-        Polygons of a file are transformed from the CRS that it states, and a message tells so.
-
-        Raises
-        ------
-        BareEarthError
-            If that is not possible, or all of them lie outside of the points.
-        """
+        """Return the area in the CRS of the points."""
         return Area(self.box, located(self.polygons, "the area", place, progress))
 
     @property
@@ -100,17 +85,7 @@ class Area(Geometry):
         return west <= box[2] and east >= box[0] and south <= box[3] and north >= box[1]
 
     def contains(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return which places lie in the area.
-
-        Parameters
-        ----------
-        x, y : numpy.ndarray of float64, shape (n,)
-            Coordinates in the CRS.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (n,)
-        """
+        """Return which places lie in the area."""
         return self._numbers(x, y) > 0
 
     def of(self, cloud: PointCloud) -> np.ndarray:
@@ -118,14 +93,7 @@ class Area(Geometry):
         return self.polygon_of(cloud) > 0
 
     def polygon_of(self, cloud: PointCloud) -> np.ndarray:
-        """Return the number of the last polygon that holds each point of a cloud.
-
-        Returns
-        -------
-        numpy.ndarray of int32, shape (n,)
-            In file order: 1 for the first polygon, 0 outside of the area. Without polygons, 1 in
-            the box.
-        """
+        """Return the number of the last polygon that holds each point of a cloud."""
         numbers = np.empty(cloud.count, dtype=np.int32)
         for part in parts_of(cloud.count, _POINTS_A_STEP):
             numbers[part] = self._numbers(*cloud.coordinates(part))

@@ -22,22 +22,10 @@ CLASS_FIELD = "class"
 
 @dataclass(frozen=True, eq=False)
 class Corrections(Geometry):
-    """Polygons with classes, in coordinates of the CRS.
+    """Polygons with classes, in coordinates of the CRS."""
 
-    Attributes
-    ----------
-    polygons : tuple of polygon
-        As in `Area`. Where polygons overlap, the last one counts.
-    classes : tuple of int
-        The class of the points in each polygon. With the class of the ground, they are ground.
-
-    Raises
-    ------
-    BareEarthError
-        If a class is not valid, a polygon has no class, or a corner is not finite.
-    """
-
-    polygons: tuple[Polygon, ...] = ()
+    polygons: tuple[Polygon, ...] = ()  # as in `Area`. Where polygons overlap, the last one counts.
+    # The class of the points in each polygon. With the class of the ground, they are ground.
     classes: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
@@ -49,15 +37,7 @@ class Corrections(Geometry):
             Area(None, self.polygons)
 
     def located(self, place: Place, progress: Progress = SILENT) -> Corrections:
-        """Return the corrections in the CRS of the points.
-
-        Polygons of a file are transformed from the CRS that it states, and a message tells so.
-
-        Raises
-        ------
-        BareEarthError
-            If that is not possible, or all of them lie outside of the points.
-        """
+        """Return the corrections in the CRS of the points."""
         polygons = located(self.polygons, "the polygons of the corrections", place, progress)
         return Corrections(polygons, self.classes)
 

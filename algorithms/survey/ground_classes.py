@@ -47,26 +47,7 @@ class GroundClasses(ParameterSet):
     )
 
     def of(self, part: PointCloud, counts: GroundCounts, also: tuple[int, ...] = ()) -> np.ndarray:
-        """Return which points are ground, and count them.
-
-        Parameters
-        ----------
-        part : PointCloud
-            Any points of a file, with their classes.
-        counts : GroundCounts
-            The counts are added to it.
-        also : tuple of int
-            Further classes that are ground.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (n,)
-
-        Raises
-        ------
-        BareEarthError
-            If no class is chosen, or the CRS is geographic.
-        """
+        """Return which points are ground, and count them."""
         part.require_projected()
         if not self.ground_classes:
             raise BareEarthError("Choose at least one ground class.")
@@ -86,13 +67,7 @@ class GroundClasses(ParameterSet):
         return used(part, self.overlap)
 
     def check(self, counts: GroundCounts, path: Path) -> None:
-        """Refuse a file without ground.
-
-        Raises
-        ------
-        BareEarthError
-            If none of the counted points is ground.
-        """
+        """Refuse a file without ground."""
         if counts.ground:
             return
         wanted = " or ".join(str(each) for each in self.ground_classes)

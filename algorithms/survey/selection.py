@@ -177,23 +177,7 @@ class Selection(ParameterSet):
         within: np.ndarray | None = None,
         by_hand: ByHand | None = None,
     ) -> np.ndarray:
-        """Return which points of a part of a file take part, and count them.
-
-        Parameters
-        ----------
-        part : PointCloud
-            Any points of the file.
-        counts : PointCounts
-            The counts are added to it.
-        within : numpy.ndarray of bool, shape (n,), optional
-            Only these points can take part. By default, all points.
-        by_hand : ByHand, optional
-            Classes set by hand. Of these points, only ground takes part.
-
-        Returns
-        -------
-        numpy.ndarray of bool, shape (n,)
-        """
+        """Return which points of a part of a file take part, and count them."""
         unnumbered = _unnumbered(part)
         eligible = self._eligible(part, within)
         of_returns = self._of_returns(part, unnumbered)
@@ -214,11 +198,7 @@ class Selection(ParameterSet):
         return selected
 
     def by_hand(self, part: PointCloud, corrections: Corrections) -> ByHand | None:
-        """Return the classes set by hand; None without corrections and remembered classes.
-
-        In polygons of ground, points of the chosen returns are ground. In other polygons, points of
-        all returns get the class. Points that may not change their class keep it.
-        """
+        """Return the classes set by hand; None without corrections and remembered classes."""
         if part.remembered is None and not corrections.polygons:
             return None
         told = corrections.classes_of(part)
@@ -230,13 +210,7 @@ class Selection(ParameterSet):
     def tell(
         self, counts: PointCounts, path: Path, progress: Progress, in_area: bool = False
     ) -> None:
-        """Tell how many points of a file take part, and why others do not.
-
-        Raises
-        ------
-        BareEarthError
-            If no point takes part.
-        """
+        """Tell how many points of a file take part, and why others do not."""
         given = () if self.from_classes == ALL_CLASSES else self.from_classes or ()
         noise = [value for value in NOISE if value not in given]
         left_out = ", ".join(
@@ -316,29 +290,7 @@ class Selection(ParameterSet):
         by_hand: ByHand | None = None,
         high: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Return the new class of every point.
-
-        Parameters
-        ----------
-        cloud : PointCloud
-            All points, with their present classes.
-        ground : numpy.ndarray of bool, shape (n,)
-            Which points are ground.
-        low : numpy.ndarray of bool, shape (n,), optional
-            Which of the others are low outliers.
-        inside : numpy.ndarray of bool, shape (n,), optional
-            Only these points can change their class. By default, all points.
-        decks : numpy.ndarray of bool, shape (n,), optional
-            Which of the others lie on decks of bridges.
-        by_hand : ByHand, optional
-            Classes set by hand.
-        high : numpy.ndarray of bool, shape (n,), optional
-            Which of the others are high outliers.
-
-        Returns
-        -------
-        numpy.ndarray of uint8, shape (n,)
-        """
+        """Return the new class of every point."""
         old = cloud.classification
         eligible = self._eligible(cloud, inside)
         changes = eligible

@@ -38,41 +38,12 @@ _WORDS = {"LineString": "line", "Polygon": "polygon", "Point": "point"}
 
 
 def read_boundary(path: Path) -> tuple[Polygon, ...]:
-    """Read the polygons of a file, and nothing else.
-
-    Parameters
-    ----------
-    path : Path
-        A .geojson, .json or .wkt file, or with pyogrio or GDAL a GeoPackage, a shapefile and so on.
-        ``FILE|layername=NAME`` is one layer of a file.
-
-    Returns
-    -------
-    Shapes of tuple of numpy.ndarray of float64, shape (n, 2)
-        The rings of each polygon, x (longitude) first, with the CRS that the file states. What uses
-        them knows the CRS of the points, and transforms them.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read, is not valid, holds no polygon, or needs a library.
-    """
+    """Read the polygons of a file, and nothing else."""
     return _shapes(path, "Polygon", lambda rings, _: _polygon(rings))
 
 
 def read_corrections(path: Path) -> Corrections:
-    """Read the polygons of a file with their classes, and nothing else.
-
-    Parameters
-    ----------
-    path : Path
-        A file as for `read_boundary`, but no .wkt, whose features have the attribute `class`.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read, is not valid, holds no polygon, or a polygon has no class.
-    """
+    """Read the polygons of a file with their classes, and nothing else."""
     if Path(path).suffix.lower() == ".wkt":
         raise BareEarthError(f"{path} holds no classes. Give the corrections as GeoJSON.")
     found = _shapes(path, "Polygon", _polygon_with_class)
@@ -81,19 +52,7 @@ def read_corrections(path: Path) -> Corrections:
 
 
 def read_lines(path: Path) -> tuple[np.ndarray, ...]:
-    """Read the lines of a file, and nothing else.
-
-    Parameters
-    ----------
-    path : Path
-        As for `read_boundary`, with the same errors.
-
-    Returns
-    -------
-    Shapes of numpy.ndarray of float64, shape (n, 3)
-        x, y and z of the corners of each line; NaN for z where the file has none. z is in the unit
-        of the heights of the points: only x and y are transformed to another CRS.
-    """
+    """Read the lines of a file, and nothing else."""
     return _shapes(path, "LineString", lambda corners, _: _line(corners))
 
 

@@ -166,34 +166,7 @@ def assess_files(
     progress: Progress = SILENT,
     crs: str | None = None,
 ) -> Assessment:
-    """Compare the points that two files have in common, in any order.
-
-    One file can be a part of the other. Points without a partner are counted, but not compared.
-
-    Parameters
-    ----------
-    classified, reference : Path
-        The classified cloud, with ground in class 2, and the reference.
-    options : AssessmentOptions
-        Which reference classes are ground, and which are left out.
-    report : Path, optional
-        HTML file to make, with the figures and a map of the errors.
-    error_map : Path, optional
-        GeoTIFF file to make, with the share of wrong points in each cell, 0 to 1.
-    progress : Progress
-        Receives progress and messages.
-    crs : str, optional
-        The CRS of the points in place of the one that files state: an EPSG code, such as
-        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
-
-    Raises
-    ------
-    BareEarthError
-        If a file cannot be read or written, the files have no points in common, or a map is
-        wanted and the CRS is geographic.
-    Cancelled
-        If the user asked to stop.
-    """
+    """Compare the points that two files have in common, in any order."""
     files = classified, reference
     if report is not None:
         check_page(report, files)

@@ -73,26 +73,14 @@ class HeightSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class MeasureHeights(PointStep):
-    """Measures the height of each point above the ground.
+    """Measures the height of each point above the ground."""
 
-    Attributes
-    ----------
-    ground : GroundClasses
-        Which points are ground.
-    output : HeightOutput
-        Whether the heights are an extra dimension or replace z; both in the vertical unit.
-    area : Area or None
-        Where heights are wanted; None for everywhere.
-    roads : tuple of int
-        Classes that are ground as well, where they lie on it.
-    dtm : HeightRaster or None
-        Heights are measured above this raster, and the points need no ground.
-    """
-
-    ground: GroundClasses = field(default_factory=GroundClasses)
+    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
+    # Whether the heights are an extra dimension or replace z; both in the vertical unit
     output: HeightOutput = field(default_factory=HeightOutput)
-    area: Area | None = None
-    roads: tuple[int, ...] = ()
+    area: Area | None = None  # where heights are wanted; None for everywhere
+    roads: tuple[int, ...] = ()  # classes that are ground as well, where they lie on it
+    # Heights are measured above this raster, and the points need no ground
     dtm: HeightRaster | None = None
 
     counts = GroundCounts

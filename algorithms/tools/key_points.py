@@ -73,21 +73,12 @@ class KeyPointSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class FindKeyPoints(PointStep):
-    """Finds the few ground points whose TIN is as good as that of all of them.
+    """Finds the few ground points whose TIN is as good as that of all of them."""
 
-    Attributes
-    ----------
-    parameters : ModelKeyPoints
-        How closely they follow the ground.
-    ground : GroundClasses
-        Which points are ground.
-    mark : KeyPointMark
-        Whether they get a class or a flag.
-    """
-
+    # How closely they follow the ground
     parameters: ModelKeyPoints = field(default_factory=ModelKeyPoints)
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    mark: KeyPointMark = field(default_factory=KeyPointMark)
+    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
+    mark: KeyPointMark = field(default_factory=KeyPointMark)  # whether they get a class or a flag
 
     counts = GroundCounts
     summary_type = KeyPointSummary

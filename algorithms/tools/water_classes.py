@@ -61,20 +61,10 @@ class WaterClasses(ParameterSet):
 
 @dataclass(frozen=True, eq=False)
 class WaterPolygons(Geometry):
-    """Polygons of water, in coordinates of the CRS.
+    """Polygons of water, in coordinates of the CRS."""
 
-    Attributes
-    ----------
-    polygons : tuple of polygon
-        As in `Area`: shores, and islands as holes. Those of a file can be in another CRS until the
-        points are known.
-
-    Raises
-    ------
-    BareEarthError
-        If a corner is not finite.
-    """
-
+    # As in `Area`: shores, and islands as holes. Those of a file can be in another CRS until the
+    # points are known.
     polygons: tuple[Polygon, ...] = ()
 
     def __post_init__(self) -> None:
@@ -83,16 +73,7 @@ class WaterPolygons(Geometry):
             Area(None, self.polygons)
 
     def located(self, place: Place, progress: Progress = SILENT) -> WaterPolygons:
-        """Return the polygons in the CRS of the points.
-
-        Polygons of a file are transformed from the CRS that it states. Messages tell so, and
-        if there is no polygon.
-
-        Raises
-        ------
-        BareEarthError
-            If that is not possible, or all of them lie outside of the points.
-        """
+        """Return the polygons in the CRS of the points."""
         if not self.polygons:
             progress.warning("There is no polygon of water, so that no class changes.")
         return WaterPolygons(located(self.polygons, "the polygons of water", place, progress))
@@ -159,21 +140,12 @@ class WaterClassSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class ClassifyWater(PointStep):
-    """Finds the ground points in water, and those beside its shore.
+    """Finds the ground points in water, and those beside its shore."""
 
-    Attributes
-    ----------
-    parameters : WaterClasses
-        The classes, and the distance from the shore.
-    ground : GroundClasses
-        Which points are ground.
-    water : WaterPolygons
-        The water.
-    """
-
+    # The classes, and the distance from the shore
     parameters: WaterClasses = field(default_factory=WaterClasses)
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    water: WaterPolygons = NO_WATER
+    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
+    water: WaterPolygons = NO_WATER  # the water
 
     counts = GroundCounts
     blocks = Blocks.of(1.0)

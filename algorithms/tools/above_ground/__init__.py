@@ -52,23 +52,12 @@ class AboveGroundSummary(CountedClasses):
 
 @dataclass(frozen=True)
 class ClassifyAboveGround(PointStep):
-    """Finds the classes of points above the ground.
+    """Finds the classes of points above the ground."""
 
-    Attributes
-    ----------
-    parameters : AboveGround
-        Which classes they get.
-    ground : GroundClasses
-        Which points are ground.
-    area : Area or None
-        Where points can change; None for everywhere.
-    corrections : Corrections
-        Points in these polygons keep the class that they have by hand.
-    """
-
-    parameters: AboveGround = field(default_factory=AboveGround)
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    area: Area | None = None
+    parameters: AboveGround = field(default_factory=AboveGround)  # which classes they get
+    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
+    area: Area | None = None  # where points can change; None for everywhere
+    # Points in these polygons keep the class that they have by hand
     corrections: Corrections = NO_CORRECTIONS
 
     counts = GroundCounts

@@ -21,42 +21,21 @@ OtherHeights = Tuple[str, np.ndarray, Optional[float]]
 
 @dataclass(frozen=True, eq=False)
 class Checkpoints(Geometry):
-    """Points that were surveyed on the ground.
+    """Points that were surveyed on the ground."""
 
-    Attributes
-    ----------
-    places : tuple of numpy.ndarray of float64, shape (1, 3)
-        x, y and z of each point, in units of the CRS of the points; before `located`, x and y may
-        be in the CRS that their file states (`Shapes`), and all in `units`.
-    names : tuple of str
-        Their names.
-    covers : tuple of str
-        The land cover of each; empty if it is not known.
-    types : tuple of str
-        What each is used for, such as NVA, VVA or Control; empty if it is not known.
-    notes : tuple of str
-        What their reader warns of; `located` passes it on.
-    units : tuple of float or None
-        Metres in a unit of x and y, and of z, if the names of the columns state these.
-    is_ordered : bool
-        Whether it is known which column is x.
-    others : tuple of tuple
-        All heights that the points may have: where they stand, numpy.ndarray of float64, shape
-        (n,), and their unit; in the unit of the points after `located`.
-
-    Raises
-    ------
-    BareEarthError
-        If there are none, or too many.
-    """
-
+    # float64 (1, 3): x, y and z of each point, in units of the CRS of the points; before `located`,
+    # x and y may be in the CRS that their file states (`Shapes`), and all in `units`
     places: Sequence[np.ndarray]
-    names: tuple[str, ...]
-    covers: tuple[str, ...]
+    names: tuple[str, ...]  # their names
+    covers: tuple[str, ...]  # the land cover of each; empty if it is not known
+    # What each is used for, such as NVA, VVA or Control; empty if it is not known
     types: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()  # what their reader warns of; `located` passes it on
+    # Metres in a unit of x and y, and of z, if the names of the columns state these
     units: tuple[float | None, float | None] = (None, None)
-    is_ordered: bool = True
+    is_ordered: bool = True  # whether it is known which column is x
+    # All heights that the points may have: where they stand, numpy.ndarray of float64, shape (n,),
+    # and their unit; in the unit of the points after `located`
     others: tuple[OtherHeights, ...] = ()
 
     def __post_init__(self) -> None:
@@ -73,20 +52,7 @@ class Checkpoints(Geometry):
         covers: Sequence[str] | None = None,
         types: Sequence[str] | None = None,
     ) -> Checkpoints:
-        """Return checkpoints in the CRS of the points.
-
-        Parameters
-        ----------
-        places : array_like of float, shape (n, 3)
-            x, y and z of each.
-        names, covers, types : sequence of str, optional
-            Names, by default numbers from 1 on, land covers, and uses.
-
-        Examples
-        --------
-        >>> Checkpoints.of([(1.0, 2.0, 3.0)], covers=["forest"]).names
-        ('1',)
-        """
+        """Return checkpoints in the CRS of the points."""
         rows = tuple(np.asarray(places, dtype=np.float64).reshape(len(places), 1, 3))
         numbers = map(str, range(1, len(rows) + 1))
         none = [""] * len(rows)
@@ -103,23 +69,7 @@ class Checkpoints(Geometry):
         return np.concatenate(self.places)
 
     def located(self, place: Place, progress: Progress = SILENT, near: float = 0.0) -> Checkpoints:
-        """Return them in the CRS and units of the points.
-
-        Parameters
-        ----------
-        place : Place
-            Where the points lie.
-        progress : Progress
-            Receives messages on what was transformed.
-        near : float
-            It is an error if all lie farther from the points than this, in metres.
-
-        Raises
-        ------
-        BareEarthError
-            If the CRS cannot be transformed, all lie outside of the points, or x and y seem to be
-            exchanged.
-        """
+        """Return them in the CRS and units of the points."""
         for note in self.notes:
             progress.warning(note)
         given = self._in_units(place, progress)

@@ -44,28 +44,7 @@ class Record(NamedTuple):
 def read_checkpoints(
     path: Path | str, columns: str | None = None, crs: str | None = None
 ) -> Checkpoints:
-    """Read checkpoints from a table or a vector file.
-
-    Parameters
-    ----------
-    path : Path or str
-        A text file with one point in each row, in UTF-8, UTF-16 or the code page 1252, cells
-        separated by semicolons, tabs, bars, commas or spaces; or a vector file of points as for
-        `read_boundary`, but no .wkt.
-    columns : str, optional
-        Columns or attributes in place of those that are recognised by their names, such as
-        ``x=E,y=N,z=H,cover=Class,type=Use,name=ID``. Those of tables can also be numbers from 1 on.
-        A column for z counts before the z of a geometry.
-    crs : str, optional
-        The CRS of x and y in place of the one that the file states: an EPSG code, such as
-        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text. If none is
-        stated, a table is in the CRS of the points.
-
-    Raises
-    ------
-    BareEarthError
-        If the file cannot be read, a column is missing, or a height is.
-    """
+    """Read checkpoints from a table or a vector file."""
     chosen, path = columns_in(columns), Path(path)
     suffix = path.suffix.lower()
     if suffix == ".wkt":

@@ -52,38 +52,7 @@ def compare_settings(
     progress: Progress = SILENT,
     crs: str | None = None,
 ) -> TrialSummary:
-    """Classify a window of a survey with several settings, and write a page that compares them.
-
-    Only the window and its surroundings are used. COPC files are read only there, LAS and LAZ files
-    completely. No point cloud is written.
-
-    Parameters
-    ----------
-    sources : iterable of Path
-        LAS, LAZ and COPC files, folders of them, virtual point clouds (.vpc) and lists (.txt).
-    page : Path
-        The HTML file to write, which contains its pictures.
-    extent : tuple of float, optional
-        The window: smallest x and y, largest x and y in units of the CRS. By default, a square of
-        250 m in the middle of the survey.
-    options : TrialOptions
-        The settings, and how much is read round the window.
-    resources : Resources
-        Threads and memory.
-    progress : Progress
-        Receives progress and messages.
-    crs : str, optional
-        The CRS of the points in place of the one that files state: an EPSG code, such as
-        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
-
-    Raises
-    ------
-    BareEarthError
-        If the window has no points or is too wide, an input cannot be read, or the page cannot be
-        written.
-    Cancelled
-        If the user asked to stop; no page is left behind.
-    """
+    """Classify a window of a survey with several settings, and write a page that compares them."""
     paths, page = [Path(source) for source in sources], Path(page)
     check_page(page, tuple(paths))
     settings, resources = [SETTINGS[name] for name in options.settings], resources.now()

@@ -28,39 +28,23 @@ _GIVEN = {
 
 @dataclass(frozen=True, eq=False)
 class Constraints(Geometry):
-    """What the user knows of the terrain, in coordinates of the CRS.
+    """What the user knows of the terrain, in coordinates of the CRS."""
 
-    Attributes
-    ----------
-    breaklines : tuple of numpy.ndarray of float64, shape (n, 3)
-        Lines that no triangle crosses: edges of walls, dykes, terraces. Where z is NaN, the terrain
-        on each side of a line has the height of the nearest ground point on that side.
-    water : tuple of polygon
-        Water, as in `Area`: flattened to one level, which follows from the ground along it. If the
-        corners have z, shape (n, 3), this is the level in the vertical unit of the CRS.
-    rivers : tuple of numpy.ndarray of float64, shape (n, 3)
-        Lines along which the level of water falls, in either direction. z is used only in water
-        whose corners have z.
-    no_ground : tuple of polygon
-        Areas in which no point is ground, such as bridges and roofs.
-    """
-
+    # float64 (n, 3): Lines that no triangle crosses: edges of walls, dykes, terraces. Where z is
+    # NaN, the terrain on each side of a line has the height of the nearest ground point on that
+    # side.
     breaklines: tuple[np.ndarray, ...] = ()
+    # Water, as in `Area`: flattened to one level, which follows from the ground along it. If the
+    # corners have z, shape (n, 3), this is the level in the vertical unit of the CRS.
     water: tuple[Polygon, ...] = ()
+    # float64 (n, 3): Lines along which the level of water falls, in either direction. z is used
+    # only in water whose corners have z.
     rivers: tuple[np.ndarray, ...] = ()
+    # Areas in which no point is ground, such as bridges and roofs
     no_ground: tuple[Polygon, ...] = ()
 
     def located(self, place: Place, progress: Progress = SILENT) -> Constraints:
-        """Return the constraints in the CRS of the points.
-
-        Lines and polygons of a file are transformed from the CRS that it states. Messages tell
-        so, and of rivers that meet no water.
-
-        Raises
-        ------
-        BareEarthError
-            If that is not possible, or all of a kind lie outside of the points.
-        """
+        """Return the constraints in the CRS of the points."""
         found = Constraints(
             **{
                 name: located(getattr(self, name), what, place, progress, near)
@@ -84,10 +68,7 @@ class Constraints(Geometry):
         return sum(not water.contains(*along(each, step)[:, :2].T).any() for each in flat)
 
     def with_water(self, found: Constraints, progress: Progress = SILENT) -> Constraints:
-        """Return these with water that was found, whose level is known along its own rivers.
-
-        Progress receives a warning if there are other rivers, which then have no effect.
-        """
+        """Return these with water that was found, whose level is known along its own rivers."""
         if self.rivers:
             progress.warning(
                 "The rivers have no effect on water that is found. Give the water as polygons, too."

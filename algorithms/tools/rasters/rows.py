@@ -257,19 +257,7 @@ RASTERS = {
 
 @dataclass(frozen=True, init=False)
 class RasterFiles:
-    """The rasters to make, GeoTIFF, by their names: ``RasterFiles(dtm="dtm.tif")``.
-
-    Parameters
-    ----------
-    **files : path or None
-        The file of each raster that is wanted:
-    {names}
-
-    Raises
-    ------
-    TypeError
-        If there is no raster with such a name.
-    """
+    """The rasters to make, GeoTIFF, by their names: ``RasterFiles(dtm="dtm.tif")``."""
 
     files: tuple[tuple[str, Path], ...]
 
@@ -292,20 +280,7 @@ class RasterFiles:
         return tuple(dict.fromkeys(names))
 
     def check(self, others: tuple[Path, ...], per_file: bool = False) -> None:
-        """Refuse rasters that could not be written, or would replace another file of the run.
-
-        Parameters
-        ----------
-        others : tuple of Path
-            The other files of the run.
-        per_file : bool
-            Whether each of many files gets rasters of its own.
-
-        Raises
-        ------
-        BareEarthError
-            If a path is unsuitable.
-        """
+        """Refuse rasters that could not be written, or would replace another file of the run."""
         paths = [path for _, path in self.files]
         check_distinct(paths)
         for path in paths:
