@@ -83,13 +83,7 @@ class Contours(ParameterSet):
     )
 
     def interval(self, low: float, high: float, unit: float = 1.0) -> float:
-        """Return the interval for terrain between two heights; `unit` is their unit in metres.
-
-        >>> Contours().interval(130.0, 172.0)
-        2.0
-        >>> Contours(contour_interval=0.3).interval(130.0, 172.0)
-        0.3
-        """
+        """Return the interval for terrain between two heights; `unit` is their unit in metres."""
         if self.contour_interval is not None:
             return self.contour_interval
         wanted = max((high - low) / _LINES, _LEAST / unit)
@@ -119,32 +113,7 @@ class Interval:
 def write_contours(
     source: Path, target: Path, contours: Contours = Contours(), progress: Progress = SILENT
 ) -> Interval:
-    """Write the contour lines of a raster, each with its height in the field ELEV.
-
-    The field INDEX is 1 for every fifth line, else 0. The raster is read some rows at a time.
-
-    Parameters
-    ----------
-    source : Path
-        The raster of heights.
-    target : Path
-        The file to make: .gpkg, .shp, .geojson or .fgb.
-    contours : Contours
-        Interval and smoothing.
-    progress : Progress
-        Receives progress and messages.
-
-    Returns
-    -------
-    Interval
-        The height between the lines.
-
-    Raises
-    ------
-    BareEarthError
-        If the raster cannot be read, a library is missing, or the lines cannot be written; nothing
-        is left behind.
-    """
+    """Write the contour lines of a raster, each with its height in the field ELEV."""
     return run(TOOL, {"source": source}, {"output": target}, [contours], progress)
 
 

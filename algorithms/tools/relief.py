@@ -75,26 +75,7 @@ def write_relief(
     parameters: ReliefPictures = ReliefPictures(),
     progress: Progress = SILENT,
 ) -> None:
-    """Write a picture of the relief of a terrain model, which need not fit into memory.
-
-    Parameters
-    ----------
-    source, target : Path
-        The terrain model, and the GeoTIFF to make.
-    kind : str
-        "local-relief", "multi-scale-relief", "slope" (degrees), "sky-view", "openness" and
-        "negative-openness" (degrees), "local-dominance", "vat" (1 to 255), "red-relief" (three
-        bands, 1 to 255) or "hillshade" (1 to 255).
-    parameters : ReliefPictures
-        The size of the features, and the light.
-    progress : Progress
-        Receives progress and messages.
-
-    Raises
-    ------
-    BareEarthError
-        If there is no such kind, the raster cannot be read, or the output cannot be written.
-    """
+    """Write a picture of the relief of a terrain model, which need not fit into memory."""
     sets = [ReliefKinds((kind,)), parameters]
     run(TOOL, {"source": source}, {"output": target}, sets, progress)
 

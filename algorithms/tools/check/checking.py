@@ -69,30 +69,15 @@ class CheckOptions(ParameterSet):
 
 
 class CheckOutputs(NamedTuple):
-    """The files to write, each of which can be None.
+    """The files to write, each of which can be None."""
 
-    Attributes
-    ----------
-    report : Path
-        A web page (.html).
-    table : Path
-        A table of all checkpoints (.csv).
-    residuals : Path
-        The checkpoints with their errors as points (.gpkg, .geojson, .shp or .fgb).
-    """
-
-    report: Path | None = None
-    table: Path | None = None
+    report: Path | None = None  # A web page (.html)
+    table: Path | None = None  # A table of all checkpoints (.csv)
+    # The checkpoints with their errors as points (.gpkg, .geojson, .shp or .fgb)
     residuals: Path | None = None
 
     def check(self, sources: tuple[Path, ...], checkpoints: Checkpoints | None) -> None:
-        """Refuse, before any work is done, files that could not be written at the end.
-
-        Raises
-        ------
-        BareEarthError
-            If a name or folder is unsuitable, or there is nothing to write.
-        """
+        """Refuse, before any work is done, files that could not be written at the end."""
         check_distinct(self)
         if checkpoints is None and (self.table or self.residuals):
             raise BareEarthError(
@@ -126,40 +111,22 @@ class CheckOutputs(NamedTuple):
 
 @dataclass(frozen=True)
 class CheckRequest(HasSets):
-    """A request to compare points with checkpoints, or with points that are held out.
+    """A request to compare points with checkpoints, or with points that are held out."""
 
-    Attributes
-    ----------
-    checkpoints : Checkpoints or None
-        The checkpoints; they can be left out if points are held out.
-    options : CheckOptions
-        Where heights are compared.
-    accuracy : Accuracy
-        The class to meet, and the error of the checkpoints.
-    ground : GroundClasses
-        Which points are ground.
-    dtm : str or None
-        A terrain model that is compared as well.
-    confidence : str or None
-        A raster of its confidence, 0 to 1.
-    vegetated : tuple of str
-        Land covers with one of these words are vegetated, and no others. Empty: those with words
-        that are known in several languages.
-    outputs : CheckOutputs
-        The files to write.
-    crs : str or None
-        The CRS of the points in place of the one that files state: an EPSG code, such as
-        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
-    """
-
+    # The checkpoints; they can be left out if points are held out
     checkpoints: Checkpoints | None = None
-    options: CheckOptions = field(default_factory=CheckOptions)
+    options: CheckOptions = field(default_factory=CheckOptions)  # where heights are compared
+    # The class to meet, and the error of the checkpoints
     accuracy: Accuracy = field(default_factory=Accuracy)
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    dtm: str | None = None
-    confidence: str | None = None
+    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
+    dtm: str | None = None  # A terrain model that is compared as well
+    confidence: str | None = None  # A raster of its confidence, 0 to 1
+    # Land covers with one of these words are vegetated, and no others. Empty: those with words that
+    # are known in several languages.
     vegetated: tuple[str, ...] = ()
-    outputs: CheckOutputs = field(default_factory=CheckOutputs)
+    outputs: CheckOutputs = field(default_factory=CheckOutputs)  # the files to write
+    # The CRS of the points in place of the one that files state: an EPSG code, such as
+    # "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text
     crs: str | None = None
 
 
@@ -168,40 +135,7 @@ def check_files(
     request: CheckRequest = CheckRequest(),
     progress: Progress = SILENT,
 ) -> Check:
-    """Compare the ground points of one file or many, and a terrain model, with checkpoints.
-
-    Each checkpoint is compared with the Delaunay triangle of the ground points that holds it, and
-    with the terrain model between the centres of its cells. Points are read in parts, and only
-    those near checkpoints are kept.
-
-    Parameters
-    ----------
-    sources : iterable of Path
-        Classified LAS, LAZ and COPC files, folders of them, virtual point clouds and lists.
-    request : CheckRequest
-        What they are compared with, and what is written.
-    progress : Progress
-        Receives progress and messages.
-
-    Returns
-    -------
-    Check
-
-    Raises
-    ------
-    BareEarthError
-        If an input cannot be read or an output cannot be written, there is no ground, no checkpoint
-        can be compared, or there are neither checkpoints nor points to hold out.
-    Cancelled
-        If the user asked to stop; no output is left behind.
-
-    Examples
-    --------
-    >>> from bare_earth.algorithms import CheckRequest, check, read_checkpoints
-    >>> points = read_checkpoints("checkpoints.csv")  # doctest: +SKIP
-    >>> check(["ground.laz"], CheckRequest(points)).nva.rmse  # doctest: +SKIP
-    0.043
-    """
+    """Compare the ground points of one file or many, and a terrain model, with checkpoints."""
     paths = [Path(source) for source in sources]
     given, share = request.checkpoints, request.options.hold_out
     if given is None and share is None:
