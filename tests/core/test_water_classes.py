@@ -25,9 +25,9 @@ from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.shapes import Shapes
 from bare_earth.algorithms.survey.vector_files import read_boundary
+from bare_earth.algorithms.tools.water.finding import Water
 from bare_earth.algorithms.tools.water.tool import WaterRequest
 from bare_earth.algorithms.tools.water.tool import write_water as find_water
-from bare_earth.algorithms.tools.water.finding import Water
 from bare_earth.algorithms.tools.water_classes import ClassifyWater, WaterClasses, WaterPolygons
 
 pytest.importorskip("pyproj")

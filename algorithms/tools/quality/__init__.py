@@ -62,27 +62,14 @@ class QualityOptions(ParameterSet):
 
 @dataclass(frozen=True)
 class QualityRequest(HasSets):
-    """A request to measure the quality of a survey.
+    """A request to measure the quality of a survey."""
 
-    Attributes
-    ----------
-    options : QualityOptions
-        Specification and cell size.
-    ground : GroundClasses
-        Which points are ground.
-    page : Path or None
-        The page to write (.html).
-    folder : Path or None
-        A folder for the rasters; it is made if its parent exists.
-    crs : str or None
-        The CRS of the points in place of the one that files state: an EPSG code, such as
-        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
-    """
-
-    options: QualityOptions = field(default_factory=QualityOptions)
-    ground: GroundClasses = field(default_factory=GroundClasses)
-    page: Path | None = None
-    folder: Path | None = None
+    options: QualityOptions = field(default_factory=QualityOptions)  # specification and cell size
+    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
+    page: Path | None = None  # the page to write (.html)
+    folder: Path | None = None  # A folder for the rasters; it is made if its parent exists
+    # The CRS of the points in place of the one that files state: an EPSG code, such as
+    # "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text
     crs: str | None = None
 
 
@@ -91,36 +78,7 @@ def survey_quality(
     request: QualityRequest = QualityRequest(),
     progress: Progress = SILENT,
 ) -> Quality:
-    """Measure the quality of one classified file, or of many as one survey.
-
-    The files are read twice, part by part. Cells are held in memory, or on disk if there are many.
-
-    Parameters
-    ----------
-    sources : iterable of Path
-        LAS, LAZ and COPC files, folders of them, virtual point clouds and lists.
-    request : QualityRequest
-        What is measured and written.
-    progress : Progress
-        Receives progress and messages.
-
-    Returns
-    -------
-    Quality
-
-    Raises
-    ------
-    BareEarthError
-        If an input cannot be read or an output cannot be written, or there are too many cells.
-    Cancelled
-        If the user asked to stop; no output is left behind.
-
-    Examples
-    --------
-    >>> from bare_earth.algorithms import QualityRequest, quality
-    >>> quality(["ground.laz"]).pulse_density  # doctest: +SKIP
-    8.72
-    """
+    """Measure the quality of one classified file, or of many as one survey."""
     paths = [Path(source) for source in sources]
     with contextlib.ExitStack() as opened:
         if request.page:

@@ -41,24 +41,14 @@ LINE_FIELDS: dict[str, type] = {"ID": int, "KIND": str}
 
 @dataclass(frozen=True)
 class WaterRequest(HasSets):
-    """A request to find water.
+    """A request to find water."""
 
-    Attributes
-    ----------
-    water : Water
-        Which water is found.
-    ground : GroundClasses
-        Which points are ground.
-    crs : str or None
-        The CRS of the points in place of the one that files state: an EPSG code, such as
-        "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text.
-    breaklines : Path or None
-        A file for the shores, islands and middles of rivers as lines with heights.
-    """
-
-    water: Water = field(default_factory=Water)
-    ground: GroundClasses = field(default_factory=GroundClasses)
+    water: Water = field(default_factory=Water)  # which water is found
+    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
+    # The CRS of the points in place of the one that files state: an EPSG code, such as
+    # "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text
     crs: str | None = None
+    # A file for the shores, islands and middles of rivers as lines with heights
     breaklines: Path | None = None
 
 
@@ -255,38 +245,7 @@ def write_water(
     request: WaterRequest = WaterRequest(),
     progress: Progress = SILENT,
 ) -> WaterSummary:
-    """Find the water of one classified file or many, and write it as polygons.
-
-    Parameters
-    ----------
-    sources : iterable of Path
-        Classified LAS, LAZ and COPC files, folders of them, virtual point clouds and lists: all of
-        them together are one survey.
-    target : Path
-        The polygons to write: .gpkg, .geojson, .shp or .fgb.
-    request : WaterRequest
-        Which water is found, and a file for breaklines.
-    progress : Progress
-        Receives progress and messages.
-
-    Returns
-    -------
-    WaterSummary
-
-    Raises
-    ------
-    BareEarthError
-        If an input cannot be read, there is no ground, the survey is too large for its cells, or an
-        output cannot be written.
-    Cancelled
-        If the user asked to stop; no output is left behind.
-
-    Examples
-    --------
-    >>> from bare_earth.algorithms import find_water
-    >>> find_water(["ground.laz"], "water.gpkg").lakes  # doctest: +SKIP
-    3
-    """
+    """Find the water of one classified file or many, and write it as polygons."""
     inputs = {"sources": [Path(path) for path in sources], "crs": request.crs}
     outputs = {"output": target, "breaklines": request.breaklines}
     return run(TOOL, inputs, outputs, [request.water, request.ground], progress)
