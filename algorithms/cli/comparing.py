@@ -1,4 +1,4 @@
-"""The commands that write no point cloud: `info`, `assess` and `compare-settings`."""
+"""The commands that write no point cloud: `assess` and `compare-settings`."""
 
 from __future__ import annotations
 
@@ -11,23 +11,7 @@ from typing import Sequence
 from .command import DONE, Command
 from .options import add_crs, add_extent, add_inputs, add_json, add_parameters, chosen
 from .terminal import Terminal
-
-
-def _add_info(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    parser.add_argument("input", metavar="FILE", type=Path, help="a .las, .laz or .copc.laz file")
-    add_crs(parser)
-    add_json(parser, "")
-
-
-def _info(options: argparse.Namespace) -> int:
-    from ..las.opening import open_las
-    from ..las.reading import inspect
-
-    with Terminal(options.verbose) as progress:
-        file = open_las(options.input, options.crs)
-        description = inspect(file, progress)
-    print(json.dumps(description.as_dict()) if options.json else "\n".join(description.lines()))
-    return DONE
+from .tools import command_of
 
 
 def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -93,7 +77,7 @@ def _compare_settings(options: argparse.Namespace) -> int:
 
 
 COMMANDS = (
-    Command("info", "describe a file", "Describes a point cloud file.", _add_info, _info),
+    command_of("info"),
     Command(
         "assess",
         "compare a classified file with a reference",

@@ -32,6 +32,7 @@ POINT_TOOLS = {
 }
 # The tools that read files and write others.
 FILE_TOOLS = {
+    "info": Listed("info", "describe a file"),
     "remove-off-terrain-objects": Listed(
         "off_terrain", "remove buildings and trees from an elevation raster"
     ),
