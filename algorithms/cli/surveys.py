@@ -73,17 +73,18 @@ def contours_after(
     if they are wanted; without `--dtm`, their terrain model is a temporary file.
     """
     from ..core.files import temporary_folder
+    from ..rasters.virtual import virtual_of
     from ..runs.options import RasterOutput
-    from ..survey.feature_files import check_features
+    from ..survey.outputs import check_outputs
     from ..tools.contours import Contours, write_contours
-    from ..tools.rasters.rows import RasterFiles, virtual_of
+    from ..tools.rasters.rows import RasterFiles
 
     rasters, how = rasters_of(options), Contours.among(sets)
     rest = [each for each in sets if each is not how]
     if options.contours is None:
         yield rasters, rest
         return
-    check_features(options.contours, tuple(options.input))
+    check_outputs([("features", options.contours)], options.input)
     with temporary_folder(options.contours.parent) as folder:
         dtm = rasters.wanted.get("dtm", folder / "dtm.tif")
         yield RasterFiles(**{**rasters.wanted, "dtm": dtm}), rest

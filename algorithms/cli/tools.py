@@ -107,15 +107,15 @@ def _add_point_tool(name: str, parser: argparse.ArgumentParser, arguments: Seque
 
 def _write(options: argparse.Namespace) -> int:
     """Write classified files with what a tool finds."""
-    from ..las.writing import check_cloud
     from ..runs.entry import write
     from ..runs.many_files import SurveySummary
     from ..runs.requests import PointRequest
-    from ..survey.files import is_one_file
+    from ..survey.outputs import check_outputs
 
     tool, sets = point_tool(options.command), chosen(options)
-    if any(declared.found for declared in tool.inputs) and is_one_file(options.input):
-        check_cloud(options.input[0], options.output)  # to find them can take minutes
+    if any(declared.found for declared in tool.inputs):
+        # To find them can take minutes.
+        check_outputs([("cloud", options.output)], options.input)
     inputs = {declared.name: _input_of(options, declared, sets) for declared in tool.inputs}
     request = PointRequest.of(tool, sets, inputs, options.crs)
     workers, as_survey = workers_of(options, request.resources), bool(options.scheduler) or None

@@ -14,7 +14,7 @@ from typing import BinaryIO, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output, replacing
+from ..core.files import replacing
 from ..core.progress import SILENT, Progress
 from .backends import require
 from .class_layers import ClassLayers, class_layers
@@ -44,14 +44,6 @@ def check_writable(target: Path) -> None:
         raise BareEarthError(f"Cannot write {target}: name it .las, .laz or .copc.laz.")
     if target.suffix.lower() == ".laz":
         require("lazrs")
-
-
-def check_cloud(source: Path, target: Path) -> None:
-    """Refuse, before any work is done, a point cloud that is the input, or has an unsuitable name
-    or folder.
-    """
-    check_output(target, (source,))
-    check_writable(target)
 
 
 def write_classified(

@@ -49,16 +49,17 @@ def _contours_after(
     lines, if these are wanted; without `dtm`, their terrain model is a temporary file.
     """
     from ..core.files import temporary_folder
-    from ..survey.feature_files import check_features
+    from ..rasters.virtual import virtual_of
+    from ..survey.outputs import check_outputs
     from ..tools.contours import write_contours
-    from ..tools.rasters.rows import RasterFiles, virtual_of
+    from ..tools.rasters.rows import RasterFiles
 
     rasters, how, progress = rasters_of(values), Contours.among(sets), progress_of(values.progress)
     rest, target = [each for each in sets if each is not how], path_of(values.contours)
     if target is None:
         yield rasters, rest, progress
         return
-    check_features(target, tuple(paths_of(values.sources)))
+    check_outputs([("features", target)], paths_of(values.sources))
     with temporary_folder(target.parent) as folder:
         dtm = rasters.wanted.get("dtm", folder / "dtm.tif")
         yield RasterFiles(**{**rasters.wanted, "dtm": dtm}), rest, progress.part(0.0, 0.9)
@@ -209,8 +210,7 @@ def _tool_input(
     declared: Input, values: SimpleNamespace, sets: list[Any], progress: Progress
 ) -> tuple[Any, Progress]:
     """Return a further input of a tool as its step has it, and what is left of the progress."""
-    from ..las.writing import check_cloud
-    from ..survey.files import is_one_file
+    from ..survey.outputs import check_outputs
 
     if declared.kind == "area":
         return area_of(values), progress
@@ -220,8 +220,7 @@ def _tool_input(
     if declared.found is None or not is_automatic(value):
         return declared.of(polygons_of(value)), progress
     paths = paths_of(values.sources)
-    if is_one_file(paths):  # to find polygons can take minutes
-        check_cloud(paths[0], Path(values.output))
+    check_outputs([("cloud", Path(values.output))], paths)  # to find them can take minutes
     ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
     return declared.found(paths, ground, values.crs, part), progress.part(0.4, 1.0)
 

@@ -14,6 +14,16 @@ from .writing import BLOCK_SIDE, Band
 _TYPES = {"float32": "Float32", "uint8": "Byte"}
 
 
+def folder_of(raster: Path) -> Path:
+    """Return the folder of the rasters of single files, which has the name of the raster."""
+    return raster.with_suffix("")
+
+
+def virtual_of(raster: Path) -> Path:
+    """Return the virtual raster that joins the rasters of single files."""
+    return raster.with_suffix(".vrt")
+
+
 def write_virtual(
     target: Path,
     folder: Path,

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Union
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..survey.files import is_one_file
+from ..survey.outputs import check_outputs
 from ..tools.rasters.output import RasterSize
 from .one_file import classify_file, rasters_of_file, write_points
 from .requests import ClassifyRequest, PointRequest, TerrainRequest
@@ -51,7 +52,7 @@ def terrain(
         raise BareEarthError("Choose at least one raster to make.")
     if not request.ground.ground_classes:
         raise BareEarthError("Choose at least one ground class.")
-    request.rasters.check(tuple(paths))
+    check_outputs(request.rasters.outputs(), paths)
     if _is_one(paths):
         return rasters_of_file(paths[0], request, progress)
     from .many_files import rasters_of_files

@@ -29,6 +29,7 @@ from ..engine.unpacking import Unpacking
 from ..engine.workers import Threads, Workers
 from ..las.unpacked import has_room
 from ..survey.files import Survey, open_survey
+from ..survey.outputs import check_outputs
 from ..survey.shapes import Place
 from ..survey.vpc import write_vpc
 from ..tools.rasters.jobs import make_rasters
@@ -277,7 +278,7 @@ def rasters_of_files(
     survey = open_survey(sources, recursive, progress.part(0.0, 0.05), request.stated)
     require_measurable("The survey", survey.crs, survey.box)
     per_file = request.raster_output.raster_per_file
-    request.rasters.check(tuple(each.path for each in survey.tiles), per_file)
+    check_outputs(request.rasters.outputs(per_file), [tile.path for tile in survey.tiles])
     if per_file:
         check_stems(survey)
     for each in survey.broken:

@@ -12,7 +12,7 @@ from typing import Any, Iterator, Sequence
 
 import numpy as np
 
-from ..core.files import Outputs, check_distinct
+from ..core.files import Outputs
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
 from ..core.threads import import_early, may_use
@@ -26,15 +26,15 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
-from ..las.writing import check_cloud
-from ..rasters.writing import check_raster_output, raster_file
+from ..rasters.writing import raster_file
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
+from ..survey.outputs import check_outputs
 from ..survey.selection import Selection
 from ..tools.ground.step import LabelGround
 from ..tools.rasters.output import RasterSize, write_rasters
 from ..tools.rasters.step import MakeRasters
-from .requests import ClassifyRequest, PointRequest, RunOptions, TerrainRequest
+from .requests import ClassifyRequest, PointRequest, TerrainRequest
 
 # Shares of the progress bar: of reading, of each step, and of writing.
 _READING, _FILTER, _STEP, _WRITING = 1.5, 5.0, 3.0, 0.8
@@ -189,11 +189,9 @@ def classify_file(
     """Classify the ground points of a LAS, LAZ or COPC file, and write it with the new classes, and
     nothing else changed but what the request asks for.
     """
-    las = _checked(source, target, request)
-    request.rasters.check((source, target))
-    if request.explain is not None:
-        check_raster_output(request.explain, (source, target))
-        check_distinct([*request.rasters.wanted.values(), request.explain])
+    explain = [("raster", request.explain)] if request.explain else []
+    check_outputs([("cloud", target), *request.rasters.outputs(), *explain], [source])
+    las = open_las(source, request.stated)
     steps: list[Step] = list(request.steps)
     if request.rasters.wanted:
         # Before the heights, since what is known of their points stays in memory.
@@ -233,7 +231,8 @@ def write_points(
     source: Path, target: Path, request: PointRequest, progress: Progress = SILENT
 ) -> Any:
     """Write a file with the values that a step finds for its points; return the step's summary."""
-    las, resources = _checked(source, target, request), request.resources.now()
+    check_outputs([("cloud", target)], [source])
+    las, resources = open_las(source, request.stated), request.resources.now()
     with _worked(las, target, [request.step], resources, progress.part(0.0, 0.9)) as run:
         result = run.written(target, progress.part(0.9, 1.0))
     return result.summary(target.name)
@@ -248,9 +247,3 @@ def rasters_of_file(
     step = _placed(request.raster_step, las, progress)
     with _worked(las, beside, [step], resources, progress) as run:
         return run.size
-
-
-def _checked(source: Path, target: Path, request: RunOptions) -> LasFile:
-    """Refuse an output that cannot be written, and return the opened input."""
-    check_cloud(source, target)
-    return open_las(source, request.stated)

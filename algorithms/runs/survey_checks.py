@@ -12,6 +12,7 @@ from ..crs.measurable import require_measurable
 from ..engine.manifest import names_beside
 from ..las.writing import check_writable
 from ..survey.files import Survey
+from ..survey.outputs import check_outputs
 from ..survey.vpc import check_vpc
 from ..tools.rasters.rows import RasterFiles
 from ..tools.rasters.step import MakeRasters
@@ -50,7 +51,7 @@ def check_rasters(
     if not folder.exists():
         paths = rasters.wanted.items()
         rasters = RasterFiles(**{name: path for name, path in paths if path.parent != folder})
-    rasters.check(others, step.per_file)
+    check_outputs(rasters.outputs(step.per_file), others)
     if step.per_file:
         check_stems(survey)
 

@@ -9,10 +9,8 @@ from typing import NamedTuple, Sequence
 
 from ..core.files import Outputs, temporary_folder
 from ..core.progress import SILENT, Progress
-from ..las.writing import check_cloud
-from ..rasters.writing import raster_file
-from ..survey.feature_files import check_features, files_beside
 from ..survey.files import is_one_file
+from ..survey.outputs import check_outputs, place
 from ..tools.contours import Contours, Interval, draw_contours
 from ..tools.ground.output import Output
 from ..tools.rasters.parameters import MapTerrain
@@ -72,20 +70,18 @@ def make_maps(
     # All or none: the outputs get their names when all of them are finished.
     with temporary_folder(beside) as waiting, Outputs() as outputs:
         cloud = files.cloud or waiting / "cloud.las"
-        files.rasters.check((*sources, cloud))
-        if files.contours:
-            check_features(files.contours, tuple(sources))
+        checked = [("cloud", files.cloud), *files.rasters.outputs(), ("features", files.contours)]
+        check_outputs([(kind, path) for kind, path in checked if path], sources)
         if files.cloud and is_one:
-            check_cloud(sources[0], cloud)
             cloud = outputs.file(cloud)
         rasters = files.rasters.wanted
-        maps = {name: raster_file(outputs, rasters[name]) for name in rasters}
+        maps = {name: place(outputs, "raster", rasters[name]) for name in rasters}
         if files.contours:
             maps.setdefault("dtm", waiting / "dtm.tif")
         part, tracing = progress.shares(5.0 + 4.4 * bool(maps), 0.3 * bool(files.contours))
         summary = _classified(sources, cloud, request.classify(RasterFiles(**maps)), part, is_one)
         if files.contours:
-            lines = outputs.files(files.contours, files_beside(files.contours))
+            lines = place(outputs, "features", files.contours)
             interval = draw_contours(maps["dtm"], lines, request.contours, tracing)
             summary = summary._replace(contour_interval=interval)
     return summary._replace(cloud=files.cloud) if files.cloud and is_one else summary

@@ -8,6 +8,7 @@ from typing import Callable, Iterable, Sequence
 from ..core.errors import BareEarthError
 from ..core.files import Outputs, check_distinct, check_output
 from ..las.writing import check_writable
+from ..rasters.virtual import folder_of, virtual_of
 from ..rasters.writing import check_raster
 from .feature_files import feature_writer, files_beside
 from .files import is_one_file
@@ -28,7 +29,7 @@ def check_kind(kind: str, path: Path, sources: Sequence[Path] = ()) -> None:
     """Refuse an output that has an unsuitable name or folder, is a source, or is in use, or whose
     format needs a library that is missing; what many clouds become is a folder.
     """
-    if kind == "folder" or (kind == "cloud" and not is_one_file(sources)):
+    if kind == "folder" or (kind == "cloud" and sources and not is_one_file(sources)):
         # A run makes it if its own folder exists.
         if not path.exists():
             check_output(path)
@@ -40,6 +41,11 @@ def check_kind(kind: str, path: Path, sources: Sequence[Path] = ()) -> None:
             return
     check_output(path, tuple(sources))
     _FORMATS[kind](path)
+    if kind == "raster set":
+        check_output(virtual_of(path), tuple(sources))
+        folder = folder_of(path)
+        if folder.exists() and not folder.is_dir():
+            raise BareEarthError(f"Cannot write into {folder}: it is a file. Rename it.")
 
 
 def place(outputs: Outputs, kind: str, path: Path) -> Path:
@@ -69,5 +75,6 @@ _FORMATS: dict[str, Callable[[Path], object]] = {
     "list": check_vpc,
     "page": _check_page,
     "raster": check_raster,
+    "raster set": check_raster,
     "table": _check_table,
 }

@@ -21,7 +21,7 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
 from ...algorithms.survey.kept_classes import GROUND
-from ...algorithms.survey.outputs import check_kind
+from ...algorithms.survey.outputs import check_outputs
 from ...algorithms.tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool
 from ...algorithms.tools.declaration import FileTool, Output, PointTool, Tool
 from ...algorithms.tools.heights import HEIGHT_DIMENSION
@@ -265,8 +265,8 @@ class PointToolAlgorithm(ToolAlgorithm):
 
         output, ground = outputs["output"], GroundClasses.among(chosen)
         start = _FINDING if any(declared.found for declared in self._tool.inputs) else 0.0
-        if start and is_one_file(self.inputs):
-            check_kind("cloud", Path(output), self.inputs)  # to find polygons can take minutes
+        if start:  # to find them can take minutes
+            check_outputs([("cloud", Path(output))], self.inputs)
         finding, further = progress.part(0.0, start), {}
         for declared in self._tool.inputs:
             value = inputs.get(declared.name)

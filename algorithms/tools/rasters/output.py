@@ -20,14 +20,14 @@ from ...rasters.cell_grid import (
     no_points,
 )
 from ...rasters.geotiff import NO_GROUND, RasterGrid, check_cells
-from ...rasters.virtual import write_virtual
+from ...rasters.virtual import folder_of, virtual_of, write_virtual
 from ...rasters.writing import Band, Rows, raster_file, write_geotiff
 from ...survey.area import Area
 from .block import BlockRasters
 from .level_water import WaterCells
 from .mosaic import Mosaic, gathered_strips
 from .outlines import CellContents, Outlines, mosaics_of
-from .rows import RASTERS, How, Raster, folder_of, virtual_of
+from .rows import RASTERS, How, Raster
 from .step import MakeRasters
 
 # Cells up to so many metres from the area are made as well, because the surroundings decide which

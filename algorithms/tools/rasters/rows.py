@@ -13,8 +13,6 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ...core.errors import BareEarthError
-from ...core.files import check_distinct, check_output
 from ...grids.canopy import PIT_PASSES, canopy_height, without_pits
 from ...grids.hillshade import hillshade, multidirectional_hillshade, slope
 from ...grids.horizons import Cells, horizon_reach, openness, sky_view
@@ -29,7 +27,6 @@ from ...grids.relief_pictures import VAT_RADII, archaeological_topography, red_r
 from ...grids.relief_smoothing import smoothing_reach, without_noise
 from ...rasters import looks
 from ...rasters.looks import Look, Picture, Ramp
-from ...rasters.writing import check_raster_output
 from .parameters import SurfaceModel, TerrainModel
 
 
@@ -279,29 +276,13 @@ class RasterFiles:
         names = (layer for raster in self.wanted for layer in RASTERS[raster].layers)
         return tuple(dict.fromkeys(names))
 
-    def check(self, others: tuple[Path, ...], per_file: bool = False) -> None:
-        """Refuse rasters that could not be written, or would replace another file of the run."""
-        paths = [path for _, path in self.files]
-        check_distinct(paths)
-        for path in paths:
-            check_raster_output(path, others)
-            if per_file:
-                check_output(virtual_of(path), others)
-                folder = folder_of(path)
-                if folder.exists() and not folder.is_dir():
-                    raise BareEarthError(f"Cannot write into {folder}: it is a file. Rename it.")
+    def outputs(self, per_file: bool = False) -> list[tuple[str, Path]]:
+        """Return the kinds and paths for `check_outputs`; with `per_file`, each of many files gets
+        rasters of its own.
+        """
+        return [("raster set" if per_file else "raster", path) for _, path in self.files]
 
 
 RasterFiles.__doc__ = (RasterFiles.__doc__ or "").format(
     names="\n".join(f"        {name}: {raster.title}." for name, raster in RASTERS.items())
 )
-
-
-def folder_of(raster: Path) -> Path:
-    """Return the folder of the rasters of single files, which has the name of the raster."""
-    return raster.with_suffix("")
-
-
-def virtual_of(raster: Path) -> Path:
-    """Return the virtual raster that joins the rasters of single files."""
-    return raster.with_suffix(".vrt")
