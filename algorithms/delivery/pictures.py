@@ -50,12 +50,7 @@ def _small(raster: Path) -> tuple[np.ndarray, float]:
     rows, columns = opened.whole
     step = math.ceil(max(rows, columns) / LONGEST_SIDE)
     some = max(_CELLS // columns // step, 1) * step
-    parts = [
-        reduced(
-            read_raster(raster, window=(0, first, columns, min(some, rows - first))).heights, step
-        )
-        for first in range(0, rows, some)
-    ]
+    parts = [reduced(opened.rows(first, first + some), step) for first in range(0, rows, some)]
     return np.concatenate(parts).astype(np.float64), opened.cell_metres[0] * step
 
 

@@ -42,10 +42,8 @@ def follow_edges(
     if not len(row):
         return
     some = points.take(edges | NearPlaces(lines.x, lines.y, 2.0 * reach).of(points.x, points.y))
-    x, y = (
-        (first + at + 0.5) * cell - by
-        for first, at, by in zip((window.column, window.row), (column, row), corner)
-    )
+    x = (window.column + column + 0.5) * cell - corner[0]
+    y = (window.row + row + 0.5) * cell - corner[1]
     found = Tin(*some).interpolate(x, y)
     known = ~np.isnan(found)
     heights[row[known], column[known]] = found[known]

@@ -41,7 +41,7 @@ class RasterTarget:
         if not all(map(math.isfinite, box)) or west >= east or south >= north:
             raise BareEarthError(
                 "The extent of the rasters must be smallest x and y, then largest x and y, not"
-                f" {' '.join(f'{each:.10g}' for each in box)}."
+                f" {' '.join(f'{end:.10g}' for end in box)}."
             )
         object.__setattr__(self, "extent", box)
 

@@ -17,7 +17,7 @@ from ..core.points import Box, Frame, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
 from ..crs.measurable import length_scale, wrong_lengths
-from ..crs.system import crs_of_wkt, same_unit, unit_name
+from ..crs.system import crs_of_wkt, same_unit, unit_name, unit_symbol
 from ..crs.unit_names import unit_in
 from ..crs.wkt import read_wkt
 from .libraries import GdalErrors, library
@@ -142,6 +142,20 @@ class Raster(NamedTuple):
     unit: str = ""  # of the band; empty if it states none
     whole: tuple[int, int] = (0, 0)  # rows and columns of the file, if only some cells were read
     states_unit: bool = False  # whether band, description or CRS state the unit of the heights
+    source: str | Path = ""
+    band: int = 1
+
+    def rows(self, start: int, end: int) -> np.ndarray:
+        """Read rows of the file, those that it has, as `heights`."""
+        (rows, columns), first = self.whole, max(start, 0)
+        window = 0, first, columns, min(end, rows) - first
+        return read_raster(self.source, self.band, window=window).heights
+
+    @property
+    def unit_symbol(self) -> str:
+        """Symbol of the unit of heights; empty if the file states neither unit nor CRS."""
+        is_known = self.states_unit or self.frame.wkt
+        return unit_symbol(self.frame.vertical_unit) if is_known else ""
 
     @property
     def cell_metres(self) -> tuple[float, float]:
@@ -182,9 +196,16 @@ def read_raster(
         heights = (values * content.scale + content.offset).astype(np.float32)
     heights[~(valid & np.isfinite(values))] = np.nan
     frame = frame_of(source, content, progress)
-    states_unit = any(stated_units(content))
-    whole = content.shape
-    return Raster(heights, content.geotransform, frame, content.unit, whole, states_unit)
+    return Raster(
+        heights,
+        content.geotransform,
+        frame,
+        content.unit,
+        content.shape,
+        any(stated_units(content)),
+        source,
+        band,
+    )
 
 
 class Content(NamedTuple):

@@ -35,7 +35,7 @@ def write_virtual(
     """Write a virtual raster of parts that need not exist yet, as ``gdalbuildvrt`` does, with paths
     relative to the folder in which it will lie.
     """
-    transform = ", ".join(repr(float(each)) for each in grid.geotransform)
+    transform = ", ".join(repr(float(number)) for number in grid.geotransform)
     lines = [
         f'<VRTDataset rasterXSize="{grid.columns}" rasterYSize="{grid.rows}">',
         f"<SRS>{escape(with_unit_of_heights(grid.frame.wkt))}</SRS>" if grid.frame.wkt else "",

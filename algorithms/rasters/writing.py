@@ -120,7 +120,7 @@ def _waiting_file(path: Path, rows: Rows) -> Path | None:
     # If the disk becomes full later, rasterio raises no error, or an unexpected one.
     if rows.shape[0] * rows.shape[1] * rows.bands <= _MOST_IN_MEMORY:
         return None
-    tiles = math.prod(-(-each // _TILE) for each in rows.shape)
+    tiles = math.prod(-(-count // _TILE) for count in rows.shape)
     needed = tiles * rows.bands * (_TILE**2 * np.dtype(rows.kind).itemsize + _BYTES_ABOUT_A_TILE)
     if shutil.disk_usage(path.parent).free < needed:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
@@ -210,7 +210,7 @@ def _write_with_rasterio(
         profile["photometric"] = "RGB"
     try:
         # Without .aux.xml file, which would be left with the temporary name.
-        with rasterio.Env(GDAL_PAM_ENABLED="NO"), MemoryFile() as cells, MemoryFile() as made:
+        with rasterio.Env(GDAL_PAM_ENABLED="NO"), MemoryFile() as cells, MemoryFile() as copy:
             name = str(waiting or cells.name)
             with rasterio.open(name, "w", **profile) as dataset:
                 start = 0
@@ -223,11 +223,11 @@ def _write_with_rasterio(
                 if about.unit:
                     dataset.units = (about.unit,) * rows.bands
             # In memory first, since rasterio raises no error if the disk is full at the close.
-            rasterio.shutil.copy(name, made.name, driver="COG", **_OPTIONS)
-            with made.open() as dataset:
+            rasterio.shutil.copy(name, copy.name, driver="COG", **_OPTIONS)
+            with copy.open() as dataset:
                 if crs is not None and dataset.crs is None:
                     _warn_without_crs(progress)
-            path.write_bytes(made.getbuffer())
+            path.write_bytes(copy.getbuffer())
     except RasterioError as error:
         raise BareEarthError(f"Cannot write {shown(path)}: {shown(error)}.") from error
     finally:

@@ -12,10 +12,11 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
+from ..crs.wkt import read_wkt
 from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
 from ..grids.morphology import within_square
-from ..rasters.rows import RowsOfRaster
+from ..rasters.geotiff import NO_CELLS, Raster, read_raster
 from ..survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from .declaration import FileTool, Input, Output
 from .running import run
@@ -121,16 +122,18 @@ def draw_contours(
     source: str | Path, output: Path, contours: Contours = Contours(), progress: Progress = SILENT
 ) -> Interval:
     """Write the contour lines of a raster into a new file; see `write_contours`."""
-    raster = RowsOfRaster.of(source)
+    raster = read_raster(source, window=NO_CELLS)
     low, high = _range_of(raster, progress.part(0.0, 0.2))
     height = contours.interval(low, high, raster.frame.vertical_unit)
-    interval = Interval(height, raster.unit)
+    interval = Interval(height, raster.unit_symbol)
     if (high - low) / height > _MOST_LEVELS:
         raise BareEarthError(
             f"An interval of {interval.in_words()} would give more than {_MOST_LEVELS:,} heights of"
             " contour lines. Choose a larger one."
         )
-    layer = Layer("contours", "LineString", _FIELDS, raster.frame.wkt, raster.epsg)
+    facts = read_wkt(raster.frame.wkt) if raster.frame.wkt else None
+    epsg = facts.epsg if facts else None
+    layer = Layer("contours", "LineString", _FIELDS, raster.frame.wkt, epsg)
     lines = enumerate(_lines_of(raster, contours, height, progress.part(0.2, 1.0)))
     features = (
         Feature((number, line.height, int(line.is_index)), line.corners) for number, line in lines
@@ -140,12 +143,12 @@ def draw_contours(
     return interval
 
 
-def _range_of(raster: RowsOfRaster, progress: Progress) -> tuple[float, float]:
+def _range_of(raster: Raster, progress: Progress) -> tuple[float, float]:
     """Return the lowest and the highest height."""
-    low, high, count = math.inf, -math.inf, raster.shape[0]
+    low, high, count = math.inf, -math.inf, raster.whole[0]
     rows = _rows_of(raster)
     for start in range(0, count, rows):
-        heights = raster.read(start, start + rows)
+        heights = raster.rows(start, start + rows)
         known = heights[np.isfinite(heights)]
         if len(known):
             low, high = min(low, float(known.min())), max(high, float(known.max()))
@@ -153,15 +156,15 @@ def _range_of(raster: RowsOfRaster, progress: Progress) -> tuple[float, float]:
     return (low, high) if low <= high else (0.0, 0.0)
 
 
-def _rows_of(raster: RowsOfRaster) -> int:
-    return max(_CELLS // raster.shape[1], 1)
+def _rows_of(raster: Raster) -> int:
+    return max(_CELLS // raster.whole[1], 1)
 
 
 def _lines_of(
-    raster: RowsOfRaster, how: Contours, interval: float, progress: Progress
+    raster: Raster, how: Contours, interval: float, progress: Progress
 ) -> Iterator[ContourLine]:
     """Yield the lines of a raster."""
-    (count, columns), rows = raster.shape, _rows_of(raster)
+    (count, columns), rows = raster.whole, _rows_of(raster)
     (x, a, b, y, c, d), unit = raster.geotransform, raster.frame.horizontal_unit
     cells = math.hypot(b, d) * unit, math.hypot(a, c) * unit
     sigma = how.contour_smoothing / 2 / cells[0], how.contour_smoothing / 2 / cells[1]
@@ -171,7 +174,7 @@ def _lines_of(
     for start in range(0, max(count - 1, 1), rows):
         end = min(start + rows + 1, count)  # the next strip begins with the last row
         first = max(start - reach, 0)
-        heights = raster.read(first, end + reach)
+        heights = raster.rows(first, end + reach)
         if smooths:
             heights = np.where(_is_level(heights, half), heights, local_trend(heights, sigma))
         for line in lines.add(heights[start - first : end - first], start, end == count):

@@ -91,7 +91,7 @@ def draw_reliefs(
     for (name, path), part in zip(output.items(), progress.shares(*[1.0] * len(output))):
         row = RASTERS[name]
         nodata = row.nodata(NODATA)
-        strips = _strips(source, raster, row, parameters.terrain, nodata, part)
+        strips = _strips(raster, row, parameters.terrain, nodata, part)
         rows = Rows(raster.whole, row.kind, strips, row.bands)
         with may_use(available_cpus()):
             write_geotiff(path, rows, raster, nodata, part, row.shows)
@@ -107,7 +107,6 @@ def files_of(output: Path, sets: Sequence[ParameterSet]) -> dict[str, Path]:
 
 
 def _strips(
-    source: str | Path,
     raster: Raster,
     row: Row,
     model: TerrainModel,
@@ -119,9 +118,8 @@ def _strips(
     unit, reach = raster.frame.vertical_unit, row.margin(how)
     rows = max(_CELLS // columns, 1)
     for start in range(0, count, rows):
-        first, last = max(start - reach, 0), min(start + rows + reach, count)
-        heights = read_raster(source, window=(0, first, columns, last - first)).heights
-        metres = heights.astype(np.float64) * unit
+        first = max(start - reach, 0)
+        metres = raster.rows(first, start + rows + reach).astype(np.float64) * unit
         made = row.rows(metres, how=how, unit=unit, nodata=nodata)
         yield made[..., start - first : start - first + rows, :]
         progress(0.05 + 0.85 * min(start + rows, count) / count)

@@ -58,9 +58,9 @@ _NEARLY_ALL, _STEP = 0.998, 0.5
 
 def categories_of(classes: Iterable[int]) -> dict[int, tuple[str, QColor]]:
     """Return the name and colour of each class, ground first."""
-    known = {each.value(): each for each in QgsPointCloudClassifiedRenderer.defaultCategories()}
+    known = {usual.value(): usual for usual in QgsPointCloudClassifiedRenderer.defaultCategories()}
     found = {}
-    for value in sorted(classes, key=lambda each: (each != _GROUND, each)):
+    for value in sorted(classes, key=lambda number: (number != _GROUND, number)):
         # A class without usual colour gets a colour that depends on its number.
         label, colour = f"{value}", QColor.fromHsv(47 * value % 360, 140, 200)
         if value in known:
@@ -72,8 +72,9 @@ def categories_of(classes: Iterable[int]) -> dict[int, tuple[str, QColor]]:
 
 def usual_classes(ground_class: int = _GROUND) -> list[int]:
     """Return the usual classes of lidar, for clouds whose classes are not known."""
-    known = (each.value() for each in QgsPointCloudClassifiedRenderer.defaultCategories())
-    return sorted({each for each in known if each not in _RESERVED} | {ground_class})
+    known = QgsPointCloudClassifiedRenderer.defaultCategories()
+    classes = {category.value() for category in known} - {*_RESERVED}
+    return sorted(classes | {ground_class})
 
 
 def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:

@@ -207,7 +207,7 @@ def looks_of(context: QgsProcessingContext) -> dict[str, Look]:
     """Return the looks of layers that steps of a model have arranged, by path."""
     loaded = context.layersToLoadOnCompletion()
     shows = {path: details.postProcessor() for path, details in loaded.items()}
-    return {path: each.look for path, each in shows.items() if isinstance(each, _Show)}
+    return {path: show.look for path, show in shows.items() if isinstance(show, _Show)}
 
 
 class _Show(QgsProcessingLayerPostProcessorInterface):
@@ -241,7 +241,7 @@ def _leave_degrees(project: QgsProject) -> None:
     # That of a new project is in degrees. Metres taken for these make scales of 1:500,000,000, and
     # points of a size in metres that take minutes to draw. Without any CRS, QGIS also takes
     # degrees.
-    has_none = not any(each.crs().isValid() for each in project.mapLayers().values())
+    has_none = not any(layer.crs().isValid() for layer in project.mapLayers().values())
     if has_none and project.crs().isGeographic():
         project.setCrs(QgsCoordinateReferenceSystem.fromWkt(_LOCAL))
 

@@ -52,7 +52,7 @@ def sources_of(project: QgsProject | None, files: Iterable[Path]) -> list[Source
     """Return the layers of the project (None in qgis_process) that show some files, or files in
     folders, which need not exist, from the top of the tree.
     """
-    wanted = {_normal(each) for each in files}
+    wanted = {_normal(file) for file in files}
     found = []
     for layer in _layers(project):
         path = file_of(layer)
@@ -70,14 +70,14 @@ def _layers(project: QgsProject | None) -> Iterator[QgsMapLayer]:
         return
     ids = project.layerTreeRoot().findLayerIds()
     layers = project.mapLayers()
-    for each in dict.fromkeys((*ids, *layers)):
-        if each in layers:
-            yield layers[each]
+    for name in dict.fromkeys((*ids, *layers)):
+        if name in layers:
+            yield layers[name]
 
 
-def is_same(one: Path, other: Path) -> bool:
+def is_same(first: Path, second: Path) -> bool:
     """Return whether two paths name the same file, which need not exist."""
-    return _normal(one) == _normal(other)
+    return _normal(first) == _normal(second)
 
 
 def _normal(path: Path) -> Path:
@@ -86,10 +86,12 @@ def _normal(path: Path) -> Path:
 
 def count_replaced(places: Iterable[Path]) -> None:
     """Count that a run may replace some point clouds, or those in some folders."""
-    places = [path for each in places for path in ([*each.iterdir()] if each.is_dir() else [each])]
-    for each in {_normal(path) for path in places if path.suffix.lower() in _KEPT_BY_QGIS}:
-        if each.is_file():
-            _REPLACED[each] = _REPLACED.get(each, 0) + 1
+    paths = [
+        path for place in places for path in ([*place.iterdir()] if place.is_dir() else [place])
+    ]
+    for file in {_normal(path) for path in paths if path.suffix.lower() in _KEPT_BY_QGIS}:
+        if file.is_file():
+            _REPLACED[file] = _REPLACED.get(file, 0) + 1
 
 
 def times_replaced(file: Path) -> int:
@@ -135,8 +137,8 @@ def filter_of(layer: Any) -> str:
 def group_of(project: QgsProject, sources: Sequence[Source]) -> QgsLayerTreeGroup | None:
     """Return the group of the first of these layers that is in one."""
     root = project.layerTreeRoot()
-    for each in sources:
-        node = root.findLayer(each.layer)
+    for source in sources:
+        node = root.findLayer(source.layer)
         if node is not None and node.parent() not in (None, root):
             return node.parent()
     return None
@@ -144,8 +146,8 @@ def group_of(project: QgsProject, sources: Sequence[Source]) -> QgsLayerTreeGrou
 
 def edited(project: QgsProject | None, sources: Iterable[Source]) -> str:
     """Return the name of a layer with edits that are not saved; empty if there is none."""
-    for each in sources:
-        layer = project.mapLayer(each.layer) if project else None
+    for source in sources:
+        layer = project.mapLayer(source.layer) if project else None
         if layer is not None and has_edits(layer):
             return layer.name()
     return ""
@@ -159,11 +161,11 @@ def has_edits(layer: Any) -> bool:
 
 def release(project: QgsProject, sources: Iterable[Source]) -> None:
     """Let layers close their files, so that they can be replaced; `reload` opens them again."""
-    for each in sources:
-        layer = project.mapLayer(each.layer)
+    for source in sources:
+        layer = project.mapLayer(source.layer)
         if layer is not None:
             _close(layer)
-            layer.setDataSource("", layer.name(), each.provider)
+            layer.setDataSource("", layer.name(), source.provider)
 
 
 def reload(
@@ -175,20 +177,20 @@ def reload(
     layers without a dress keep their style.
     """
     known = {_normal(path): dress for path, dress in dresses.items()}
-    for each in sources:
-        layer = project.mapLayer(each.layer)
+    for source in sources:
+        layer = project.mapLayer(source.layer)
         if layer is None or has_edits(layer):
             continue
         _close(layer)
-        uri = fresh_path(str(each.path)) if each.provider == "copc" else each.uri
+        uri = fresh_path(str(source.path)) if source.provider == "copc" else source.uri
         # QGIS forgets both.
         metadata, own = layer.metadata(), filter_of(layer)
-        layer.setDataSource(uri, layer.name(), each.provider)
+        layer.setDataSource(uri, layer.name(), source.provider)
         layer.setMetadata(metadata)
         if own:
             layer.setSubsetString(own)
         show_fresh_points(layer)
-        dress = known.get(_normal(each.path))
+        dress = known.get(_normal(source.path))
         if dress is not None and layer.isValid():
             dress(layer)
         layer.triggerRepaint()

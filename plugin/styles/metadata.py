@@ -41,16 +41,16 @@ def settings_of(
 ) -> tuple[str, ...]:
     """Return the inputs and parameters of a run in words, except those that are empty."""
     found = []
-    for each in algorithm.parameterDefinitions():
-        value = parameters.get(each.name(), each.defaultValue())
-        if not each.isDestination() and not compat.is_null(value) and value not in ("", []):
-            found.append(f"{each.description()}: {_text(value, context)}")
+    for field in algorithm.parameterDefinitions():
+        value = parameters.get(field.name(), field.defaultValue())
+        if not field.isDestination() and not compat.is_null(value) and value not in ("", []):
+            found.append(f"{field.description()}: {_text(value, context)}")
     return tuple(found)
 
 
 def _text(value: Any, context: QgsProcessingContext) -> str:
     if isinstance(value, (list, tuple)):
-        return ", ".join(_text(each, context) for each in value)
+        return ", ".join(_text(part, context) for part in value)
     layer = value
     if isinstance(value, str):
         layer = QgsProcessingUtils.mapLayerFromString(value, context, False)

@@ -150,7 +150,7 @@ def _limits(layer: QgsRasterLayer, style: Ramp) -> tuple[float, float]:
     # file with the same name would get the limits of the old one.
     raster = gdal.Open(layer.source())
     band = raster.GetRasterBand(1)
-    size = (min(each, _SAMPLE) for each in (band.XSize, band.YSize))
+    size = (min(count, _SAMPLE) for count in (band.XSize, band.YSize))
     values = band.ReadAsArray(0, 0, band.XSize, band.YSize, *size)
     values = values[np.isfinite(values) & (values != band.GetNoDataValue())]
     low, high = np.quantile(values, (_LOW, _HIGH)).tolist() if values.size else (0.0, 0.0)

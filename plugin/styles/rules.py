@@ -28,7 +28,7 @@ GROUND = {
     "near-surface": Verdict(mark("points near the surface"), "#b5cf8a"),
 }
 # No grey, which a hillshade below would show as well.
-OTHER = {
+OBJECTS = {
     "raised-objects": Verdict(mark("raised objects"), "#c8322f"),
     "tall-objects": Verdict(mark("tall objects"), "#c8322f"),
     "progressive-opening": Verdict(mark("cut off by openings"), "#f08c3a"),
@@ -61,7 +61,7 @@ def categories_of(codes: Iterable[int], rules: Mapping[int, str]) -> dict[int, t
     found = {}
     for code in sorted(set(codes) - {0, NOT_GROUND}):
         is_ground, name = code < NOT_GROUND, rules.get(code % NOT_GROUND, f"{code % NOT_GROUND}")
-        usual, others = (GROUND, OTHER) if is_ground else (OTHER, GROUND)
+        usual, others = (GROUND, OBJECTS) if is_ground else (OBJECTS, GROUND)
         rare = Verdict(name.replace("-", " "), _RARE_GROUND if is_ground else _RARE_OTHER)
         rare = rare._replace(text=others.get(name, rare).text)
         text, colour = usual.get(name, rare)

@@ -57,7 +57,7 @@ class Stage:
 
     def shows(self, path: str) -> bool:
         """Return whether a layer of the project shows a file already."""
-        return any(loaded.is_same(Path(path), each.path) for each in self._sources)
+        return any(loaded.is_same(Path(path), source.path) for source in self._sources)
 
     def reload(self, dresses: Mapping[str, Callable[[QgsMapLayer], None]]) -> None:
         """Reload the layers that show files of the run, and dress them; any thread may."""
@@ -68,8 +68,8 @@ class Stage:
 
         def reload() -> None:
             # Layers that were released have no file now; others may have come since.
-            sources = {each.layer: each for each in loaded.sources_of(project, places)}
-            sources.update({each.layer: each for each in released})
+            now = loaded.sources_of(project, places)
+            sources = {source.layer: source for source in (*now, *released)}
             loaded.reload(project, sources.values(), styles)
 
         loaded.later(reload)
@@ -94,7 +94,7 @@ def free_name(project: QgsProject | None, name: str) -> str:
         return name
     root = project.layerTreeRoot()
     names = (name, *(f"{name} ({number})" for number in range(2, 10_000)))
-    return next((each for each in names if root.findGroup(each) is None), name)
+    return next((free for free in names if root.findGroup(free) is None), name)
 
 
 def _moved(node: Any, group: QgsLayerTreeGroup, height: int) -> Any:

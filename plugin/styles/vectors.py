@@ -49,8 +49,7 @@ def contours(interval: Interval) -> Callable[[QgsVectorLayer], None]:
         for properties, lines in ((_THICK, INDEX), (_THIN, 1)):
             symbol = QgsLineSymbol.createSimple(properties)
             words = tr("Every {}").format(interval.in_words(lines))
-            each = QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, words)
-            root.appendChild(each)
+            root.appendChild(QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, words))
             rule = "ELSE"
         layer.setRenderer(QgsRuleBasedRenderer(root))
         labels = QgsRuleBasedLabeling.Rule(None)
@@ -69,7 +68,7 @@ def residuals(scale: float) -> Callable[[QgsVectorLayer], None]:
         *(f"{low:+g} … {high:+g} m" for low, high in zip(limits, limits[1:])),
         f"> {limits[-1]:+g} m",
     ]
-    bounds = [*(f'"ERROR" < {each!r}' for each in limits), '"ERROR" IS NOT NULL']
+    bounds = [*(f'"ERROR" < {limit!r}' for limit in limits), '"ERROR" IS NOT NULL']
 
     def dress(layer: QgsVectorLayer) -> None:
         root = QgsRuleBasedRenderer.Rule(None)

@@ -465,11 +465,11 @@ def test_every_rule_has_a_name_and_the_rules_of_a_filter_have_their_own_colours(
                 continue
             points, parameters = Points(x, y, 0.0 * x), method.parameters(preset=preset)
             names = {rule.name for rule in method.pipeline(points, parameters, SILENT).rules}
-            assert names <= {*rules.GROUND, *rules.OTHER, *rules.UNSEEN}
+            assert names <= {*rules.GROUND, *rules.OBJECTS, *rules.UNSEEN}
             numbers = dict(enumerate(sorted(names - set(rules.UNSEEN)), start=1))
             usual = [number for number, name in numbers.items() if name in rules.GROUND]
             usual += [
-                NOT_GROUND + number for number, name in numbers.items() if name in rules.OTHER
+                NOT_GROUND + number for number, name in numbers.items() if name in rules.OBJECTS
             ]
             found = rules.categories_of(usual, numbers)
             assert len({colour.name() for _, colour in found.values()}) == len(found) > 4

@@ -70,13 +70,13 @@ def write_class_raster(
     cell_size *= survey.crs.horizontal_unit if in_units else 1.0
     grid = _grid_of(survey, cell_size)
     cells = ClassCells(grid.rows * grid.columns, ground_class)
-    parts = progress.part(0.0, 0.9).shares(*(max(each.count, 1) for each in survey.tiles))
+    parts = progress.part(0.0, 0.9).shares(*(max(tile.count, 1) for tile in survey.tiles))
     for tile, part in zip(survey.tiles, parts):
         for points in read_parts(tile, part):
             cells.add(_cells_of(points, grid), points.classification)
     values = cells.values().reshape(grid.rows, grid.columns)
     write_geotiff(target, values, grid, NO_CLASS, progress, "Class")
-    return [int(each) for each in np.unique(values) if each != NO_CLASS]
+    return [int(number) for number in np.unique(values) if number != NO_CLASS]
 
 
 def _grid_of(survey: Survey, cell_size: float) -> RasterGrid:

@@ -65,7 +65,7 @@ class Constraints(Geometry):
             return len(self.rivers)
         water = Area(None, self.water_outlines)
         flat = (np.nan_to_num(river) * (1.0, 1.0, 0.0) for river in self.rivers)
-        return sum(not water.contains(*along(each, step)[:, :2].T).any() for each in flat)
+        return sum(not water.contains(*along(river, step)[:, :2].T).any() for river in flat)
 
     def with_water(self, found: Constraints, progress: Progress = SILENT) -> Constraints:
         """Return these with water that was found, whose level is known along its own rivers."""

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Dict, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Dict, Iterable, Iterator, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
@@ -132,18 +131,19 @@ def make_rasters(
     results = results or Results(survey)
     step = step.placed(survey.crs, survey.box, progress)
     grid = BlockGrid(survey_frame(survey.crs, step.origin), step.blocks, survey.stated)
-    seen, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
-    step = step.seeing(results.parts(unpacking, seen), grid.frame, seen)
-    files, is_cancelled = _files(survey, grid, step, folder, results), False
+    reading, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
+    step = step.seeing(results.parts(unpacking, reading), grid.frame, reading)
+    run, is_cancelled = _RasterRun(survey, grid, step, results), False
+    files = run.files(folder)
     try:
-        jobs = _jobs(survey, grid, step, files, workers, results, unpacking)
+        jobs = run.jobs(files, workers, unpacking)
         # What was found stays as long as a cancelled run may go on.
         kept = {file for job in jobs for file in job.needs}
         queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8), kept)
         queue.work()
         if queue.lost:
             raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
-        return _written(survey, grid, step, files.values(), progress.part(0.8, 1.0))
+        return run.written(files.values(), progress.part(0.8, 1.0))
     except Cancelled:
         is_cancelled = True
         raise
@@ -153,76 +153,73 @@ def make_rasters(
                 remove(file)
 
 
-def _files(
-    survey: Survey, grid: BlockGrid, step: MakeRasters, folder: Path, results: Results
-) -> dict[BlockIndex, Path]:
-    """Return the file for the rasters of each block."""
-    places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
-    if step.area is not None:
-        around = step.area.buffered_box(AROUND_AREA / grid.frame.horizontal_unit)
-        columns, rows = grid.places_in(around)
-        places = [place for place in places if place.column in columns and place.row in rows]
-        if not places:
-            raise no_point_in(step.area)
-    stamps = {path: stamp_of(source) for path, source in results.read_from.items()}
-    grids = [*(found.grid for found in results.found), grid]
-    steps = [*(found.step for found in results.found), step]
-    return {
-        place: block_file(
-            grids, steps, folder, place, [stamps[path] for path in sources_of(grid, survey, place)]
-        )
-        for place in places
-    }
+class _RasterRun(NamedTuple):
+    """A run that makes rasters of a survey."""
 
+    survey: Survey
+    grid: BlockGrid
+    step: MakeRasters
+    results: Results
 
-def _jobs(
-    survey: Survey,
-    grid: BlockGrid,
-    step: MakeRasters,
-    files: Mapping[BlockIndex, Path],
-    workers: Workers,
-    results: Results,
-    unpacking: Unpacking | None,
-) -> list[RasterJob]:
-    """Start the workers, and return the jobs of the blocks that are not done yet."""
-    missing = [place for place, file in files.items() if not file.exists()]
-    least = max((least_memory(grid, survey, place) for place in missing), default=0)
-    workers.start(next(iter(files.values())).parent, least, len(missing), 0)
-    groups = grouped(grid, survey, missing, workers.at_once, workers.share.bytes)
-    sources_of_each = []
-    for group in groups:
-        paths = {path for place in group for path in sources_of(grid, survey, place)}
-        sources_of_each.append(tuple(sorted(results.read_from[path] for path in paths)))
-    uses = Counter(itertools.chain(*sources_of_each))
-    jobs = []
-    for group, sources in zip(groups, sources_of_each):
-        window = grid.window(group)
-        once = frozenset(path for path in sources if uses[path] == 1)
-        unpacked = None if unpacking is None else unpacking._replace(once=once)
-        before = tuple(found.within(window) for found in results.found)
-        jobs.append(
-            RasterJob(
-                grid=grid,
-                places=tuple(group),
-                files=tuple(files[place] for place in group),
-                sources=sources,
-                count=points_in(survey, window),
-                before=before,
-                finished=results.finished.intersection(sources),
-                unpacking=unpacked,
-                step=step,
+    def files(self, folder: Path) -> dict[BlockIndex, Path]:
+        """Return the file for the rasters of each block."""
+        survey, grid, step, results = self
+        places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
+        if step.area is not None:
+            around = step.area.buffered_box(AROUND_AREA / grid.frame.horizontal_unit)
+            columns, rows = grid.places_in(around)
+            places = [place for place in places if place.column in columns and place.row in rows]
+            if not places:
+                raise no_point_in(step.area)
+        stamps = {path: stamp_of(source) for path, source in results.read_from.items()}
+        grids = [*(found.grid for found in results.found), grid]
+        steps = [*(found.step for found in results.found), step]
+        sources = {place: sources_of(grid, survey, place) for place in places}
+        return {
+            place: block_file(grids, steps, folder, place, [stamps[path] for path in paths])
+            for place, paths in sources.items()
+        }
+
+    def jobs(
+        self, files: Mapping[BlockIndex, Path], workers: Workers, unpacking: Unpacking | None
+    ) -> list[RasterJob]:
+        """Start the workers, and return the jobs of the blocks that are not done yet."""
+        survey, grid, step, results = self
+        missing = [place for place, file in files.items() if not file.exists()]
+        least = max((least_memory(grid, survey, place) for place in missing), default=0)
+        workers.start(next(iter(files.values())).parent, least, len(missing), 0)
+        jobs = []
+        for group in grouped(grid, survey, missing, workers.at_once, workers.share.bytes):
+            window = grid.window(group)
+            paths = {path for place in group for path in sources_of(grid, survey, place)}
+            sources = tuple(sorted(results.read_from[path] for path in paths))
+            jobs.append(
+                RasterJob(
+                    grid=grid,
+                    places=tuple(group),
+                    files=tuple(files[place] for place in group),
+                    sources=sources,
+                    count=points_in(survey, window),
+                    before=tuple(found.within(window) for found in results.found),
+                    finished=results.finished.intersection(sources),
+                    unpacking=unpacking,
+                    step=step,
+                )
             )
-        )
-    return jobs
+        if unpacking is None:
+            return jobs
+        uses = Counter(path for job in jobs for path in job.sources)
+        once = frozenset(path for path, count in uses.items() if count == 1)
+        return [
+            replace(job, unpacking=unpacking._replace(once=once.intersection(job.sources)))
+            for job in jobs
+        ]
 
-
-def _written(
-    survey: Survey, grid: BlockGrid, step: MakeRasters, files: Iterable[Path], progress: Progress
-) -> RasterSize:
-    """Write the rasters, given those of all blocks."""
-    blocks = [rasters for file in files for rasters in _stored_in(file)]
-    per_file = None
-    if step.per_file:
-        per_file = {split_name(tile.path)[0]: tile.box for tile in survey.tiles}
-    with Outputs() as outputs:
-        return write_rasters(blocks, grid.frame, step, outputs, progress, per_file)
+    def written(self, files: Iterable[Path], progress: Progress) -> RasterSize:
+        """Write the rasters, given the files of those of all blocks."""
+        blocks = [rasters for file in files for rasters in _stored_in(file)]
+        per_file = None
+        if self.step.per_file:
+            per_file = {split_name(tile.path)[0]: tile.box for tile in self.survey.tiles}
+        with Outputs() as outputs:
+            return write_rasters(blocks, self.grid.frame, self.step, outputs, progress, per_file)
