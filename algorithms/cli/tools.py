@@ -11,7 +11,16 @@ from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 from ..tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool
 from .command import DONE, Command
-from .options import KEPT, add_crs, add_extent, add_inputs, add_json, add_parameters, chosen
+from .options import (
+    KEPT,
+    UsageError,
+    add_crs,
+    add_extent,
+    add_inputs,
+    add_json,
+    add_parameters,
+    chosen,
+)
 from .surveys import (
     AUTOMATIC,
     add_area,
@@ -70,6 +79,8 @@ def _run(options: argparse.Namespace) -> int:
     tool, sets = file_tool(options.command), chosen(options)
     inputs = {declared.name: _input_of(options, declared) for declared in tool.inputs}
     outputs = {output.name: getattr(options, output.name) for output in tool.outputs}
+    if lacking := tool.lacks(inputs, sets):
+        raise UsageError(lacking)
     with Terminal(options.verbose) as progress:
         found = run(tool, inputs, outputs, sets, progress)
     if tool.json is None:

@@ -20,7 +20,8 @@ from ..runs.options import TileInput
 from ..runs.requests import PointRequest, TerrainRequest
 from ..survey.files import Survey
 from ..survey.overview import overview_of
-from ..tools.check.checking import CheckOptions, CheckOutputs, CheckRequest, check_files
+from ..tools.check.checking import TOOL as CHECK
+from ..tools.check.checking import CheckOptions
 from ..tools.check.results import Check
 from ..tools.contours import Interval, write_contours
 from ..tools.key_points import FindKeyPoints, KeyPointMark
@@ -29,6 +30,7 @@ from ..tools.quality.figures import Quality
 from ..tools.rasters.constraints import Constraints
 from ..tools.rasters.parameters import SurfaceModel
 from ..tools.rasters.rows import RasterFiles
+from ..tools.running import run
 from ..tools.water.tool import SurveyWater, WaterSummary, found_water
 from ..tools.water_classes import ClassifyWater, WaterPolygons
 from .deliveries import WITH_BUILDINGS
@@ -256,20 +258,19 @@ class DeliverySteps:
     def _check(self, progress: Progress) -> None:
         """Compare the ground with checkpoints, and with points that are held out."""
         request, folder, points = self.request, self.work.path, self.request.checkpoints
-        outputs = CheckOutputs(folder / "accuracy.html")
+        how = CheckOptions(hold_out=request.options.hold_out_share)
+        outputs, dtm = {"report": folder / "accuracy.html"}, None
         if points is not None:
             residuals = folder / f"checkpoints{vector_format()}"
-            outputs = outputs._replace(table=folder / "checkpoints.csv", residuals=residuals)
-            self.made.layers["checkpoints"] = residuals
-        self.made.check = check_files(
-            [self._cloud],
-            CheckRequest(
-                points, CheckOptions(hold_out=request.options.hold_out_share), request.accuracy,
-                request.ground, dtm=None if points is None else str(self.made.layers["dtm"]),
-                outputs=outputs, crs=request.crs,
-            ),
+            outputs |= {"table": folder / "checkpoints.csv", "residuals": residuals}
+            self.made.layers["checkpoints"], dtm = residuals, str(self.made.layers["dtm"])
+        self.made.check = run(
+            CHECK,
+            {"sources": [self._cloud], "checkpoints": points, "dtm": dtm, "crs": request.crs},
+            outputs,
+            [how, request.accuracy, request.ground],
             progress,
-        )  # fmt: skip
+        )
 
 
 def _files_of(done: Any) -> list[Path]:

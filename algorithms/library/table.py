@@ -232,14 +232,16 @@ def _check() -> Function:
     from ..tools.check.results import Check
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools.check.checking import CheckOutputs, CheckRequest, check_files
+        from ..tools import running
+        from ..tools.check.checking import TOOL
 
-        files = (path_of(each) for each in (values.report, values.table, values.residuals))
-        request = CheckRequest.of(
-            sets, checkpoints=checkpoints_of(values), dtm=values.dtm, confidence=values.confidence,
-            vegetated=tuple(values.vegetated or ()), crs=values.crs, outputs=CheckOutputs(*files),
-        )  # fmt: skip
-        return check_files(paths_of(values.sources), request, progress_of(values.progress))
+        inputs = {
+            "sources": paths_of(values.sources), "checkpoints": checkpoints_of(values),
+            "dtm": values.dtm, "crs": values.crs, "vegetated": tuple(values.vegetated or ()),
+            "confidence": values.confidence,
+        }  # fmt: skip
+        outputs = {output.name: path_of(getattr(values, output.name)) for output in TOOL.outputs}
+        return running.run(TOOL, inputs, outputs, sets, progress_of(values.progress))
 
     return Function(
         "check",

@@ -37,6 +37,9 @@ FILE_TOOLS = {
         "off_terrain", "remove buildings and trees from an elevation raster"
     ),
     "contours": Listed("contours", "draw contour lines of a terrain model"),
+    "check": Listed(
+        "check.checking", "compare the ground with checkpoints, or with points that are held out"
+    ),
     "relief": Listed("relief", "make pictures of the relief of a terrain model"),
     "water": Listed("water.tool", "find lakes and rivers in classified points"),
 }

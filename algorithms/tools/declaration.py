@@ -185,6 +185,8 @@ class FileTool(Tool):
     work: Callable[..., Any] = _nothing
     outputs: tuple[Output, ...] = ()
     titles: tuple[str, ...] = ()  # of the sets, in the help of the command
+    # Says what a user of the command did not give, from the inputs and the sets; empty for nothing.
+    lacks: Callable[[Mapping[str, Any], Sequence[ParameterSet]], str] = lambda inputs, sets: ""
     # Further flags of parameters, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
     json: str | None = "what was done"  # what --json prints; None if there is nothing to tell

@@ -4,7 +4,6 @@ Those of tools are made of the declarations of `algorithms/tools/`.
 """
 
 from .assess import AssessAlgorithm
-from .check import CheckAlgorithm
 from .classify_tiles import ClassifyTilesAlgorithm
 from .compare_settings import CompareSettingsAlgorithm
 from .ground_filters import GROUND_FILTERS
@@ -19,6 +18,5 @@ ALGORITHMS = (
     TerrainModelAlgorithm,
     CompareSettingsAlgorithm,
     AssessAlgorithm,
-    CheckAlgorithm,
     QualityAlgorithm,
 )

@@ -15,10 +15,6 @@ from qgis.core import (
     QgsProcessingParameterDefinition,
     QgsProcessingParameterFeatureSource,
     QgsProcessingParameterField,
-    QgsProcessingParameterFileDestination,
-    QgsProcessingParameterRasterLayer,
-    QgsProcessingParameterString,
-    QgsProcessingParameterVectorDestination,
 )
 
 from ...algorithms.core.progress import Progress
@@ -26,10 +22,9 @@ from ...algorithms.tools.check.checkpoints import Checkpoints
 from ...algorithms.tools.check.reading import Record, checkpoints_of_rows, read_checkpoints
 from ...algorithms.tools.check.tables import SUFFIXES
 from .. import compat
-from ..i18n import mark, tr
+from ..i18n import mark
 from .feedback import Refusal
-from .inputs import CloudCrs, features_of, raster_of
-from .outputs import do_not_load
+from .inputs import CloudCrs, features_of
 
 _LAYER, _CONFIDENCE, _VEGETATED = "CHECKPOINTS", "CONFIDENCE", "VEGETATED"
 # The role of the attribute in each field, and the label and the help of the field.
@@ -70,19 +65,6 @@ def add_checkpoints(algorithm: QgsProcessingAlgorithm, advanced: bool = False) -
         _add(algorithm, field, text, name in _VISIBLE and not advanced)
 
 
-def add_judgement(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add advanced fields that decide which checkpoints count, and as what."""
-    words = QgsProcessingParameterString(_VEGETATED, "Vegetated land covers", None, False, True)
-    text = (
-        "Words separated by commas: a land cover with one of them is vegetated, and no other."
-        " Empty: words such as forest, crops and brush in several languages."
-    )
-    _add(algorithm, words, text)
-    sure = QgsProcessingParameterRasterLayer(_CONFIDENCE, "Confidence", None, True)
-    text = "Confidence of the terrain model, 0 to 1. Checkpoints where it is low are not counted."
-    _add(algorithm, sure, text)
-
-
 def _add(
     algorithm: QgsProcessingAlgorithm,
     field: QgsProcessingParameterDefinition,
@@ -92,46 +74,6 @@ def _add(
     if not is_visible:
         field.setFlags(field.flags() | compat.ADVANCED)
     algorithm.addParameter(field, text)
-
-
-def add_residuals(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of the outputs."""
-    algorithm.addParameter(
-        QgsProcessingParameterVectorDestination("OUTPUT", "Errors at checkpoints", optional=True),
-        "The checkpoints with their errors (ERROR, in metres): ground minus checkpoint.",
-    )
-    filters = tr("HTML files (*.html)")
-    algorithm.addParameter(
-        QgsProcessingParameterFileDestination("REPORT", "Report", filters, None, True, True),
-        "A web page with the figures, the statement, and a map of the errors.",
-    )
-
-
-def residuals_path(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
-    context: QgsProcessingContext,
-    checkpoints: Checkpoints | None,
-) -> str:
-    """Return the path of the layer of errors; empty if it is not wanted, or has no checkpoints."""
-    path = algorithm.parameterAsOutputLayer(parameters, "OUTPUT", context)
-    if path and checkpoints is None:
-        do_not_load(context, [path])
-        return ""
-    return path
-
-
-def judgement_of(
-    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
-) -> dict[str, Any]:
-    """Return the values of `add_judgement` for `CheckRequest`; the raster must be a file."""
-    text, sure = algorithm.parameterAsString(parameters, _VEGETATED, context), None
-    if not compat.is_empty(parameters.get(_CONFIDENCE)):
-        refusal = mark("The confidence is not a file. Export it as GeoTIFF first.")
-        sure = raster_of(algorithm, parameters, _CONFIDENCE, context, refusal).source()
-    words = tuple(word for each in text.split(",") if (word := each.strip()))
-    found = {"confidence": sure} if sure else {}
-    return {**found, "vegetated": words} if words else found
 
 
 def checkpoints_of(

@@ -30,13 +30,6 @@ _WORDS = {
     "comparesettings": (
         _CLOUD, _GROUND, _TERRAIN, mark("preview,try,test,preset,parameters,compare,profile"),
     ),
-    "check": (
-        _CLOUD, _TERRAIN, _TIN,
-        mark(
-            "checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical"
-            " accuracy,nva,vva,asprs,validation,lascontrol,hold-out"
-        ),
-    ),
     "quality": (
         _CLOUD, _TERRAIN,
         mark(

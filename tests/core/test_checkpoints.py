@@ -16,15 +16,11 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.products import survey_ground
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.tools.check.accuracy import Accuracy, Figures, statement
-from bare_earth.algorithms.tools.check.checking import (
-    CheckOptions,
-    CheckOutputs,
-    CheckRequest,
-    check_files,
-)
+from bare_earth.algorithms.tools.check.checking import TOOL, CheckOptions
 from bare_earth.algorithms.tools.check.checkpoints import Checkpoints
 from bare_earth.algorithms.tools.check.land_covers import LandCovers
 from bare_earth.algorithms.tools.check.reading import read_checkpoints
+from bare_earth.algorithms.tools.running import run
 
 pyproj = pytest.importorskip("pyproj")
 EAST, NORTH, SIZE = 500_000.0, 5_600_000.0, 100.0
@@ -81,9 +77,9 @@ def points(xy, errors=0.0, covers=None, names=None):
     return Checkpoints.of(rows, names, covers)
 
 
-def check(paths, checkpoints=None, *sets, progress=SILENT, **others):
-    request = CheckRequest.of(sets, checkpoints=checkpoints, **others)
-    return check_files(paths, request, progress)
+def check(paths, checkpoints=None, *sets, outputs=None, progress=SILENT, **others):
+    inputs = {"sources": paths, "checkpoints": checkpoints, **others}
+    return run(TOOL, inputs, outputs or {}, sets, progress)
 
 
 def tin(x, y, z, classes):
@@ -468,7 +464,7 @@ def test_layers_of_other_formats(survey, tmp_path, suffix):
     pyogrio = pytest.importorskip("pyogrio")
     given = points(np.concatenate((places(5), [(150.0, 50.0)])), 0.04)
     target = tmp_path / f"r{suffix}"
-    check([survey], given, outputs=CheckOutputs(residuals=target))
+    check([survey], given, outputs={"residuals": target})
     about, _, shapes, values = pyogrio.raw.read(str(target))
     fields = dict(zip(about["fields"], values))
     assert "25832" in about["crs"] and about["geometry_type"].endswith("Z")
@@ -479,18 +475,18 @@ def test_layers_of_other_formats(survey, tmp_path, suffix):
 
 def test_what_cannot_be_done_is_refused_before_the_work(survey, tmp_path, capsys):
     given = points(places(3))
-    for outputs, words in {
-        CheckOutputs(report=tmp_path / "r.pdf"): "name it .html",
-        CheckOutputs(table=tmp_path / "r.xls"): "name it .csv",
-        CheckOutputs(residuals=tmp_path / "r.kml"): "Name it so",
-        CheckOutputs(report=tmp_path / "missing" / "r.html"): "does not exist",
-    }.items():
+    for name, file, words in [
+        ("report", "r.pdf", "name it .html"),
+        ("table", "r.xls", "name it .csv"),
+        ("residuals", "r.kml", "Name it so"),
+        ("report", "missing/r.html", "does not exist"),
+    ]:
         with pytest.raises(BareEarthError, match=words):
-            check([tmp_path / "missing.laz"], given, outputs=outputs)
+            check([tmp_path / "missing.laz"], given, outputs={name: tmp_path / file})
     with pytest.raises(BareEarthError, match="Give checkpoints"):
         check([survey])
     with pytest.raises(BareEarthError, match="Give checkpoints"):
-        outputs = CheckOutputs(table=tmp_path / "t.csv")
+        outputs = {"table": tmp_path / "t.csv"}
         check([survey], None, CheckOptions(hold_out=0.1), outputs=outputs)
     assert main(["check", str(survey)]) == 2
     assert "--hold-out" in capsys.readouterr().err

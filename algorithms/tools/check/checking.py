@@ -6,26 +6,26 @@ edition 2, version 1.0.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterable, NamedTuple
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
 from ...core.errors import BareEarthError
-from ...core.files import Outputs, check_distinct, check_output
-from ...core.parameters import HasSets, ParameterSet, parameter
+from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
 from ...products.survey_ground import SurveyGround
-from ...report.page import check_page
 from ...report.units import round_length
-from ...survey.feature_files import check_features, files_beside
+from ...survey.feature_files import FORMATS as LAYERS
 from ...survey.ground_classes import GroundClasses
+from ..declaration import CLOUD, CRS, TERRAIN, TIN, FileTool, Input, Output
 from .accuracy import Accuracy, Figures, statement
 from .checkpoints import Checkpoints
 from .hold_out import HoldOut, hold_out
 from .land_covers import VVA
 from .page import checkpoint_html
+from .reading import FORMATS
 from .residuals import Residuals, residuals_of, write_layer, write_table
 from .results import COUNTED, NOT_STATED, REASONS, Check
 
@@ -68,93 +68,50 @@ class CheckOptions(ParameterSet):
     )
 
 
-class CheckOutputs(NamedTuple):
-    """The files to write, each of which can be None."""
-
-    report: Path | None = None  # A web page (.html)
-    table: Path | None = None  # A table of all checkpoints (.csv)
-    # The checkpoints with their errors as points (.gpkg, .geojson, .shp or .fgb)
-    residuals: Path | None = None
-
-    def check(self, sources: tuple[Path, ...], checkpoints: Checkpoints | None) -> None:
-        """Refuse, before any work is done, files that could not be written at the end."""
-        check_distinct(self)
-        if checkpoints is None and (self.table or self.residuals):
-            raise BareEarthError(
-                "Points that are held out have no table and no layer, only a page. Give"
-                " checkpoints."
-            )
-        if self.report:
-            check_page(self.report, sources)
-        if self.table:
-            check_output(self.table, sources)
-            if self.table.suffix.lower() != ".csv":
-                raise BareEarthError(f"Cannot write {self.table}: the table is CSV, name it .csv.")
-        if self.residuals:
-            check_features(self.residuals, sources)
-
-    def write(
-        self, check: Check, found: Residuals | None, ground: SurveyGround, progress: Progress
-    ) -> None:
-        """Write the files: all of them or none."""
-        with Outputs() as outputs:
-            if self.residuals and found is not None:
-                layer = outputs.files(self.residuals, files_beside(self.residuals))
-                write_layer(layer, found, ground.survey, progress)
-            if self.table and found is not None:
-                write_table(outputs.file(self.table), found)
-            if self.report:
-                page = outputs.file(self.report)
-                page.write_text(checkpoint_html(check, found, ground.survey), encoding="utf-8")
-            progress(1.0)  # the last moment to cancel
-
-
-@dataclass(frozen=True)
-class CheckRequest(HasSets):
-    """A request to compare points with checkpoints, or with points that are held out."""
-
-    # The checkpoints; they can be left out if points are held out
-    checkpoints: Checkpoints | None = None
-    options: CheckOptions = field(default_factory=CheckOptions)  # where heights are compared
-    # The class to meet, and the error of the checkpoints
-    accuracy: Accuracy = field(default_factory=Accuracy)
-    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
-    dtm: str | None = None  # A terrain model that is compared as well
-    confidence: str | None = None  # A raster of its confidence, 0 to 1
-    # Land covers with one of these words are vegetated, and no others. Empty: those with words that
-    # are known in several languages.
-    vegetated: tuple[str, ...] = ()
-    outputs: CheckOutputs = field(default_factory=CheckOutputs)  # the files to write
-    # The CRS of the points in place of the one that files state: an EPSG code, such as
-    # "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text
-    crs: str | None = None
-
-
-def check_files(
-    sources: Iterable[Path],
-    request: CheckRequest = CheckRequest(),
+def check_points(
+    sources: Sequence[Path],
+    checkpoints: Checkpoints | None = None,
+    dtm: str | None = None,
+    crs: str | None = None,
+    vegetated: Sequence[str] | None = None,  # words of land covers; none: those that are known
+    confidence: str | None = None,
+    report: Path | None = None,
+    table: Path | None = None,
+    residuals: Path | None = None,
+    accuracy: Accuracy = Accuracy(),
+    options: CheckOptions = CheckOptions(),
+    ground: GroundClasses = GroundClasses(),
     progress: Progress = SILENT,
 ) -> Check:
-    """Compare the ground points of one file or many, and a terrain model, with checkpoints."""
-    paths = [Path(source) for source in sources]
-    given, share = request.checkpoints, request.options.hold_out
-    if given is None and share is None:
+    """Compare the ground points of classified files, and a terrain model, with checkpoints or with
+    points that are held out, and write what is found.
+    """
+    share = options.hold_out
+    if checkpoints is None and share is None:
         raise BareEarthError("Give checkpoints, or a share of the ground points to hold out.")
-    request.outputs.check(tuple(paths), given)
-    ground = SurveyGround.of(paths, request.ground, progress.part(0.0, 0.05), request.crs)
+    if checkpoints is None and (table or residuals):
+        raise BareEarthError(
+            "Points that are held out have no table and no layer, only a page. Give checkpoints."
+        )
+    points = SurveyGround.of(sources, ground, progress.part(0.0, 0.05), crs)
     middle, found, left = 0.95 if share is None else 0.5, None, None
-    if given is not None:
+    if checkpoints is not None:
         found = residuals_of(
-            ground, given, (request.dtm, request.confidence), request.vegetated,
-            request.options.max_edge, request.options.min_confidence, progress.part(0.05, middle),
+            points, checkpoints, (dtm, confidence), tuple(vegetated or ()),
+            options.max_edge, options.min_confidence, progress.part(0.05, middle),
         )  # fmt: skip
     if share is not None:
-        part = progress.part(0.05 if given is None else middle, 0.95)
-        left = hold_out(ground, share, request.options.max_edge, part)
-    check = _check_of(found, request.accuracy, left)
+        part = progress.part(0.05 if checkpoints is None else middle, 0.95)
+        left = hold_out(points, share, options.max_edge, part)
+    check = _check_of(found, accuracy, left)
     if check.doubt:
         progress.warning(f"{check.doubt} {NOT_STATED}")
-    request.outputs.write(check, found, ground, progress)
+    if residuals and found is not None:
+        write_layer(residuals, found, points.survey, progress)
+    if table and found is not None:
+        write_table(table, found)
+    if report:
+        report.write_text(checkpoint_html(check, found, points.survey), encoding="utf-8")
     return check
 
 
@@ -205,3 +162,117 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None)
         dtm_statement=of_dtm if dtm_nva is not None or dtm_vva is not None else "",
         hold_out=left,
     )  # fmt: skip
+
+
+def _lacks(inputs: Mapping[str, Any], sets: Sequence[ParameterSet]) -> str:
+    if inputs["checkpoints"] is None and CheckOptions.among(sets).hold_out is None:
+        return "Give --checkpoints, or a share of the ground points with --hold-out."
+    return ""
+
+
+TOOL = FileTool(
+    work=check_points,
+    sets=(Accuracy, CheckOptions, GroundClasses),
+    titles=("Accuracy", "What is compared", "Ground points"),
+    shown=("accuracy_class",),
+    lacks=_lacks,
+    inputs=(
+        Input(
+            "sources",
+            "clouds",
+            help="a classified file, or ",
+            label="Classified point cloud",
+            named="INPUT",
+        ),
+        Input(
+            "checkpoints",
+            "checkpoints",
+            help=f"points that were surveyed on the ground ({FORMATS})",
+            label="Checkpoints",
+            optional=True,
+        ),
+        Input(
+            "dtm",
+            "raster",
+            help="check this terrain model as well, in the CRS of the points",
+            label="Terrain model",
+            field_help="The heights of this raster are compared with the checkpoints as well.",
+            optional=True,
+        ),
+        CRS,
+        Input(
+            "vegetated",
+            "words",
+            help="land covers with one of these words are vegetated, and no others (default: words"
+            " such as forest, crops and brush in several languages)",
+            label="Vegetated land covers",
+            field_help="Words separated by commas: a land cover with one of them is vegetated, and"
+            " no other. Empty: words such as forest, crops and brush in several languages.",
+            optional=True,
+            advanced=True,
+            is_last=True,
+        ),
+        Input(
+            "confidence",
+            "raster",
+            help="the confidence of the terrain model, 0 to 1, as 'terrain --confidence' makes it;"
+            " checkpoints where it is low are not counted",
+            label="Confidence",
+            field_help="Confidence of the terrain model, 0 to 1. Checkpoints where it is low are"
+            " not counted.",
+            optional=True,
+            advanced=True,
+            is_last=True,
+        ),
+    ),
+    outputs=(
+        Output(
+            "residuals",
+            "features",
+            help=f"write the checkpoints and their errors as points ({', '.join(LAYERS)}); all but"
+            " .geojson need pyogrio",
+            label="Errors at checkpoints",
+            field_help="The checkpoints with their errors (ERROR, in metres): ground minus"
+            " checkpoint.",
+            named="OUTPUT",
+            look="residuals",
+            needs="checkpoints",
+        ),
+        Output(
+            "report",
+            "page",
+            help="write a page (.html)",
+            label="Report",
+            field_help="A web page with the figures, the statement, and a map of the errors.",
+        ),
+        Output("table", "table", help="write the checkpoints and their errors (.csv)"),
+    ),
+    numbers=(
+        ("CHECKPOINT_COUNT", "Checkpoints"), ("COUNTED", "Counted checkpoints"),
+        ("NVA_RMSE", "RMSE without vegetation [m]"), ("VVA_RMSE", "RMSE with vegetation [m]"),
+        ("SHIFT", "Mean difference [m]"), ("HOLD_OUT_RMSE", "RMSE of held-out points [m]"),
+    ),
+    json="the figures",
+    command="check",
+    command_about="Compares the TIN of the ground points, and a terrain model, with checkpoints:"
+    " RMSE and other figures, on land with and without vegetation, and the statement of the ASPRS"
+    " Positional Accuracy Standards, edition 2. With --hold-out, it needs no checkpoints.",
+    identifier="check",
+    title="Check against checkpoints",
+    section="Quality",
+    summary="Compares ground points and a terrain model with points surveyed on the ground.",
+    about="Compares the triangulation (TIN) of the ground points of a classified point cloud, and a"
+    " terrain model, with checkpoints: points that were surveyed on the ground. It gives the"
+    " figures and the statement of the ASPRS Positional Accuracy Standards, edition 2, on land"
+    " without vegetation (NVA) and with it (VVA). Nothing is shifted.\n"
+    "Without checkpoints, it can leave out a share of the ground points and measure how well"
+    " the others predict them.",
+    page="check",
+    words=(
+        CLOUD,
+        TERRAIN,
+        TIN,
+        "checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical"
+        " accuracy,nva,vva,asprs,validation,lascontrol,hold-out",
+    ),
+)  # fmt: skip
