@@ -10,15 +10,17 @@ from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..tools import FILE_TOOLS, POINT_TOOLS
-from . import checking, classifying, comparing, delivering, odm, products
+from . import checking, comparing, odm, runs
 from .command import FAILED, USAGE
 from .options import UsageError
 from .tools import command_of
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (
-    *classifying.COMMANDS, *delivering.COMMANDS, *comparing.COMMANDS, *checking.COMMANDS,
-    *products.COMMANDS, *odm.COMMANDS,
+    runs.CLASSIFY, runs.TILES, runs.DELIVER, *comparing.COMMANDS, *checking.COMMANDS,
+    *map(command_of, ("remove-off-terrain-objects", "height", "above-ground", "key-points")),
+    runs.TERRAIN, *map(command_of, ("contours", "relief", "water", "water-classes")),
+    *odm.COMMANDS,
 )  # fmt: skip
 
 

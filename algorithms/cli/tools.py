@@ -21,6 +21,7 @@ from .options import (
     add_parameters,
     chosen,
 )
+from .runs import tell_of_survey
 from .surveys import (
     AUTOMATIC,
     add_area,
@@ -28,7 +29,6 @@ from .surveys import (
     add_scheduler,
     area_of,
     checkpoints_of,
-    tell_of_survey,
     workers_of,
 )
 from .terminal import Terminal, is_told, tell

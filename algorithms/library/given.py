@@ -128,6 +128,17 @@ def checkpoints_of(values: SimpleNamespace) -> Checkpoints | None:
     return None if given is None else Checkpoints.of(given)
 
 
+def run_on(values: SimpleNamespace, resources: Resources) -> tuple[Workers | None, bool | None]:
+    """Return the workers for many files, and whether one file is a survey, too; the command line
+    works in processes, and can ask for a survey.
+    """
+    scheduler = values.scheduler
+    as_survey = bool(scheduler) or getattr(values, "is_survey", False) or None
+    if scheduler is None and getattr(values, "in_processes", False):
+        scheduler = PROCESSES
+    return workers_of(scheduler, resources), as_survey
+
+
 def workers_of(scheduler: str | None, resources: Resources) -> Workers | None:
     """Return the workers for many files: None for threads of this process."""
     if scheduler is None:

@@ -32,6 +32,7 @@ from .given import (
     polygons_of,
     progress_of,
     rasters_of,
+    run_on,
     target_of,
     workers_of,
 )
@@ -83,8 +84,7 @@ def _classify() -> Function:
                 constraints=constraints_of(values), crs=values.crs,
                 raster_target=target_of(values), explain=path_of(values.explain),
             )  # fmt: skip
-            workers = workers_of(values.scheduler, request.resources)
-            as_survey = bool(values.scheduler) or None
+            workers, as_survey = run_on(values, request.resources)
             return classify(
                 values.sources, values.output, request, progress, workers, path_of(values.vpc),
                 as_survey,
@@ -131,7 +131,7 @@ def _terrain() -> Function:
                 rest, rasters=rasters, area=area_of(values), constraints=constraints,
                 crs=values.crs, raster_target=target_of(values),
             )  # fmt: skip
-            workers = workers_of(values.scheduler, request.resources)
+            workers, _ = run_on(values, request.resources)
             return terrain(values.sources, request, progress, workers)
 
     area = arguments.area(
@@ -473,7 +473,7 @@ def _deliver() -> Function:
             corrections=corrections_of(values), area=area_of(values),
             constraints=constraints_of(values), raster_target=target_of(values),
         )  # fmt: skip
-        workers = workers_of(values.scheduler, request.resources)
+        workers, _ = run_on(values, request.resources)
         progress = progress_of(values.progress)
         return deliver(values.sources, values.output, request, progress, workers)
 
