@@ -1,15 +1,14 @@
-"""The commands that write no point cloud: `assess` and `compare-settings`."""
+"""The command that compares a classified file with a reference: `assess`."""
 
 from __future__ import annotations
 
 import argparse
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import Sequence
 
 from .command import DONE, Command
-from .options import add_crs, add_extent, add_inputs, add_json, add_parameters, chosen
+from .options import add_crs, add_json, add_parameters, chosen
 from .terminal import Terminal
 from .tools import command_of
 
@@ -47,35 +46,6 @@ def _assess(options: argparse.Namespace) -> int:
     return DONE
 
 
-def _add_compare_settings(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    from ..engine.memory import Resources
-    from ..tools.compare_settings.settings import TrialOptions
-
-    add_inputs(parser)
-    add_crs(parser)
-    parser.add_argument("page", metavar="PAGE", type=Path, help="the page to write (.html)")
-    add_extent(parser, "the window", "; without it, 250 x 250 m in the middle of the points")
-    add_json(parser, "the figures ")
-    add_parameters(
-        parser, TrialOptions, Resources, titles=("What is compared", "Threads and memory")
-    )
-
-
-def _compare_settings(options: argparse.Namespace) -> int:
-    from ..engine.memory import Resources
-    from ..tools.compare_settings import compare_settings
-    from ..tools.compare_settings.settings import TrialOptions
-
-    sets = chosen(options)
-    what, resources = TrialOptions.among(sets), Resources.among(sets)
-    with Terminal(options.verbose) as progress:
-        summary = compare_settings(
-            options.input, options.page, options.extent, what, resources, progress, options.crs
-        )
-    print(json.dumps(asdict(summary)) if options.json else "\n".join(summary.lines()))
-    return DONE
-
-
 COMMANDS = (
     command_of("info"),
     Command(
@@ -86,14 +56,5 @@ COMMANDS = (
         " (other accepted), total error and kappa, in percent.",
         _add_assess,
         _assess,
-    ),
-    Command(
-        "compare-settings",
-        "try methods and presets on a window, and show them side by side",
-        "Classifies a window of one or many files with each of the settings, and writes a page"
-        " that shows their terrain, a profile and where they differ. No point cloud is written. A"
-        " setting is a method with a preset, such as slope:town.",
-        _add_compare_settings,
-        _compare_settings,
     ),
 )

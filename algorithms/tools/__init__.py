@@ -40,6 +40,9 @@ FILE_TOOLS = {
     "check": Listed(
         "check.checking", "compare the ground with checkpoints, or with points that are held out"
     ),
+    "compare-settings": Listed(
+        "compare_settings", "try methods and presets on a window, and show them side by side"
+    ),
     "relief": Listed("relief", "make pictures of the relief of a terrain model"),
     "water": Listed("water.tool", "find lakes and rivers in classified points"),
 }

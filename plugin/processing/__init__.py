@@ -5,7 +5,6 @@ Those of tools are made of the declarations of `algorithms/tools/`.
 
 from .assess import AssessAlgorithm
 from .classify_tiles import ClassifyTilesAlgorithm
-from .compare_settings import CompareSettingsAlgorithm
 from .ground_filters import GROUND_FILTERS
 from .point_cloud_to_terrain import PointCloudToTerrainAlgorithm
 from .quality import QualityAlgorithm
@@ -16,7 +15,6 @@ ALGORITHMS = (
     *GROUND_FILTERS,
     ClassifyTilesAlgorithm,
     TerrainModelAlgorithm,
-    CompareSettingsAlgorithm,
     AssessAlgorithm,
     QualityAlgorithm,
 )

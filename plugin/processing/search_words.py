@@ -27,9 +27,6 @@ _WORDS = {
     },
     "classifytiles": (_CLOUD, _GROUND, _TERRAIN, _TILES),
     "terrainmodel": (_CLOUD, _TERRAIN, _CANOPY, _TIN, _RASTER),
-    "comparesettings": (
-        _CLOUD, _GROUND, _TERRAIN, mark("preview,try,test,preset,parameters,compare,profile"),
-    ),
     "quality": (
         _CLOUD, _TERRAIN,
         mark(

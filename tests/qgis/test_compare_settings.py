@@ -68,11 +68,11 @@ def test_qgis_process_needs_no_window(qgis_process, parameters, tmp_path):
 def test_the_order_of_the_parameters_is_that_of_the_dialog_only(
     registry, parameters, context, log, monkeypatch
 ):
-    kind = type(registry.algorithmById(ALGORITHM))
-    sets = kind().parameter_sets()
+    algorithm = registry.createAlgorithmById(ALGORITHM)
+    sets = algorithm.parameter_sets()
     assert len(sets) > 1
-    monkeypatch.setattr(kind, "parameter_sets", lambda self: sets[::-1])
-    results, done = kind().create().run(parameters, context, log)
+    monkeypatch.setattr(type(algorithm), "parameter_sets", lambda self: sets[::-1])
+    results, done = algorithm.create().run(parameters, context, log)
     assert done and Path(results["OUTPUT"]).is_file(), log.text
 
 

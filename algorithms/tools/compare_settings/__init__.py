@@ -1,20 +1,20 @@
-"""Compares settings on a window of a survey, on a page with pictures side by side."""
+"""Compare settings: classifies a window of a survey with several, and shows them on a page."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Iterable
+from typing import Any, Iterable, Sequence
 
 from ...core.errors import BareEarthError
-from ...core.files import replacing
 from ...core.points import Box
 from ...core.progress import SILENT, Progress
 from ...core.threads import may_use
 from ...engine.file_points import fits_in_memory
 from ...engine.memory import Resources
-from ...report.page import check_page
 from ...report.units import Units
+from ..declaration import CLOUD, CRS, GROUND, TERRAIN, FileTool, Input, Output
+from ..running import run
 from .page import comparison, figures_of
 from .profile import Profile, line_across, line_between
 from .settings import SETTINGS, USUAL_CONTEXT, TrialOptions
@@ -53,13 +53,26 @@ def compare_settings(
     crs: str | None = None,
 ) -> TrialSummary:
     """Classify a window of a survey with several settings, and write a page that compares them."""
-    paths, page = [Path(source) for source in sources], Path(page)
-    check_page(page, tuple(paths))
+    inputs = {"sources": [Path(source) for source in sources], "extent": extent, "crs": crs}
+    summary: TrialSummary = run(TOOL, inputs, {"page": page}, [options, resources], progress)
+    return summary
+
+
+def compare(
+    sources: Sequence[Path],
+    extent: Box | None,
+    crs: str | None,
+    page: Path,
+    options: TrialOptions = TrialOptions(),
+    resources: Resources = Resources(),
+    progress: Progress = SILENT,
+) -> TrialSummary:
+    """Classify the points in and round a window with several settings, and write the page."""
     settings, resources = [SETTINGS[name] for name in options.settings], resources.now()
     reach = max(setting.method.reach(setting.parameters) for setting in settings)
     context = min(reach, USUAL_CONTEXT) if options.context is None else options.context
     with may_use(resources.thread_count):
-        window = read_points(paths, extent, context, progress.part(0.0, 0.4), crs)
+        window = read_points(sources, extent, context, progress.part(0.0, 0.4), crs)
         if not fits_in_memory(window.count, resources):
             raise BareEarthError(
                 f"The window and what lies round it have {window.count:,} points, more than fit"
@@ -74,14 +87,12 @@ def compare_settings(
         ends, first = options.profile, outcomes[0]
         line = line_between(window, ends) if ends else line_across(window, outcomes)
         figures = [
-            figures_of(window, outcome, first, outcome.setting.commands(paths, crs))
+            figures_of(window, outcome, first, outcome.setting.commands(sources, crs))
             for outcome in outcomes
         ]
         notes, profile = _notes(window.units, context, reach), Profile(window, line, first)
-        html = comparison(paths, notes, window, outcomes, figures, profile)
-    with replacing(page) as temporary:
-        temporary.write_text(html, encoding="utf-8")
-    progress(1.0)
+        html = comparison(sources, notes, window, outcomes, figures, profile)
+    page.write_text(html, encoding="utf-8")
     told = [one._asdict() for one in figures]
     counts = window.count, figures[0].point_count
     return TrialSummary(str(page), *counts, window.box, context, told)
@@ -101,3 +112,52 @@ def _notes(units: Units, context: float, reach: float) -> list[str]:
             " context to be sure."
         )
     return notes
+
+
+TOOL = FileTool(
+    work=compare,
+    sets=(TrialOptions, Resources),
+    titles=("What is compared", "Threads and memory"),
+    inputs=(
+        Input("sources", "clouds", label="Point cloud", named="INPUT"),
+        Input(
+            "extent",
+            "extent",
+            help="the window",
+            more="; without it, 250 x 250 m in the middle of the points",
+            label="Window",
+            field_help="The window to classify, such as the map's extent: at most 1,000 m wide, and"
+            " quick up to about 250 x 250 m. It is transformed to the CRS of the points. Empty: 250"
+            " x 250 m in the middle of the points; the log says where.",
+            optional=True,
+        ),
+        CRS,
+    ),
+    outputs=(
+        Output(
+            "page",
+            "page",
+            help="the page to write (.html)",
+            label="Comparison of settings",
+            field_help="A web page, which the Results Viewer opens.",
+            named="OUTPUT",
+            is_main=True,
+        ),
+    ),
+    json="the figures",
+    command="compare-settings",
+    command_about="Classifies a window of one or many files with each of the settings, and writes a"
+    " page that shows their terrain, a profile and where they differ. No point cloud is written. A"
+    " setting is a method with a preset, such as slope:town.",
+    identifier="comparesettings",
+    title="Compare settings on a window",
+    section="Quality",
+    summary="Tries methods and presets on a part of a point cloud, and shows them side by side.",
+    about="Classifies the points in a window with each of the settings, and makes a web page, which"
+    " opens from the Results Viewer. It shows the terrain of each setting, a profile, the share of"
+    " ground, where the settings differ, and how to run each of them on all points. No point cloud"
+    " is written. Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is"
+    " read as a whole.",
+    page="compare-settings",
+    words=(CLOUD, GROUND, TERRAIN, "preview,try,test,preset,parameters,compare,profile"),
+)
