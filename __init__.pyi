@@ -34,10 +34,6 @@ def above_ground(
     *,
     extent: Sequence[float] | None = None,
     boundary: _Path | Sequence[Any] | None = None,
-    crs: str | None = None,
-    vpc: _Path | None = None,
-    scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     above_ground: Literal["asprs", "ign", "own"] = 'asprs',
     medium_height: float = 0.5,
     high_height: float = 2.0,
@@ -56,8 +52,15 @@ def above_ground(
     overview: bool = False,
     threads: int | None = None,
     memory: float | None = None,
+    crs: str | None = None,
+    scheduler: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> AboveGroundSummary | Any:
-    """Write classified files with the points above the ground classified too.
+    """Classify vegetation, buildings and bridges.
+
+    Classifies the points above the ground of a classified file, or of many as one survey: low,
+    medium and high vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and
+    high noise (18). Only points of class 0 and 1 change.
 
     Parameters
     ----------
@@ -73,18 +76,6 @@ def above_ground(
         Change only points in these polygons (GeoJSON, WKT, or with pyogrio GeoPackage,
         shapefile and others; if the file states its CRS, it is transformed to that of the
         points); with an extent only what lies in both.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
-    vpc : path, optional
-        With many files: the virtual point cloud that lists the results, by default in OUTPUT.
-    scheduler : str, optional
-        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
-        do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     above_ground : {"asprs", "ign", "own"}, default "asprs"
         What is no building, no bridge and no noise becomes low (3), medium (4) or high (5)
         vegetation by its height above ground. The LAS specification has these classes, but no
@@ -144,6 +135,16 @@ def above_ground(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
+        written point clouds keep the records that the files have.
+    scheduler : str, optional
+        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
+        do the work, or the word processes; without it, threads of this process do it.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -164,11 +165,11 @@ def assess(
     *,
     report: _Path | None = None,
     error_map: _Path | None = None,
-    crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     ground_classes: Sequence[int] = (2,),
     ignored_classes: Sequence[int] | None = None,
     map_cell_size: float = 1.0,
+    crs: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> Assessment:
     """Compare the ground of a classified file with a reference that holds the same points, or a
     part of them.
@@ -183,13 +184,6 @@ def assess(
         Write a report (.html).
     error_map : path, optional
         Write the share of wrong points in each cell, 0 to 1 (.tif).
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     ground_classes : sequence of int, default (2,)
         Classes of the reference that are ground. Add 9 if water counts as ground. From 0 to
         255.
@@ -199,6 +193,12 @@ def assess(
     map_cell_size : float, default 1.0 m
         Side of a cell of the error map. The map in the report has its own cell size. From 0.01
         to 1000 m.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -225,8 +225,6 @@ def check(
     report: _Path | None = None,
     table: _Path | None = None,
     residuals: _Path | None = None,
-    crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     accuracy_class: float | None = None,
     survey_error: float = 0.0,
     max_edge: float = 20.0,
@@ -234,6 +232,8 @@ def check(
     hold_out: float | None = None,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
+    crs: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> Check:
     """Compare the ground, and a terrain model, with checkpoints, or with points that are held out.
 
@@ -268,13 +268,6 @@ def check(
     residuals : path, optional
         Write the checkpoints and their errors as points (.gpkg, .geojson, .shp, .fgb); all but
         .geojson need pyogrio.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     accuracy_class : float, optional
         The vertical accuracy class that the data are to meet, as RMSE: 0.1 for the 10 cm class.
         It is tested by the checkpoints on land without vegetation. None: the figures are only
@@ -301,6 +294,12 @@ def check(
         Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in
         older files. If strips do not fit together, leave them out of ground and surface. "use":
         Use as others. "leave-out": Leave out.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -319,7 +318,6 @@ def classify(
     sources: _Path | Iterable[_Path],
     output: _Path,
     *,
-    crs: str | None = None,
     dtm: _Path | None = None,
     dsm: _Path | None = None,
     chm: _Path | None = None,
@@ -345,9 +343,6 @@ def classify(
     boundary: _Path | Sequence[Any] | None = None,
     corrections: _Path | Sequence[Any] | None = None,
     explain: _Path | None = None,
-    vpc: _Path | None = None,
-    scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     method: Literal["tin-densification", "grid-minimum", "slope"] = 'tin-densification',
     preset: Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "lidar360"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "paper"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "whitebox"] | None = None,
     max_building_size: float | None = None,
@@ -421,6 +416,10 @@ def classify(
     raster_per_file: bool = False,
     threads: int | None = None,
     memory: float | None = None,
+    crs: str | None = None,
+    vpc: _Path | None = None,
+    scheduler: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> Summary | Any:
     """Classify the ground points of a file, or of many files as one survey, and make products of
     them.
@@ -432,10 +431,6 @@ def classify(
         together are one survey.
     output : path
         The file to write (.las, .laz or .copc.laz), or a folder if there are many inputs.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
     dtm : path, optional
         GeoTIFF (.tif). Heights of the bare ground.
     dsm : path, optional
@@ -513,14 +508,6 @@ def classify(
     explain : path, optional
         Of one file: write a GeoTIFF of the rule that decided each cell; its band lists the
         rules.
-    vpc : path, optional
-        With many files: the virtual point cloud that lists the results, by default in OUTPUT.
-    scheduler : str, optional
-        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
-        do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     method : {"tin-densification", "grid-minimum", "slope"}, default "tin-densification"
         The ground filter. TIN densification is the most accurate. "tin-densification": TIN
         densification. "grid-minimum": Grid minimum. "slope": Slope filter.
@@ -826,6 +813,18 @@ def classify(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
+        written point clouds keep the records that the files have.
+    vpc : path, optional
+        With many files: the virtual point cloud that lists the results, by default in OUTPUT.
+    scheduler : str, optional
+        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
+        do the work, or the word processes; without it, threads of this process do it.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -845,13 +844,13 @@ def compare_settings(
     page: _Path,
     *,
     extent: Sequence[float] | None = None,
-    crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     settings: Sequence[Literal["tin-densification:automatic", "tin-densification:flat", "tin-densification:hilly", "tin-densification:steep", "tin-densification:town", "tin-densification:city", "tin-densification:site", "tin-densification:lidar360", "grid-minimum:automatic", "grid-minimum:flat", "grid-minimum:hilly", "grid-minimum:steep", "grid-minimum:town", "grid-minimum:city", "grid-minimum:site", "grid-minimum:paper", "slope:automatic", "slope:flat", "slope:hilly", "slope:steep", "slope:town", "slope:city", "slope:site", "slope:whitebox"]] = ('tin-densification:automatic', 'grid-minimum:automatic', 'slope:automatic'),
     context: float | None = None,
     profile: Sequence[float] | None = None,
     threads: int | None = None,
     memory: float | None = None,
+    crs: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> TrialSummary:
     """Try methods and presets on a window, and show them side by side on a page. No point cloud is
     written.
@@ -866,32 +865,25 @@ def compare_settings(
     extent : four floats, optional
         Xmin, ymin, xmax, ymax: the window, in the CRS of the points; without it, 250 x 250 m in
         the middle of the points.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     settings : sequence of {"tin-densification:automatic", "tin-densification:flat", "tin-densification:hilly", "tin-densification:steep", "tin-densification:town", "tin-densification:city", "tin-densification:site", "tin-densification:lidar360", "grid-minimum:automatic", "grid-minimum:flat", "grid-minimum:hilly", "grid-minimum:steep", "grid-minimum:town", "grid-minimum:city", "grid-minimum:site", "grid-minimum:paper", "slope:automatic", "slope:flat", "slope:hilly", "slope:steep", "slope:town", "slope:city", "slope:site", "slope:whitebox"}, default ('tin-densification:automatic', 'grid-minimum:automatic', 'slope:automatic')
-        Methods, each with a preset. All others are compared with the first one. "tin-
-        densification:automatic": TIN densification, Automatic. "tin-densification:flat": TIN
-        densification, Flat land, fields. "tin-densification:hilly": TIN densification, Hilly
-        land, forest. "tin-densification:steep": TIN densification, Steep or rugged terrain.
-        "tin-densification:town": TIN densification, Town. "tin-densification:city": TIN
-        densification, City, large halls. "tin-densification:site": TIN densification, Drone
+        Methods, each with a preset. All others are compared with the first one.
+        "tin-densification:automatic": TIN densification, Automatic. "tin-densification:flat":
+        TIN densification, Flat land, fields. "tin-densification:hilly": TIN densification,
+        Hilly land, forest. "tin-densification:steep": TIN densification, Steep or rugged
+        terrain. "tin-densification:town": TIN densification, Town. "tin-densification:city":
+        TIN densification, City, large halls. "tin-densification:site": TIN densification, Drone
         survey, construction or mining site. "tin-densification:lidar360": TIN densification,
-        LiDAR360's values. "grid-minimum:automatic": Grid minimum, Automatic. "grid-
-        minimum:flat": Grid minimum, Flat land, fields. "grid-minimum:hilly": Grid minimum,
-        Hilly land, forest. "grid-minimum:steep": Grid minimum, Steep or rugged terrain. "grid-
-        minimum:town": Grid minimum, Town. "grid-minimum:city": Grid minimum, City, large halls.
-        "grid-minimum:site": Grid minimum, Drone survey, construction or mining site. "grid-
-        minimum:paper": Grid minimum, The paper's values. "slope:automatic": Slope filter,
-        Automatic (many scales, follows the terrain). "slope:flat": Slope filter, Flat land,
-        fields. "slope:hilly": Slope filter, Hilly land, forest. "slope:steep": Slope filter,
-        Steep or rugged terrain. "slope:town": Slope filter, Town. "slope:city": Slope filter,
-        City, large halls. "slope:site": Slope filter, Drone survey, construction or mining
-        site. "slope:whitebox": Slope filter, Whitebox (one scale, 2 m, 45 deg, 1 m).
+        LiDAR360's values. "grid-minimum:automatic": Grid minimum, Automatic.
+        "grid-minimum:flat": Grid minimum, Flat land, fields. "grid-minimum:hilly": Grid
+        minimum, Hilly land, forest. "grid-minimum:steep": Grid minimum, Steep or rugged
+        terrain. "grid-minimum:town": Grid minimum, Town. "grid-minimum:city": Grid minimum,
+        City, large halls. "grid-minimum:site": Grid minimum, Drone survey, construction or
+        mining site. "grid-minimum:paper": Grid minimum, The paper's values. "slope:automatic":
+        Slope filter, Automatic (many scales, follows the terrain). "slope:flat": Slope filter,
+        Flat land, fields. "slope:hilly": Slope filter, Hilly land, forest. "slope:steep": Slope
+        filter, Steep or rugged terrain. "slope:town": Slope filter, Town. "slope:city": Slope
+        filter, City, large halls. "slope:site": Slope filter, Drone survey, construction or
+        mining site. "slope:whitebox": Slope filter, Whitebox (one scale, 2 m, 45 deg, 1 m).
     context : float, optional
         Points up to this distance outside the window are read too, but not shown. A larger
         value is slower, and gives classes closer to those of the whole file near the edges of
@@ -908,6 +900,12 @@ def compare_settings(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -926,12 +924,15 @@ def contours(
     source: _Path,
     output: _Path,
     *,
-    progress: Progress | Callable[[float], object] | None = None,
     contour_interval: float | None = None,
+    interval: float | None = None,
     contour_smoothing: float = 3.0,
     contour_min_length: float = 10.0,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> Interval:
-    """Draw contour lines of an elevation raster, of its heights smoothed for the lines only.
+    """Draw contour lines of a terrain model.
+
+    Draws contour lines of an elevation raster, of its heights smoothed for the lines only.
 
     Parameters
     ----------
@@ -939,13 +940,12 @@ def contours(
         A raster that GDAL reads.
     output : path
         The lines to write (.gpkg, .geojson, .shp, .fgb); all but .geojson need pyogrio.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     contour_interval : float, optional
         The height between contour lines, in the vertical unit of the CRS: metres, or feet if
         the heights are feet. None: 1, 2 or 5 times a power of ten, so that there are about 20
         lines. Every fifth line is an index contour. From 0.001 to 10000 m or ft.
+    interval : optional
+        The same as `contour_interval`, of one value.
     contour_smoothing : float, default 3.0 m
         For the lines, each height is averaged with its surroundings up to about this distance,
         so that they do not show noise. The terrain model does not change. 0: as the terrain
@@ -953,6 +953,9 @@ def contours(
     contour_min_length : float, default 10.0 m
         Closed lines that are shorter are left out: they show single plants and noise. From 0 to
         10000 m.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -984,9 +987,6 @@ def deliver(
     no_ground: _Path | Sequence[Any] | None = None,
     like: _Path | None = None,
     raster_extent: Sequence[float] | None = None,
-    crs: str | None = None,
-    scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     method: Literal["tin-densification", "grid-minimum", "slope"] = 'tin-densification',
     preset: Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "lidar360"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "paper"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "whitebox"] | None = None,
     max_building_size: float | None = None,
@@ -1054,6 +1054,9 @@ def deliver(
     overview: bool = False,
     threads: int | None = None,
     memory: float | None = None,
+    crs: str | None = None,
+    scheduler: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> DeliverySummary:
     """Classify raw points and make everything that a job hands over, in one folder.
 
@@ -1120,16 +1123,6 @@ def deliver(
     raster_extent : four floats, optional
         Xmin, ymin, xmax, ymax: the rasters cover this rectangle in the CRS of the points,
         widened to whole cells, which stay where they are; all points are used.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
-    scheduler : str, optional
-        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
-        do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     method : {"tin-densification", "grid-minimum", "slope"}, default "tin-densification"
         The ground filter. TIN densification is the most accurate. "tin-densification": TIN
         densification. "grid-minimum": Grid minimum. "slope": Slope filter.
@@ -1419,6 +1412,16 @@ def deliver(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
+        written point clouds keep the records that the files have.
+    scheduler : str, optional
+        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
+        do the work, or the word processes; without it, threads of this process do it.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -1438,10 +1441,6 @@ def heights(
     output: _Path,
     *,
     dtm: _Path | None = None,
-    crs: str | None = None,
-    vpc: _Path | None = None,
-    scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     output_as: Literal["dimension", "z"] = 'dimension',
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
@@ -1451,8 +1450,15 @@ def heights(
     overview: bool = False,
     threads: int | None = None,
     memory: float | None = None,
+    crs: str | None = None,
+    scheduler: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> HeightSummary | Any:
-    """Write classified files with the height of every point above the ground.
+    """Add the height above ground of every point.
+
+    Adds to every point its height above the TIN of the ground points, in the vertical unit of
+    the CRS. The input is a classified file, or many as one survey. With --dtm, heights are
+    above a raster.
 
     Parameters
     ----------
@@ -1464,18 +1470,6 @@ def heights(
     dtm : path, optional
         Measure the heights above this raster, in the CRS of the points, and not above the
         ground points; the points need no classes.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
-    vpc : path, optional
-        With many files: the virtual point cloud that lists the results, by default in OUTPUT.
-    scheduler : str, optional
-        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
-        do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     output_as : {"dimension", "z"}, default "dimension"
         An extra dimension leaves everything else as it is. If the height replaces z, programs
         that cannot show extra dimensions show it too, but the terrain is flat. "dimension":
@@ -1507,6 +1501,16 @@ def heights(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
+        written point clouds keep the records that the files have.
+    scheduler : str, optional
+        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
+        do the work, or the word processes; without it, threads of this process do it.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -1527,7 +1531,9 @@ def info(
     crs: str | None = None,
     progress: Progress | Callable[[float], object] | None = None,
 ) -> Description:
-    """Describe a point cloud file.
+    """Describe a file.
+
+    Describes a point cloud file.
 
     Parameters
     ----------
@@ -1535,8 +1541,7 @@ def info(
         A .las, .laz or .copc.laz file.
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
     progress : Progress or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
@@ -1558,10 +1563,6 @@ def key_points(
     sources: _Path | Iterable[_Path],
     output: _Path,
     *,
-    crs: str | None = None,
-    vpc: _Path | None = None,
-    scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     tolerance_above: float = 0.15,
     tolerance_below: float = 0.15,
     grid_size: float = 20.0,
@@ -1575,8 +1576,15 @@ def key_points(
     overview: bool = False,
     threads: int | None = None,
     memory: float | None = None,
+    crs: str | None = None,
+    scheduler: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> KeyPointSummary | Any:
-    """Write classified files with their model key points marked.
+    """Mark the ground points that a terrain model needs.
+
+    Marks the model key points of a classified file, or of many as one survey: the few ground
+    points that a terrain model needs. No other ground point lies farther from their TIN than
+    the tolerances.
 
     Parameters
     ----------
@@ -1585,18 +1593,6 @@ def key_points(
         them together are one survey.
     output : path
         The file to write (.las, .laz or .copc.laz), or a folder if there are many inputs.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
-    vpc : path, optional
-        With many files: the virtual point cloud that lists the results, by default in OUTPUT.
-    scheduler : str, optional
-        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
-        do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     tolerance_above : float, default 0.15 m
         How far a ground point may lie above the TIN of the key points. Choose about the
         accuracy of the heights, or half the contour interval that you want. From 0 to 100 m.
@@ -1640,6 +1636,16 @@ def key_points(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
+        written point clouds keep the records that the files have.
+    scheduler : str, optional
+        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
+        do the work, or the word processes; without it, threads of this process do it.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -1659,13 +1665,13 @@ def quality(
     *,
     page: _Path | None = None,
     folder: _Path | None = None,
-    crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     specification: Literal["none", "lbs-ql1", "lbs-ql2", "linz", "ign"] = 'none',
     cell_size: float = 1.0,
     void_distance: float = 3.0,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
+    crs: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> Quality:
     """Measure density, voids and overlap of a classified survey, and compare it with a
     specification.
@@ -1680,18 +1686,11 @@ def quality(
     folder : path, optional
         Write rasters (.tif) into this folder, which is made if need be: densities, voids, low
         vegetation, overlap of strips, differences between strips, maximum surface height.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     specification : {"none", "lbs-ql1", "lbs-ql2", "linz", "ign"}, default "none"
-        The specification with which the survey is compared. "none": No specification. "lbs-
-        ql1": USGS Lidar Base Specification, QL1. "lbs-ql2": USGS Lidar Base Specification, QL2.
-        "linz": LINZ, New Zealand National Aerial LiDAR Base Specification (PGF version). "ign":
-        IGN LiDAR HD.
+        The specification with which the survey is compared. "none": No specification.
+        "lbs-ql1": USGS Lidar Base Specification, QL1. "lbs-ql2": USGS Lidar Base Specification,
+        QL2. "linz": LINZ, New Zealand National Aerial LiDAR Base Specification (PGF version).
+        "ign": IGN LiDAR HD.
     cell_size : float, default 1.0 m
         Side of the cells of densities and voids. Strips and maximum heights have cells of twice
         this size. From 0.05 to 1000 m.
@@ -1705,6 +1704,12 @@ def quality(
         Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in
         older files. If strips do not fit together, leave them out of ground and surface. "use":
         Use as others. "leave-out": Leave out.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -1723,27 +1728,35 @@ def relief(
     source: _Path,
     output: _Path,
     *,
-    kind: Literal["hillshade", "local-relief", "multi-scale-relief", "slope", "sky-view", "openness", "negative-openness", "local-dominance", "vat", "red-relief"] = 'local-relief',
-    progress: Progress | Callable[[float], object] | None = None,
+    kinds: Sequence[Literal["hillshade", "local-relief", "multi-scale-relief", "slope", "sky-view", "openness", "negative-openness", "local-dominance", "vat", "red-relief"]] = ('local-relief',),
+    kind: Literal["hillshade", "local-relief", "multi-scale-relief", "slope", "sky-view", "openness", "negative-openness", "local-dominance", "vat", "red-relief"] | None = None,
     relief_radius: float = 10.0,
     relief_smoothing: Literal["automatic", "none"] = 'automatic',
     hillshade_light: Literal["one", "multidirectional"] = 'multidirectional',
     hillshade_azimuth: float = 315.0,
     hillshade_altitude: float = 45.0,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> None:
-    """Make a raster that shows the relief of an elevation raster.
+    """Make pictures of the relief of a terrain model.
+
+    Makes a raster (GeoTIFF) that shows the relief of an elevation raster: local relief,
+    sky-view factor, openness, local dominance, slope, hillshade, or a picture of several of
+    them (vat, red-relief). They show mounds, walls, ditches and old paths.
 
     Parameters
     ----------
     source : path
         A raster that GDAL reads.
     output : path
-        A GeoTIFF (.tif) to write.
-    kind : {"hillshade", "local-relief", "multi-scale-relief", "slope", "sky-view", "openness", "negative-openness", "local-dominance", "vat", "red-relief"}, default "local-relief"
-        What to make.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
+        A GeoTIFF (.tif) to write, or a folder if there are several kinds.
+    kinds : sequence of {"hillshade", "local-relief", "multi-scale-relief", "slope", "sky-view", "openness", "negative-openness", "local-dominance", "vat", "red-relief"}, default ('local-relief',)
+        What to make, a raster for each. Archaeological topography (VAT) shows the most in one
+        picture. "hillshade": Hillshade. "local-relief": Local relief. "multi-scale-relief":
+        Multi-scale relief. "slope": Slope. "sky-view": Sky-view factor. "openness": Positive
+        openness. "negative-openness": Negative openness. "local-dominance": Local dominance.
+        "vat": Archaeological topography (VAT). "red-relief": Red relief image map.
+    kind : optional
+        The same as `kinds`, of one value.
     relief_radius : float, default 10.0 m
         Local relief, openness, sky view and the like compare a place with its surroundings up
         to this distance. Choose about the width of the features that you want to see; larger
@@ -1761,6 +1774,9 @@ def relief(
         directions. From 0 to 360 deg.
     hillshade_altitude : float, default 45.0 deg
         Angle of the light above the horizon. From 0 to 90 deg.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Raises
     ------
@@ -1774,13 +1790,15 @@ def remove_off_terrain_objects(
     source: _Path,
     output: _Path,
     *,
-    progress: Progress | Callable[[float], object] | None = None,
     max_object_size: float = 40.0,
     slope_threshold: float = 15.0,
     band: int = 1,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> Removal:
-    """Remove buildings, trees and other steep-sided objects from an elevation raster, and fill the
-    gaps smoothly.
+    """Remove buildings and trees from an elevation raster.
+
+    Removes buildings, trees and other steep-sided objects from an elevation raster, and fills
+    the gaps smoothly.
 
     Parameters
     ----------
@@ -1788,9 +1806,6 @@ def remove_off_terrain_objects(
         A raster that GDAL reads.
     output : path
         A GeoTIFF (.tif) to write.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     max_object_size : float, default 40.0 m
         Shorter side of the largest building. A larger value takes longer, and may remove steep
         hilltops as objects. From 0.1 to 1000 m.
@@ -1799,6 +1814,9 @@ def remove_off_terrain_objects(
         is a hill. The slopes of the terrain below do not count. From 0.1 to 88 deg.
     band : int, default 1
         Number of the raster's band that holds the heights. From 1 to 65535.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -1816,7 +1834,6 @@ def remove_off_terrain_objects(
 def terrain(
     sources: _Path | Iterable[_Path],
     *,
-    crs: str | None = None,
     dtm: _Path | None = None,
     dsm: _Path | None = None,
     chm: _Path | None = None,
@@ -1840,8 +1857,6 @@ def terrain(
     water: _Path | Sequence[Any] | None = None,
     rivers: _Path | Sequence[Any] | None = None,
     no_ground: _Path | Sequence[Any] | None = None,
-    scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     dtm_cell_size: float = 1.0,
@@ -1863,6 +1878,9 @@ def terrain(
     raster_per_file: bool = False,
     threads: int | None = None,
     memory: float | None = None,
+    crs: str | None = None,
+    scheduler: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> RasterSize:
     """Make rasters of the terrain and of what stands on it, and contour lines, of classified
     points; all files together are one survey.
@@ -1872,10 +1890,6 @@ def terrain(
     sources : path or iterable of paths
         Classified files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of
         them together are one survey.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
     dtm : path, optional
         GeoTIFF (.tif). Heights of the bare ground.
     dsm : path, optional
@@ -1946,12 +1960,6 @@ def terrain(
         Polygons in which the terrain uses no ground points, such as bridges and roofs (GeoJSON,
         WKT, or with pyogrio GeoPackage, shapefile and others; if the file states its CRS, it is
         transformed to that of the points).
-    scheduler : str, optional
-        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
-        do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     ground_classes : sequence of int, default (2,)
         Classes of the points that are ground. Add 8 if model key points have that class, 10 and
         11 for rails and roads that lie on the ground, and 9 if water counts as ground. Withheld
@@ -2028,6 +2036,15 @@ def terrain(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    scheduler : str, optional
+        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
+        do the work, or the word processes; without it, threads of this process do it.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -2047,15 +2064,19 @@ def water(
     output: _Path,
     *,
     breaklines_out: _Path | None = None,
-    crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     min_area: float = 8000.0,
     min_width: float = 30.0,
     water_cell: float | None = None,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
+    crs: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> WaterSummary:
     """Find lakes and rivers in classified points.
+
+    Finds water where hardly any last return is, and the ground along its shore is level or
+    falls steadily: polygons with level, spread of the shore and a grade of certainty, and
+    breaklines with heights.
 
     Parameters
     ----------
@@ -2068,13 +2089,6 @@ def water(
     breaklines_out : path, optional
         Write shores, islands and the middles of rivers as lines with heights (.gpkg, .geojson,
         .shp, .fgb); all but .geojson need pyogrio.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     min_area : float, default 8000.0 m2
         Smaller water is left out. The Lidar Base Specification asks for lakes of 8,000 m² (2
         acres) and more. From 100 to 900000 m2.
@@ -2093,6 +2107,12 @@ def water(
         Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in
         older files. If strips do not fit together, leave them out of ground and surface. "use":
         Use as others. "leave-out": Leave out.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------
@@ -2112,10 +2132,6 @@ def water_classes(
     output: _Path,
     *,
     water: _Path | Sequence[Any],
-    crs: str | None = None,
-    vpc: _Path | None = None,
-    scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
     shore_distance: float = 0.7,
     water_class: int = 9,
     ignored_class: int = 20,
@@ -2127,8 +2143,15 @@ def water_classes(
     overview: bool = False,
     threads: int | None = None,
     memory: float | None = None,
+    crs: str | None = None,
+    scheduler: str | None = None,
+    progress: Progress | Callable[[float], object] | None = None,
 ) -> WaterClassSummary | Any:
-    """Write classified files with classes for ground points in water and beside its shore.
+    """Give classes to ground points in water and beside its shore.
+
+    Gives class 9 (water) to the ground points of a classified file, or of many as one survey,
+    that lie in polygons of water, and class 20 (ignored ground) to those beside the shore, as
+    the Lidar Base Specification asks for. Nothing else changes.
 
     Parameters
     ----------
@@ -2141,18 +2164,6 @@ def water_classes(
         Polygons of water (GeoJSON, WKT, or with pyogrio GeoPackage, shapefile and others; if
         the file states its CRS, it is transformed to that of the points); with the word
         automatic, the water is found first, as the command 'water' does.
-    crs : str, optional
-        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
-        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but
-        written point clouds keep the records that the files have.
-    vpc : path, optional
-        With many files: the virtual point cloud that lists the results, by default in OUTPUT.
-    scheduler : str, optional
-        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
-        do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
-        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
-        `Progress` receives messages, too.
     shore_distance : float, default 0.7 m
         Ground points outside of the water, up to this far from its shore, become ignored
         ground: there the breakline alone decides the terrain. The Lidar Base Specification asks
@@ -2190,6 +2201,16 @@ def water_classes(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
+    crs : str, optional
+        The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
+        EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
+        written point clouds keep the records that the files have.
+    scheduler : str, optional
+        With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
+        do the work, or the word processes; without it, threads of this process do it.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
 
     Returns
     -------

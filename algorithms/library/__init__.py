@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from ..tools import POINT_TOOLS
+from ..tools import FILE_TOOLS, POINT_TOOLS
 
-# The functions that are not of a tool for points.
-FUNCTIONS = (
-    "assess", "check", "classify", "compare_settings", "contours", "deliver", "info", "quality",
-    "relief", "remove_off_terrain_objects", "terrain", "water",
+# The functions that are not those of a tool.
+_OTHERS = (
+    "assess", "check", "classify", "compare_settings", "deliver", "quality", "terrain",
 )  # fmt: skip
+
+
+def tool_commands() -> dict[str, str]:
+    """Return the commands of tools, by the names of their functions."""
+    commands = {command.replace("-", "_"): command for command in FILE_TOOLS}
+    return {**commands, **{listed.file: command for command, listed in POINT_TOOLS.items()}}
 
 
 def names() -> list[str]:
     """Return the names of all functions, without importing what they do."""
-    return sorted([*FUNCTIONS, *(each.file for each in POINT_TOOLS.values())])
+    return sorted({*_OTHERS, *tool_commands()})

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 from ..survey.feature_files import FORMATS as LINE_FORMATS
 from ..survey.vector_files import FORMATS
 from ..tools.check.reading import FORMATS as POINT_FORMATS
-from ..tools.declaration import Input
 from ..tools.rasters.rows import RASTERS as _RASTERS
 
 REQUIRED = inspect.Parameter.empty
@@ -80,8 +79,10 @@ CRS = Argument.of(
     "crs",
     "text",
     "the CRS of the points, for files that state none or a wrong one: an EPSG code, such as"
-    " EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state, but"
-    " written point clouds keep the records that the files have",
+    " EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state",
+)
+CRS_OF_OUTPUT = replace(
+    CRS, help=f"{CRS.help}; written point clouds keep the records that the files have"
 )
 PROGRESS = Argument.of(
     "progress",
@@ -192,12 +193,3 @@ def area(what: str, more: str = "") -> tuple[Argument, Argument]:
             f"{what} these polygons ({FORMATS}); with an extent only what lies in both",
         ),
     )
-
-
-def arguments_of(declared: Input) -> tuple[Argument, ...]:
-    """Return the arguments for a further input of a tool."""
-    if declared.kind == "area":
-        return area(declared.help, declared.more)
-    kind = "polygons" if declared.kind == "polygons" else "path"
-    default = REQUIRED if declared.kind == "polygons" else None
-    return (Argument.of(declared.name, kind, declared.help.format(formats=FORMATS), default),)

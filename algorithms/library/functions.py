@@ -6,9 +6,9 @@ import difflib
 import inspect
 import re
 import textwrap
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import SimpleNamespace
-from typing import Any, Callable, Collection, Iterable
+from typing import Any, Callable, Collection, Iterable, Mapping
 
 from ..core.parameters import Declaration, ParameterSet
 from ..filters import METHODS
@@ -17,6 +17,8 @@ from .arguments import REQUIRED, Argument, Kind
 
 _WIDTH = 92
 _OPTION = re.compile(r"--([a-z-]+)")  # in texts of the command line
+# Arguments that stand behind the parameters.
+_LAST = ("crs", "vpc", "scheduler", "progress")
 _TYPES = {"number": "float", "integer": "int", "boolean": "bool"}
 _RAISES = """
 Raises
@@ -39,8 +41,8 @@ class Described:
     @property
     def section(self) -> str:
         """The lines of the documentation."""
-        text = textwrap.fill(self.help, _WIDTH - 4, break_long_words=False)
-        return f"{self.parameter.name} : {self.words}\n{textwrap.indent(text, '    ')}"
+        text = _filled(self.help, "    ")
+        return f"{self.parameter.name} : {self.words}\n{text}"
 
 
 @dataclass(frozen=True)
@@ -58,22 +60,31 @@ class Function:
     result: type | None  # class of what it returns
     is_survey_if_many: bool = False  # whether it returns a `SurveySummary` of many files
     has_method: bool = False  # whether it takes the parameters of a ground filter
+    # Further names of parameters, which take one value.
+    flags: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def parameters(self) -> list[Described]:
         """The parameters in order."""
+        first = [each for each in self.keywords if each.name not in _LAST]
+        last = [each for each in self.keywords if each.name in _LAST]
         found = [_of_argument(each, is_keyword=False) for each in self.positional]
-        found += map(_of_argument, self.keywords)
+        found += map(_of_argument, first)
         if self.has_method:
             found += [_of_declaration(TileMethod.declarations()[0]), *_of_methods()]
-        found += [_of_declaration(each) for some in self.sets for each in some.declarations()]
-        return found
+        for declared in (each for some in self.sets for each in some.declarations()):
+            found.append(_of_declaration(declared))
+            if declared.name in self.flags:
+                found.append(_of_flag(declared, self.flags[declared.name]))
+        return [*found, *map(_of_argument, last)]
 
     @property
     def documentation(self) -> str:
         """The documentation as numpydoc has it."""
         sections = "\n".join(each.section for each in self.parameters)
-        about = "\n\n".join(textwrap.fill(each, _WIDTH) for each in self.about.split("\n"))
+        about = "\n\n".join(
+            textwrap.fill(each, _WIDTH, break_on_hyphens=False) for each in self.about.split("\n")
+        )
         returns = ""
         if self.result is not None:
             first = (self.result.__doc__ or "").partition("\n")[0]
@@ -111,8 +122,11 @@ class Function:
                 chosen(**{each: values[each] for each in names if values[each] is not None})
             )
         for declared in self.sets:
-            names = {each.name for each in declared.declarations()}
-            found.append(declared(**{each: values[each] for each in names}))
+            given = {each.name: values[each.name] for each in declared.declarations()}
+            for name, flag in self.flags.items():
+                if name in given and values[flag] is not None:
+                    given[name] = values[flag]
+            found.append(declared(**given))
         return found
 
     def made(self) -> Callable[..., Any]:
@@ -137,6 +151,13 @@ class Function:
         function.__doc__ = self.documentation
         function.__signature__ = signature  # type: ignore[attr-defined]
         return function
+
+
+def _filled(text: str, indent: str = "") -> str:
+    """Return a paragraph in lines that terminals can show."""
+    return textwrap.fill(
+        text, _WIDTH, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False
+    )
 
 
 def _suggestion(name: str, names: Iterable[str]) -> str:
@@ -174,6 +195,15 @@ def _of_declaration(declared: Declaration) -> Described:
     keyword = inspect.Parameter.KEYWORD_ONLY
     parameter = inspect.Parameter(declared.name, keyword, default=default, annotation=kind.type)
     return Described(parameter, words, text)
+
+
+def _of_flag(declared: Declaration, flag: str) -> Described:
+    """Return a further name of a parameter, which takes one value."""
+    kind = re.sub(r"^Sequence\[(.*)\]$", r"\1", _kind_of(declared).type)
+    annotation = kind if kind.endswith("None") else f"{kind} | None"
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    parameter = inspect.Parameter(flag, keyword, default=None, annotation=annotation)
+    return Described(parameter, "optional", f"The same as `{declared.name}`, of one value.")
 
 
 def _kind_of(declared: Declaration) -> Kind:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,11 +13,9 @@ from ..engine.memory import Resources
 from ..runs.options import RasterOutput, TileInput, TileOutput
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
-from ..tools import POINT_TOOLS, point_tool
 from ..tools.contours import Contours
-from ..tools.declaration import Input
 from ..tools.rasters.parameters import SurfaceModel, TerrainModel
-from . import arguments
+from . import arguments, tool_commands
 from .arguments import KINDS, REQUIRED, Argument, path
 from .functions import Function
 from .given import (
@@ -29,17 +26,15 @@ from .given import (
     is_automatic,
     path_of,
     paths_of,
-    polygons_of,
     progress_of,
     rasters_of,
     run_on,
     target_of,
     workers_of,
 )
+from .tools import CLASSIFIED, of_tool
 
 _REACHES = (arguments.SCHEDULER, arguments.PROGRESS)
-_SOURCE = path("source", "a raster that GDAL reads", REQUIRED)
-_CLASSIFIED = replace(arguments.SOURCES, help=f"classified {arguments.SOURCES.help}")
 
 
 @contextlib.contextmanager
@@ -104,7 +99,7 @@ def _classify() -> Function:
         " them.",
         (arguments.SOURCES, arguments.OUTPUT),
         (
-            arguments.CRS, *arguments.RASTERS, arguments.CONTOURS, *arguments.TARGET,
+            arguments.CRS_OF_OUTPUT, *arguments.RASTERS, arguments.CONTOURS, *arguments.TARGET,
             *arguments.CONSTRAINTS, *area, arguments.CORRECTIONS, explain, arguments.VPC, *_REACHES,
         ),
         (
@@ -141,7 +136,7 @@ def _terrain() -> Function:
         "terrain",
         "Make rasters of the terrain and of what stands on it, and contour lines, of classified"
         " points; all files together are one survey.",
-        (_CLASSIFIED,),
+        (CLASSIFIED,),
         (
             arguments.CRS, *arguments.RASTERS, arguments.CONTOURS, *arguments.TARGET, *area,
             *arguments.WITH_AUTOMATIC_WATER, *_REACHES,
@@ -172,59 +167,6 @@ def _with_found_water(
     return constraints.with_water(water.constraints, finding), rest
 
 
-def _point_tool(command: str) -> Function:
-    """Return the function of a tool that writes classified files anew."""
-    from ..runs.entry import write
-    from ..runs.requests import PointRequest
-
-    tool = point_tool(command)
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        progress, inputs = progress_of(values.progress), {}
-        for each in tool.inputs:
-            inputs[each.name], progress = _tool_input(each, values, sets, progress)
-        request = PointRequest.of(tool, sets, inputs, values.crs)
-        workers = workers_of(values.scheduler, request.resources)
-        as_survey = bool(values.scheduler) or None
-        return write(
-            values.sources, values.output, request, progress, workers, as_survey,
-            path_of(values.vpc),
-        )  # fmt: skip
-
-    return Function(
-        POINT_TOOLS[command].file,
-        f"Write classified files with {tool.writes}.",
-        (_CLASSIFIED, arguments.OUTPUT),
-        (
-            *(each for some in tool.inputs for each in arguments.arguments_of(some)),
-            arguments.CRS, arguments.VPC, *_REACHES,
-        ),
-        (*tool.sets, TileInput, TileOutput, Resources),
-        run,
-        tool.step.summary_type,
-        is_survey_if_many=True,
-    )  # fmt: skip
-
-
-def _tool_input(
-    declared: Input, values: SimpleNamespace, sets: list[Any], progress: Progress
-) -> tuple[Any, Progress]:
-    """Return a further input of a tool as its step has it, and what is left of the progress."""
-    from ..survey.outputs import check_outputs
-
-    if declared.kind == "area":
-        return area_of(values), progress
-    value = getattr(values, declared.name)
-    if declared.kind == "raster":
-        return (None if value is None else declared.of(value)), progress
-    if declared.found is None or not is_automatic(value):
-        return declared.of(polygons_of(value)), progress
-    paths = paths_of(values.sources)
-    check_outputs([("cloud", Path(values.output))], paths)  # to find them can take minutes
-    ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
-    return declared.found(paths, ground, values.crs, part), progress.part(0.4, 1.0)
-
-
 def _check() -> Function:
     from ..survey.feature_files import FORMATS
     from ..tools.check.accuracy import Accuracy
@@ -247,7 +189,7 @@ def _check() -> Function:
         "check",
         "Compare the ground, and a terrain model, with checkpoints, or with points that are held"
         " out.",
-        (_CLASSIFIED,),
+        (CLASSIFIED,),
         (
             *arguments.CHECKPOINTS,
             Argument(
@@ -291,7 +233,7 @@ def _quality() -> Function:
         "quality",
         "Measure density, voids and overlap of a classified survey, and compare it with a"
         " specification.",
-        (_CLASSIFIED,),
+        (CLASSIFIED,),
         (
             path("page", "write a page (.html)"),
             path(
@@ -336,98 +278,6 @@ def _assess() -> Function:
         run,
         Assessment,
     )  # fmt: skip
-
-
-def _contours() -> Function:
-    from ..survey.feature_files import FORMATS
-    from ..tools.contours import Interval
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools.contours import write_contours
-
-        progress = progress_of(values.progress)
-        return write_contours(values.source, Path(values.output), sets[0], progress)
-
-    lines = f"the lines to write ({', '.join(FORMATS)}); all but .geojson need pyogrio"
-    return Function(
-        "contours",
-        "Draw contour lines of an elevation raster, of its heights smoothed for the lines only.",
-        (_SOURCE, path("output", lines, REQUIRED)),
-        (arguments.PROGRESS,),
-        (Contours,),
-        run,
-        Interval,
-    )
-
-
-def _relief() -> Function:
-    from ..tools.relief import KINDS as RELIEFS
-    from ..tools.relief import ReliefPictures
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> None:
-        from ..tools.relief import write_relief
-
-        progress = progress_of(values.progress)
-        write_relief(values.source, Path(values.output), values.kind, sets[0], progress)
-
-    return Function(
-        "relief",
-        "Make a raster that shows the relief of an elevation raster.",
-        (_SOURCE, path("output", "a GeoTIFF (.tif) to write", REQUIRED)),
-        (Argument.choice("kind", RELIEFS, "local-relief", "what to make"), arguments.PROGRESS),
-        (ReliefPictures,),
-        run,
-        None,
-    )
-
-
-def _remove_objects() -> Function:
-    from ..tools.off_terrain import OffTerrain, Removal
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools import file_tool
-        from ..tools.running import run
-
-        given, progress = {"source": values.source}, progress_of(values.progress)
-        tool = file_tool("remove-off-terrain-objects")
-        return run(tool, given, {"output": values.output}, sets, progress)
-
-    return Function(
-        "remove_off_terrain_objects",
-        "Remove buildings, trees and other steep-sided objects from an elevation raster, and fill"
-        " the gaps smoothly.",
-        (_SOURCE, path("output", "a GeoTIFF (.tif) to write", REQUIRED)),
-        (arguments.PROGRESS,),
-        (OffTerrain,),
-        run,
-        Removal,
-    )
-
-
-def _water() -> Function:
-    from ..survey.feature_files import FORMATS
-    from ..tools.water.finding import Water
-    from ..tools.water.tool import WaterSummary
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools.water.tool import WaterRequest, write_water
-
-        breaklines = path_of(values.breaklines_out)
-        request = WaterRequest.of(sets, crs=values.crs, breaklines=breaklines)
-        progress = progress_of(values.progress)
-        return write_water(paths_of(values.sources), Path(values.output), request, progress)
-
-    kinds = f"({', '.join(FORMATS)}); all but .geojson need pyogrio"
-    lines = f"write shores, islands and the middles of rivers as lines with heights {kinds}"
-    return Function(
-        "water",
-        "Find lakes and rivers in classified points.",
-        (_CLASSIFIED, path("output", f"the polygons of water to write {kinds}", REQUIRED)),
-        (path("breaklines_out", lines), arguments.CRS, arguments.PROGRESS),
-        (Water, GroundClasses),
-        run,
-        WaterSummary,
-    )
 
 
 def _compare_settings() -> Function:
@@ -490,7 +340,7 @@ def _deliver() -> Function:
             Argument.choice("delivery", DELIVERIES, DEFAULT_DELIVERY, f"what to deliver. {kinds}"),
             *arguments.CHECKPOINTS, arguments.CORRECTIONS,
             *arguments.area("deliver only", "; points nearby help to judge"),
-            *arguments.WITH_AUTOMATIC_WATER, *arguments.TARGET, arguments.CRS, *_REACHES,
+            *arguments.WITH_AUTOMATIC_WATER, *arguments.TARGET, arguments.CRS_OF_OUTPUT, *_REACHES,
         ),
         (
             DeliveryOptions, Selection, DeliveryTerrain, SurfaceModel, Contours, DeliveryWater,
@@ -502,49 +352,22 @@ def _deliver() -> Function:
     )  # fmt: skip
 
 
-def _info() -> Function:
-    from ..las.reading import Description
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..las.opening import open_las
-        from ..las.reading import inspect
-
-        return inspect(open_las(Path(values.source), values.crs), progress_of(values.progress))
-
-    return Function(
-        "info",
-        "Describe a point cloud file.",
-        (path("source", "a .las, .laz or .copc.laz file", REQUIRED),),
-        (arguments.CRS, arguments.PROGRESS),
-        (),
-        run,
-        Description,
-    )
-
-
 _DECLARED: dict[str, Callable[[], Function]] = {
     "assess": _assess,
     "check": _check,
     "classify": _classify,
     "compare_settings": _compare_settings,
-    "contours": _contours,
     "deliver": _deliver,
-    "info": _info,
     "quality": _quality,
-    "relief": _relief,
-    "remove_off_terrain_objects": _remove_objects,
     "terrain": _terrain,
-    "water": _water,
 }
 
 
 @cache
 def declared(name: str) -> Function:
     """Return what is declared of a function, given its name."""
-    for command, listed in POINT_TOOLS.items():
-        if listed.file == name:
-            return _point_tool(command)
-    return _DECLARED[name]()
+    commands = tool_commands()
+    return of_tool(commands[name]) if name in commands else _DECLARED[name]()
 
 
 @cache

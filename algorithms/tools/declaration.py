@@ -154,7 +154,6 @@ class PointTool(Tool):
     """A tool that writes classified files with a value or a class of each point."""
 
     step: type[PointStep] = PointStep  # its fields are the sets, and the inputs by their names
-    writes: str = ""  # what its function in the library does, after "Write classified files with"
     output_label: str = ""
     output_help: str = ""
     shows: str = "classes"  # how QGIS shows the output: "classes", "key points" or "heights"

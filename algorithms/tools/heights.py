@@ -286,7 +286,6 @@ TOOL = PointTool(
     command_about="Adds to every point its height above the TIN of the ground points, in the"
     " vertical unit of the CRS. The input is a classified file, or many as one survey. With --dtm,"
     " heights are above a raster.",
-    writes="the height of every point above the ground",
     identifier="heightaboveground",
     title="Height above ground",
     summary="Adds the height of every point above the ground points of a point cloud.",

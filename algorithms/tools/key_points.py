@@ -177,7 +177,6 @@ TOOL = PointTool(
     command_about="Marks the model key points of a classified file, or of many as one survey: the"
     " few ground points that a terrain model needs. No other ground point lies farther from their"
     " TIN than the tolerances.",
-    writes="their model key points marked",
     identifier="modelkeypoints",
     title="Classify model key points",
     summary="Finds the few ground points that make as good a terrain model as all of them.",

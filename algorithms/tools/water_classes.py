@@ -211,7 +211,6 @@ TOOL = PointTool(
     command_about="Gives class 9 (water) to the ground points of a classified file, or of many as"
     " one survey, that lie in polygons of water, and class 20 (ignored ground) to those beside the"
     " shore, as the Lidar Base Specification asks for. Nothing else changes.",
-    writes="classes for ground points in water and beside its shore",
     identifier="waterclasses",
     title="Classify water",
     summary="Gives class 9 to ground points in water, and class 20 to those beside its shore.",

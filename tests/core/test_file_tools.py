@@ -8,6 +8,7 @@ import pytest
 from runs import said
 from toy_file_tool import TOOL, Lift, add_toy
 
+import bare_earth
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.tools import FILE_TOOLS, file_tool
 from bare_earth.algorithms.tools.running import run
@@ -50,6 +51,14 @@ def test_a_new_tool_is_found_in_the_command_line(toy, land, tmp_path):
     assert np.all(heights(target) == 105.0) and table.read_text(encoding="utf-8") == "cells\n12\n"
     _, told, _ = said(toy.command, land, target, "--verbose")
     assert told == f"{target}: 12 cells are higher\n" and np.all(heights(target) == 102.0)
+
+
+def test_a_new_tool_is_a_function_of_the_library(toy, land, tmp_path):
+    done = bare_earth.lift(land, tmp_path / "high.tif", lift=3, table=tmp_path / "cells.csv")
+    assert done.cell_count > 0 and (tmp_path / "cells.csv").read_text().startswith("cells")
+    assert toy.command_about in bare_earth.lift.__doc__
+    with pytest.raises(TypeError, match="lift.. has no parameter lifted. Did you mean lift"):
+        bare_earth.lift(land, tmp_path / "high.tif", lifted=3)
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ def test_a_new_tool_is_found_in_the_command_line(toy, ground, tmp_path):
 def test_a_new_tool_is_a_function_of_the_library(toy, ground, tmp_path):
     function = bare_earth.rename_ground
     assert "rename_ground" in dir(bare_earth)
-    assert toy.writes in function.__doc__ and "ToySummary" in function.__doc__
+    assert toy.command_about in function.__doc__ and "ToySummary" in function.__doc__
     assert inspect.signature(function).parameters["new_class"].default == 31
     one = function(ground, tmp_path / "out.laz", new_class=40)
     many = function([ground.parent], tmp_path / "many", new_class=40)

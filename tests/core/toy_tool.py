@@ -89,7 +89,6 @@ TOOL = PointTool(
     sets=(NewClass, GroundClasses),
     command="rename-ground",
     command_about="Gives the ground points of a classified file another class.",
-    writes="another class for the ground",
     identifier="renameground",
     title="Rename ground",
     summary="Gives ground points another class.",

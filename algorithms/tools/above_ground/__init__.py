@@ -143,7 +143,6 @@ TOOL = PointTool(
     command_about="Classifies the points above the ground of a classified file, or of many as one"
     " survey: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6),"
     " bridges (17) and high noise (18). Only points of class 0 and 1 change.",
-    writes="the points above the ground classified too",
     identifier="classifyaboveground",
     title="Classify above ground",
     summary="Finds vegetation, buildings and bridges in a point cloud whose ground is known.",

@@ -1,0 +1,174 @@
+"""The functions of tools, from their declarations."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+from ..core.progress import Progress
+from ..engine.memory import Resources
+from ..runs.options import TileInput, TileOutput
+from ..survey.ground_classes import GroundClasses
+from ..survey.vector_files import FORMATS
+from ..tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool
+from ..tools.declaration import FileTool, Input, Output
+from . import arguments
+from .arguments import REQUIRED, Argument
+from .functions import Function
+from .given import (
+    area_of,
+    checkpoints_of,
+    is_automatic,
+    path_of,
+    paths_of,
+    polygons_of,
+    progress_of,
+    workers_of,
+)
+
+CLASSIFIED = replace(arguments.SOURCES, help=f"classified {arguments.SOURCES.help}")
+_REACHES = (arguments.SCHEDULER, arguments.PROGRESS)
+
+
+def of_tool(command: str) -> Function:
+    """Return the function of a tool."""
+    return _of_file_tool(command) if command in FILE_TOOLS else _of_point_tool(command)
+
+
+def _about(line: str, command_about: str) -> str:
+    """Return the documentation: the line of the list of commands, and the help of the command."""
+    return f"{line[0].upper()}{line[1:]}.\n{command_about}"
+
+
+def _of_file_tool(command: str) -> Function:
+    from ..tools.running import run as run_tool
+
+    tool = file_tool(command)
+    given = [argument for declared in tool.inputs for argument in _arguments_of(declared)]
+    given += [_argument_of(output) for output in tool.outputs]
+
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        inputs = {declared.name: _input(declared, values) for declared in tool.inputs}
+        outputs = {
+            output.name: path_of(getattr(values, _name_of(output))) for output in tool.outputs
+        }
+        return run_tool(tool, inputs, outputs, sets, progress_of(values.progress))
+
+    return Function(
+        command.replace("-", "_"),
+        _about(FILE_TOOLS[command].help, tool.command_about),
+        tuple(argument for argument in given if argument.default is REQUIRED),
+        (
+            *(argument for argument in given if argument.default is not REQUIRED),
+            arguments.PROGRESS,
+        ),
+        tool.sets,
+        run,
+        _result_of(tool),
+        flags=tool.flags,
+    )
+
+
+def _result_of(tool: FileTool) -> type | None:
+    """Return the class of what a tool tells, which its work names."""
+    name = inspect.signature(tool.work).return_annotation
+    return getattr(sys.modules[tool.work.__module__], str(name), None)
+
+
+def _name_of(output: Output) -> str:
+    return output.option.replace("-", "_")
+
+
+def _argument_of(output: Output) -> Argument:
+    """Return the argument for an output of a tool."""
+    return arguments.path(_name_of(output), output.help, REQUIRED if output.is_main else None)
+
+
+def _arguments_of(declared: Input) -> tuple[Argument, ...]:
+    """Return the arguments for an input of a tool."""
+    if declared.kind == "area":
+        return arguments.area(declared.help, declared.more)
+    if declared.kind == "checkpoints":
+        return arguments.CHECKPOINTS
+    if declared.kind == "crs":
+        return (arguments.CRS,)
+    if declared.kind == "clouds":
+        return (CLASSIFIED if declared.help else arguments.SOURCES,)
+    help = declared.help.format(formats=FORMATS)
+    kind = {"extent": "extent", "words": "words", "polygons": "polygons"}.get(declared.kind, "path")
+    if kind == "extent":
+        help = f"xmin, ymin, xmax, ymax: {help}, in the CRS of the points{declared.more}"
+    is_required = not declared.optional and kind not in ("extent", "words")
+    return (Argument.of(declared.name, kind, help, REQUIRED if is_required else None),)
+
+
+def _input(declared: Input, values: SimpleNamespace) -> Any:
+    """Return an input of a tool for files, as its work takes it."""
+    if declared.kind == "checkpoints":
+        return checkpoints_of(values)
+    value = getattr(values, declared.name)
+    if declared.kind == "clouds":
+        return paths_of(value)
+    if declared.kind == "words":
+        return tuple(value or ())
+    if value is None or declared.kind == "crs":
+        return value
+    if declared.kind == "extent":
+        return tuple(map(float, value))
+    return Path(value) if declared.kind == "cloud" else str(value)
+
+
+def _of_point_tool(command: str) -> Function:
+    """Return the function of a tool that writes classified files anew."""
+    from ..runs.entry import write
+    from ..runs.requests import PointRequest
+
+    tool = point_tool(command)
+
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        progress, inputs = progress_of(values.progress), {}
+        for each in tool.inputs:
+            inputs[each.name], progress = _tool_input(each, values, sets, progress)
+        request = PointRequest.of(tool, sets, inputs, values.crs)
+        workers = workers_of(values.scheduler, request.resources)
+        as_survey = bool(values.scheduler) or None
+        return write(values.sources, values.output, request, progress, workers, as_survey)
+
+    return Function(
+        POINT_TOOLS[command].file,
+        _about(POINT_TOOLS[command].help, tool.command_about),
+        (CLASSIFIED, arguments.OUTPUT),
+        (
+            *(each for some in tool.inputs for each in _arguments_of(some)),
+            arguments.CRS_OF_OUTPUT, *_REACHES,
+        ),
+        (*tool.sets, TileInput, TileOutput, Resources),
+        run,
+        tool.step.summary_type,
+        is_survey_if_many=True,
+    )  # fmt: skip
+
+
+def _tool_input(
+    declared: Input, values: SimpleNamespace, sets: list[Any], progress: Progress
+) -> tuple[Any, Progress]:
+    """Return a further input of a tool as its step has it, and what is left of the progress."""
+    from ..las.writing import check_cloud
+    from ..survey.files import is_one_file
+
+    if declared.kind == "area":
+        return area_of(values), progress
+    value = getattr(values, declared.name)
+    if declared.kind == "raster":
+        return (None if value is None else declared.of(value)), progress
+    if declared.found is None or not is_automatic(value):
+        return declared.of(polygons_of(value)), progress
+    paths = paths_of(values.sources)
+    if is_one_file(paths):  # to find polygons can take minutes
+        check_cloud(paths[0], Path(values.output))
+    ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
+    return declared.found(paths, ground, values.crs, part), progress.part(0.4, 1.0)
