@@ -157,8 +157,7 @@ def _tool_input(
     declared: Input, values: SimpleNamespace, sets: list[Any], progress: Progress
 ) -> tuple[Any, Progress]:
     """Return a further input of a tool as its step has it, and what is left of the progress."""
-    from ..las.writing import check_cloud
-    from ..survey.files import is_one_file
+    from ..survey.outputs import check_outputs
 
     if declared.kind == "area":
         return area_of(values), progress
@@ -168,7 +167,6 @@ def _tool_input(
     if declared.found is None or not is_automatic(value):
         return declared.of(polygons_of(value)), progress
     paths = paths_of(values.sources)
-    if is_one_file(paths):  # to find polygons can take minutes
-        check_cloud(paths[0], Path(values.output))
+    check_outputs([("cloud", Path(values.output))], paths)  # to find polygons can take minutes
     ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
     return declared.found(paths, ground, values.crs, part), progress.part(0.4, 1.0)

@@ -57,7 +57,7 @@ def test_a_new_tool_is_a_function_of_the_library(toy, land, tmp_path):
     done = bare_earth.lift(land, tmp_path / "high.tif", lift=3, table=tmp_path / "cells.csv")
     assert done.cell_count > 0 and (tmp_path / "cells.csv").read_text().startswith("cells")
     assert toy.command_about in bare_earth.lift.__doc__
-    with pytest.raises(TypeError, match="lift.. has no parameter lifted. Did you mean lift"):
+    with pytest.raises(TypeError, match=r"lift.. has no parameter lifted. Did you mean lift"):
         bare_earth.lift(land, tmp_path / "high.tif", lifted=3)
 
 
