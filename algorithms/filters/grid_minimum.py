@@ -17,7 +17,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import Cells
-from .method import Method, Toolbox, of_preset
+from .method import TERRAINS, Method, Toolbox, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.accept import NearSurface
@@ -53,7 +53,6 @@ CLASSIC = "paper"
 class Preset(NamedTuple):
     """The values of a preset."""
 
-    label: str  # as in the dialog
     # Least cell size in metres. It grows where points are sparse, except in the paper's preset.
     cell_size: float
     height_thresholds: tuple[float, ...]  # in metres
@@ -66,14 +65,14 @@ class Preset(NamedTuple):
 
 
 PRESETS = {
-    "automatic": Preset("Automatic", 1.0, (5.0, 2.0), 0.3, 100.0),
-    "flat": Preset("Flat land, fields", 1.0, (5.0, 2.0), 0.25, 40.0),
-    "hilly": Preset("Hilly land, forest", 2.0, (5.0, 2.0), 0.3, 25.0),
-    "steep": Preset("Steep or rugged terrain", 1.0, (5.0, 2.0), 0.5, 25.0),
-    "town": Preset("Town", 1.0, (5.0, 2.0), 0.3, 60.0),
-    "city": Preset("City, large halls", 1.0, (5.0, 2.0), 0.3, 120.0),
-    "site": Preset("Drone survey, construction or mining site", 0.5, (5.0, 2.0), 0.5, 25.0),
-    CLASSIC: Preset("The paper's values", 0.5, (5.0, 4.5, 2.0), 0.3, 40.0, 0.4, 0.6),
+    "automatic": Preset(1.0, (5.0, 2.0), 0.3, 100.0),
+    "flat": Preset(1.0, (5.0, 2.0), 0.25, 40.0),
+    "hilly": Preset(2.0, (5.0, 2.0), 0.3, 25.0),
+    "steep": Preset(1.0, (5.0, 2.0), 0.5, 25.0),
+    "town": Preset(1.0, (5.0, 2.0), 0.3, 60.0),
+    "city": Preset(1.0, (5.0, 2.0), 0.3, 120.0),
+    "site": Preset(0.5, (5.0, 2.0), 0.5, 25.0),
+    CLASSIC: Preset(0.5, (5.0, 4.5, 2.0), 0.3, 40.0, 0.4, 0.6),
 }
 
 
@@ -84,7 +83,7 @@ class GridMinimum(ParameterSet):
     preset: str = parameter(
         "automatic",
         label="Preset",
-        choices={name: preset.label for name, preset in PRESETS.items()},
+        choices={**TERRAINS, CLASSIC: "The paper's values"},
         help="Sets the fields that are left empty, to values that suit most land (automatic) or a"
         " kind of terrain. The log says which values were used.",
     )

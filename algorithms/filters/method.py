@@ -15,6 +15,16 @@ from ..core.progress import SILENT, Progress
 from ..grids.cells import Cells
 from .pipeline import Pipeline
 
+# The presets that all methods have, besides their classic one, with their labels.
+TERRAINS = {
+    "automatic": "Automatic",
+    "flat": "Flat land, fields",
+    "hilly": "Hilly land, forest",
+    "steep": "Steep or rugged terrain",
+    "town": "Town",
+    "city": "City, large halls",
+    "site": "Drone survey, construction or mining site",
+}
 # Added to the number of the rule in a cell that is not ground.
 NOT_GROUND = 100
 # Usual width in metres of the largest building; few are wider.

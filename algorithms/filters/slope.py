@@ -18,7 +18,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
-from .method import Method, Toolbox, of_preset
+from .method import TERRAINS, Method, Toolbox, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.breaks import Plants
@@ -70,13 +70,8 @@ class SlopeFilter(ParameterSet):
         "automatic",
         label="Preset",
         choices={
+            **TERRAINS,
             "automatic": "Automatic (many scales, follows the terrain)",
-            "flat": "Flat land, fields",
-            "hilly": "Hilly land, forest",
-            "steep": "Steep or rugged terrain",
-            "town": "Town",
-            "city": "City, large halls",
-            "site": "Drone survey, construction or mining site",
             CLASSIC: "Whitebox (one scale, 2 m, 45 deg, 1 m)",
         },
         help="Sets the fields that are left empty. Automatic and the kinds of terrain remove"

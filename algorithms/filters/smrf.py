@@ -11,7 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..core.parameters import ParameterSet, parameter, parameter_of
-from .tin import CLASSIC, PRESETS, TinDensification
+from .method import TERRAINS
+from .tin import PRESETS, TinDensification
 
 # The window of SMRF is a radius.
 _OBJECT_OF_WINDOW = 2.0
@@ -59,7 +60,7 @@ class SmrfValues(ParameterSet):
     preset: str = parameter_of(
         TinDensification,
         "preset",
-        choices={name: preset.label for name, preset in PRESETS.items() if name != CLASSIC},
+        choices=TERRAINS,
         help="Gives the values that follow from those of SMRF only in part, and the cell size.",
     )
 

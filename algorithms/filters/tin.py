@@ -13,13 +13,14 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
 from ..grids.model_key_points import ModelKeyPoints
-from .method import Method, Toolbox, of_preset
+from .method import TERRAINS, Method, Toolbox, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
@@ -43,11 +44,9 @@ _REACH_BUILDINGS, _LEAST_REACH = 1.2, 100.0
 CLASSIC = "lidar360"
 
 
-@dataclass(frozen=True)
-class Preset:
+class Preset(NamedTuple):
     """Values for the parameters that are left empty."""
 
-    label: str
     max_building_size: float
     iteration_angle: float
     iteration_distance: float
@@ -57,14 +56,14 @@ class Preset:
 # Cells of 0.5 m lose 2 to 11 % of generated berms of 0.6 to 1.8 m, cells of 1 m 35 to 43 %
 # (`python -m benchmarks.site`).
 PRESETS = {
-    "automatic": Preset("Automatic", 150.0, 15.0, 1.4),
-    "flat": Preset("Flat land, fields", 48.0, 8.0, 0.7),
-    "hilly": Preset("Hilly land, forest", 30.0, 15.0, 1.4),
-    "steep": Preset("Steep or rugged terrain", 30.0, 25.0, 2.0),
-    "town": Preset("Town", 60.0, 12.0, 1.4),
-    "city": Preset("City, large halls", 120.0, 12.0, 1.4),
-    "site": Preset("Drone survey, construction or mining site", 25.0, 15.0, 1.4, 0.5),
-    CLASSIC: Preset("LiDAR360's values", 20.0, 8.0, 1.4),
+    "automatic": Preset(150.0, 15.0, 1.4),
+    "flat": Preset(48.0, 8.0, 0.7),
+    "hilly": Preset(30.0, 15.0, 1.4),
+    "steep": Preset(30.0, 25.0, 2.0),
+    "town": Preset(60.0, 12.0, 1.4),
+    "city": Preset(120.0, 12.0, 1.4),
+    "site": Preset(25.0, 15.0, 1.4, 0.5),
+    CLASSIC: Preset(20.0, 8.0, 1.4),
 }
 
 
@@ -75,7 +74,7 @@ class TinDensification(ParameterSet):
     preset: str = parameter(
         "automatic",
         label="Preset",
-        choices={name: preset.label for name, preset in PRESETS.items()},
+        choices={**TERRAINS, CLASSIC: "LiDAR360's values"},
         help="Sets the fields that are left empty: from the points (automatic), or to values that"
         " suit a kind of terrain. The log says which values were used.",
     )
@@ -201,7 +200,7 @@ class TinDensification(ParameterSet):
 
     def resolve(self, points: Points) -> TinDensification:
         """Return the parameters with values in place of those left to the preset."""
-        return self.filled(vars(PRESETS[self.preset]))
+        return self.filled(PRESETS[self.preset]._asdict())
 
 
 def largest_object(parameters: TinDensification) -> float:

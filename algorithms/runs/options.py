@@ -7,6 +7,7 @@ from typing import Iterable
 
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..filters import DEFAULT_METHOD, METHODS
+from ..filters.method import TERRAINS
 
 
 @dataclass(frozen=True)
@@ -22,15 +23,7 @@ class TileMethod(ParameterSet):
     preset: str = parameter(
         "automatic",
         label="Preset",
-        choices={
-            "automatic": "Automatic",
-            "flat": "Flat land, fields",
-            "hilly": "Hilly land, forest",
-            "steep": "Steep or rugged terrain",
-            "town": "Town",
-            "city": "City, large halls",
-            "site": "Drone survey, construction or mining site",
-        },
+        choices=TERRAINS,
         help="The values of the method for a kind of terrain. For other values, use the command"
         " line or the algorithm of the method.",
     )

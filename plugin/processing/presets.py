@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from html import escape
 from typing import Any, Collection, Sequence
 
@@ -38,7 +37,7 @@ def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
 def _table(method: Method, offered: Collection[str]) -> str:
     declared = {each.name: each for each in method.parameters.declarations()}
     labels = declared["preset"].choices
-    rows = {name: _values_of(preset) for name, preset in method.presets.items() if name in offered}
+    rows = {name: preset._asdict() for name, preset in method.presets.items() if name in offered}
     # Only parameters in which the presets differ. The classic preset is not compared, since it
     # differs in all of them, and that many columns would not fit.
     usual = [row for name, row in rows.items() if name != method.classic]
@@ -53,10 +52,6 @@ def _table(method: Method, offered: Collection[str]) -> str:
     )
     head = f'<tr><td colspan="2">{head}</td></tr>'
     return f'<table border="1" cellspacing="0" cellpadding="2">{head}{body}</table>'
-
-
-def _values_of(preset: Any) -> dict[str, Any]:
-    return dataclasses.asdict(preset) if dataclasses.is_dataclass(preset) else preset._asdict()
 
 
 def _shown(value: Any) -> str:
