@@ -9,8 +9,9 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Iterable, Iterator, NamedTuple, Sequence
+from typing import Any, Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
@@ -46,11 +47,16 @@ class BlockIndex(NamedTuple):
 
 @dataclass(frozen=True)
 class BlockGrid:
-    """The blocks of a survey and where they lie; each job gets it, so it has no list of files."""
+    """A step, and the blocks of a survey in which it works; jobs get it, so it lists no files."""
 
     frame: Frame  # of all files, with its origin at (0, 0) of the CRS
-    blocks: Blocks
+    step: Any  # a `Step`
     stated: str | None = None  # the CRS that the user states for all files, as for `open_las`
+
+    @cached_property
+    def blocks(self) -> Blocks:
+        """How the plane is cut."""
+        return self.step.blocks
 
     def window(self, places: Iterable[BlockIndex]) -> Box:
         """Return the box that holds all points that the blocks need, in units of the CRS."""
@@ -66,6 +72,11 @@ class BlockGrid:
         metres = (np.array(box) - np.tile(self.frame.origin, 2)) * self.frame.horizontal_unit
         west, south, east, north = self.blocks.number(metres).astype(int).tolist()
         return range(west, east + 1), range(south, north + 1)
+
+    def among(self, places: Iterable[BlockIndex], box: Box) -> list[BlockIndex]:
+        """Return those of some blocks that a box in units of the CRS touches."""
+        columns, rows = self.places_in(box)
+        return [place for place in places if place.column in columns and place.row in rows]
 
     def codes(self, cloud: PointCloud) -> np.ndarray:
         """Return the `code` of the block of each point, int64 of shape (n,)."""

@@ -52,7 +52,7 @@ class JobQueue:
         self._blocks: collections.deque[Job] = collections.deque()
         self._ready: collections.deque[Job] = collections.deque()
         # Results of blocks that are not there yet, and how many jobs use each result.
-        self._missing = {file for job in blocks for file in job.files}
+        self._missing = {file for job in blocks for file in job.output.files.values()}
         # Results that lack what could not be done round them.
         self._partial: set[Path] = set()
         self._uses = collections.Counter(kept)
@@ -145,13 +145,14 @@ class JobQueue:
         (self._end_tile if isinstance(job, TileJob) else self._end_blocks)(job, outcome)
 
     def _end_blocks(self, job: BlockJob, outcome: JobResult) -> None:
-        if outcome.failure is not None and len(job.places) > 1:
+        if outcome.failure is not None and len(job.output.files) > 1:
             self._split(job)
             return
         if outcome.failure is not None:
             self.lost.append(outcome.failure)
-        self._missing -= set(job.files)
-        for user in [user for file in job.files for user in self._waiting.pop(file, ())]:
+        files = job.output.files.values()
+        self._missing.difference_update(files)
+        for user in [user for file in files for user in self._waiting.pop(file, ())]:
             if user not in self._lacks:  # it is given up
                 continue
             self._lacks[user] -= 1
@@ -161,7 +162,7 @@ class JobQueue:
                 self._end_tile(user, outcome)
                 continue
             if outcome.failure is not None:
-                self._partial.update(user.files)
+                self._partial.update(user.output.files.values())
             if not self._lacks[user]:
                 del self._lacks[user]
                 self._ready.append(self._marked(user))
@@ -173,7 +174,7 @@ class JobQueue:
             return job
         if isinstance(job, TileJob):
             return replace(job, fingerprint={})
-        self._partial.update(job.files)
+        self._partial.update(job.output.files.values())
         return job
 
     def _split(self, job: BlockJob) -> None:

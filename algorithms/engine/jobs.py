@@ -21,7 +21,7 @@ from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..survey.window import may_touch, read_window
-from .block_grid import BlockGrid, BlockIndex, code, memory_of
+from .block_grid import code, memory_of
 from .disk_store import DiskStore
 from .file_points import FilePoints, TileResult, copies_all_else, memory_of_file
 from .manifest import Fingerprint, write_record
@@ -88,34 +88,33 @@ class Job:
 class BlockJob(Job):
     """A job that works on the points of some blocks."""
 
-    grid: BlockGrid
-    places: tuple[BlockIndex, ...]
-    files: tuple[Path, ...]  # for the result of each block
+    output: BlockFiles  # for the results of these blocks
     sources: tuple[Path, ...]  # that may have points for these blocks
     count: float  # of points in the blocks, estimated
-    step: Any  # that works in these blocks
     # those of the sources that hold already what was found
     finished: frozenset[Path] = frozenset()
 
     def split(self) -> list[BlockJob]:
         """Return one job for each block."""
-        count, jobs = self.count / len(self.places), []
-        for place, file in zip(self.places, self.files):
-            window = self.grid.window([place])
+        count, jobs = self.count / len(self.output.files), []
+        for place, file in self.output.files.items():
+            window = self.output.grid.window([place])
             before = tuple(found.within(window) for found in self.before)
-            jobs.append(replace(self, places=(place,), files=(file,), count=count, before=before))
+            output = replace(self.output, files={place: file})
+            jobs.append(replace(self, output=output, count=count, before=before))
         return jobs
 
     def planned(self, resources: Resources) -> int:
         """Return the bytes of memory that it takes at most, as far as is known before."""
-        return min(memory_of(self.grid, self.count), resources.bytes)
+        return min(memory_of(self.output.grid, self.count), resources.bytes)
 
     def clouds(self, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points of each file that the blocks need, with what was found before."""
-        window = self.grid.window(self.places)
+        grid = self.output.grid
+        window = grid.window(self.output.files)
         for source, part in zip(self.sources, progress.shares(*[1.0] * len(self.sources))):
             try:
-                las = open_las(source, self.grid.stated)
+                las = open_las(source, grid.stated)
                 if not may_touch(las, window):
                     continue
                 if self.unpacking is not None:
@@ -137,11 +136,11 @@ class BlockJob(Job):
     @contextlib.contextmanager
     def store(self, share: Share, kind: type = np.uint8) -> Iterator[MemoryStore | DiskStore]:
         """Yield an empty store for the points: on disk if they do not fit into memory."""
-        frame, blocks = self.grid.frame, self.grid.blocks
-        if memory_of(self.grid, self.count) <= share.resources.bytes:
-            yield MemoryStore(frame, blocks, kind)
+        grid, (beside, *_) = self.output.grid, self.output.files.values()
+        if memory_of(grid, self.count) <= share.resources.bytes:
+            yield MemoryStore(grid.frame, grid.blocks, kind)
             return
-        with DiskStore(self.files[0], frame, blocks, kind) as store:
+        with DiskStore(beside, grid.frame, grid.blocks, kind) as store:
             yield store
 
 
@@ -153,15 +152,15 @@ class PointJob(BlockJob):
         """Do it."""
         # Files, and for each of their points the number of its block, from 1 on, or 0.
         parts: list[tuple[Path, np.ndarray]] = []
-        counts, failure, has_work = self.step.counts(), "", False
-        codes = [code(place) for place in self.places]
-        with self.store(share, self.step.kind) as store:
+        grid, files = self.output.grid, self.output.files
+        counts, failure, has_work = grid.step.counts(), "", False
+        with self.store(share, grid.step.kind) as store:
             for cloud in self.clouds(progress.part(0.0, 0.3)):
-                of_points = self.grid.codes(cloud)
+                codes = grid.codes(cloud)
                 blocks = np.zeros(cloud.count, dtype=np.uint8)
-                for number, block in enumerate(codes, start=1):
-                    blocks[of_points == block] = number
-                marks, wanted = self.step.marks(cloud, counts), blocks > 0
+                for number, place in enumerate(files, start=1):
+                    blocks[codes == code(place)] = number
+                marks, wanted = grid.step.marks(cloud, counts), blocks > 0
                 if marks.wanted is not None:
                     wanted &= marks.wanted
                 has_work |= bool((wanted & marks.selected).any())
@@ -170,17 +169,16 @@ class PointJob(BlockJob):
             store.finish(progress.part(0.3, 0.35))
             if has_work:
                 try:
-                    self.step.work(store, share.resources, progress.part(0.35, 0.95))
+                    grid.step.work(store, share.resources, progress.part(0.35, 0.95))
                 except BareEarthError as error:
                     failure = str(error)
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
-            found = BlockFiles(self.grid, self.step, dict(zip(self.places, self.files)))
-            for number, place in enumerate(self.places, start=1):
+            for number, place in enumerate(files, start=1):
                 of_files = {}
                 for which, (path, blocks) in enumerate(parts):
                     values = store.values(which)[blocks == number]
                     of_files[path] = np.zeros_like(values) if failure else values
-                found.write(place, of_files, failure)
+                self.output.write(place, of_files, failure)
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,7 +200,7 @@ class TileJob(Job):
 
     def run(self, share: Share, progress: Progress) -> Any:
         """Write the file; return the summary of the step, or None if there is nothing to write."""
-        las, steps = self.tile, [found.step for found in self.before]
+        las, steps = self.tile, [found.grid.step for found in self.before]
         if self.unpacking is not None:
             las = self.unpacking.of(las, progress.part(0.0, 0.3))
         values, counts = [BlockValues(found, las) for found in self.before], steps[0].counts()

@@ -14,7 +14,6 @@ from ..core.errors import BareEarthError
 from ..core.files import replacing
 from ..core.temporary import patiently
 from .block_grid import BlockGrid, BlockIndex
-from .step import Step
 
 _FOLDER, _WORK = ".bare-earth", "work"
 _LONGEST_NAME = 250
@@ -48,7 +47,6 @@ def stamp_of(path: Path) -> Stamp:
 
 def fingerprint_of(
     grids: Sequence[BlockGrid],
-    steps: Sequence[Step],
     tile: Path,
     sources: Iterable[Stamp],
     target: Path,
@@ -57,7 +55,7 @@ def fingerprint_of(
     files that affect it (`sources`), and its name.
     """
     return {
-        "steps": _settings(grids, steps),
+        "steps": _settings(grids),
         "input": tile.name,
         "output": target.name,
         "files": list(sources),
@@ -66,16 +64,15 @@ def fingerprint_of(
 
 def block_file(
     grids: Sequence[BlockGrid],
-    steps: Sequence[Step],
     folder: Path,
     place: BlockIndex,
     sources: Iterable[Stamp],
 ) -> Path:
-    """Return the file for the result of a block of the last of some steps; its name depends on all
+    """Return the file for the result of a block of the last of some grids; its name depends on all
     that the result depends on.
     """
     content = {
-        "steps": _settings(grids, steps),
+        "steps": _settings(grids),
         "place": list(place),
         "files": list(sources),
     }
@@ -89,19 +86,19 @@ def short_name(content: bytes) -> str:
     return base64.b32encode(hashlib.sha256(content).digest())[:12].decode().lower()
 
 
-def _settings(grids: Sequence[BlockGrid], steps: Sequence[Step]) -> list[dict[str, Any]]:
-    """Return the settings of steps and their blocks, and the version."""
+def _settings(grids: Sequence[BlockGrid]) -> list[dict[str, Any]]:
+    """Return the settings of the steps of grids, and the version."""
     from ..core.version import __version__
 
     return [
         {
             "version": __version__,
-            **step.settings,
+            **grid.step.settings,
             "origin": list(grid.frame.origin),
             "units": [grid.frame.horizontal_unit, grid.frame.vertical_unit],
             "blocks": [grid.blocks.side, grid.blocks.buffer, grid.blocks.most_points],
         }
-        for grid, step in zip(grids, steps)
+        for grid in grids
     ]
 
 

@@ -67,14 +67,12 @@ class _PlannedBlock:
     def needs(self) -> frozenset[_PlannedBlock]:
         """The blocks of earlier steps, of those that change classes, whose results it needs."""
         box, plan = self._grid.window([self.place]), self._plan
-        found = []
-        for number in filter(plan.gives_classes, range(self.step)):
-            columns, rows = plan.grids[number].places_in(box)
-            for tile in plan.seen.touching(box):
-                for block in plan.blocks_of(tile, number):
-                    if block.place.column in columns and block.place.row in rows:
-                        found.append(block)
-        return frozenset(found)
+        return frozenset(
+            plan.block(number, place)
+            for number in filter(plan.gives_classes, range(self.step))
+            for tile in plan.seen.touching(box)
+            for place in plan.grids[number].among(plan.places_of(tile, number), box)
+        )
 
     @cached_property
     def inputs(self) -> frozenset[Path]:
@@ -86,7 +84,7 @@ class _PlannedBlock:
         """The file for its result."""
         plan, end = self._plan, self.step + 1
         stamps = plan.stamps_of(self.inputs)
-        return block_file(plan.grids[:end], plan.steps[:end], plan.folder, self.place, stamps)
+        return block_file(plan.grids[:end], plan.folder, self.place, stamps)
 
 
 class Plan:
@@ -102,11 +100,11 @@ class Plan:
     ) -> None:
         self.steps, self.folder, self._targets = steps, folder, targets
         frame = survey_frame(survey.crs)
-        self.grids = [BlockGrid(frame, step.blocks, survey.stated) for step in steps]
+        self.grids = [BlockGrid(frame, step, survey.stated) for step in steps]
         # Before any of them is read.
         self._stamps = {tile.path: stamp_of(tile.path) for tile in survey.tiles}
         self._blocks: dict[tuple[int, BlockIndex], _PlannedBlock] = {}
-        self._blocks_of: dict[tuple[Path, int], list[_PlannedBlock]] = {}
+        self._places: dict[tuple[Path, int], list[BlockIndex]] = {}
         # The files that affect those in several blocks, which many small files share.
         self._inputs: dict[tuple[_PlannedBlock, ...], list[Path]] = {}
         self.kept: list[Any] = []  # summaries of the outputs that an earlier run finished
@@ -138,19 +136,21 @@ class Plan:
         """Return what shows whether some inputs have changed."""
         return [self._stamps[path] for path in sorted(paths)]
 
-    def blocks_of(self, tile: LasFile, number: int) -> list[_PlannedBlock]:
-        """Return the blocks of a step that may hold points of a file."""
-        key = tile.path, number
-        if key not in self._blocks_of:
-            self._blocks_of[key] = [
-                self._blocks.setdefault((number, place), _PlannedBlock(self, number, place))
-                for place in places_of(self.grids[number], tile)
-            ]
-        return self._blocks_of[key]
+    def block(self, step: int, place: BlockIndex) -> _PlannedBlock:
+        """Return a block of a step."""
+        return self._blocks.setdefault((step, place), _PlannedBlock(self, step, place))
+
+    def places_of(self, tile: LasFile, step: int) -> list[BlockIndex]:
+        """Return where the blocks of a step lie that may hold points of a file."""
+        key = tile.path, step
+        if key not in self._places:
+            self._places[key] = places_of(self.grids[step], tile)
+        return self._places[key]
 
     def _wanted(self, tile: LasFile) -> list[_PlannedBlock]:
         """Return the blocks of all steps that may hold points of a file."""
-        return [block for step in range(len(self.steps)) for block in self.blocks_of(tile, step)]
+        steps = range(len(self.steps))
+        return [self.block(step, place) for step in steps for place in self.places_of(tile, step)]
 
     def _inputs_of(self, tile: LasFile) -> list[Path]:
         """Return the files that affect the output of a file."""
@@ -162,7 +162,7 @@ class Plan:
     def _fingerprint(self, tile: LasFile) -> Fingerprint:
         """Return what the output of a file is made from."""
         stamps, target = self.stamps_of(self._inputs_of(tile)), self._targets[tile.path]
-        return fingerprint_of(self.grids, self.steps, tile.path, stamps, target)
+        return fingerprint_of(self.grids, tile.path, stamps, target)
 
     def keep_finished(self, resume: bool, progress: Progress) -> None:
         """Remove files whose outputs an earlier run finished from those to do, if `resume`."""
@@ -198,20 +198,17 @@ class Plan:
         ]
         workers.start(outputs, max(least, default=0), len(missing), len(self.todo))
         blocks: list[BlockJob] = []
-        for number, (step, grid, survey) in enumerate(zip(self.steps, self.grids, self.surveys)):
+        for number, (grid, survey) in enumerate(zip(self.grids, self.surveys)):
             places = [place for of_step, place in missing if of_step == number]
             for group in grouped(grid, survey, places, workers.at_once, workers.share.bytes):
                 some = [missing[number, place] for place in group]
                 blocks.append(
                     PointJob(
-                        grid=grid,
-                        places=tuple(group),
-                        files=tuple(block.file for block in some),
+                        output=BlockFiles(grid, {block.place: block.file for block in some}),
                         sources=tuple(sorted({path for block in some for path in block.sources})),
                         count=points_in(survey, grid.window(group)),
                         before=self._files_of(set().union(*(block.needs for block in some))),
                         unpacking=unpacking,
-                        step=step,
                     )
                 )
         tiles = [
@@ -239,9 +236,7 @@ class Plan:
         files: dict[int, dict[BlockIndex, Path]] = defaultdict(dict)
         for block in sorted(some, key=attrgetter("key")):
             files[block.step][block.place] = block.file
-        return tuple(
-            BlockFiles(self.grids[number], self.steps[number], files[number]) for number in files
-        )
+        return tuple(BlockFiles(self.grids[number], files[number]) for number in files)
 
     def _with_classes(self, tile: LasFile) -> list[_PlannedBlock]:
         """Return the blocks of a file whose results further steps and rasters need."""

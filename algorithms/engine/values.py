@@ -79,18 +79,12 @@ class BlockFiles:
     """The files with the values that a step has found in some blocks."""
 
     grid: BlockGrid  # of the step
-    step: PointStep
     files: Mapping[BlockIndex, Path]
 
     def within(self, box: Box) -> BlockFiles:
         """Return the files of the blocks that a box in units of the CRS touches."""
-        columns, rows = self.grid.places_in(box)
-        files = {
-            place: file
-            for place, file in self.files.items()
-            if place.column in columns and place.row in rows
-        }
-        return replace(self, files=files)
+        places = self.grid.among(self.files, box)
+        return replace(self, files={place: self.files[place] for place in places})
 
     def write(self, place: BlockIndex, of_files: Mapping[Path, np.ndarray], failure: str) -> None:
         """Write the values of a block: for each input those of its points in it, in file order."""
@@ -107,7 +101,7 @@ class BlockValues(PointValues):
     """
 
     def __init__(self, found: BlockFiles, las: LasFile, are_all: bool = True) -> None:
-        self.step, self._grid, self._las, self._are_all = found.step, found.grid, las, are_all
+        self.step, self._grid, self._las, self._are_all = found.grid.step, found.grid, las, are_all
         self._left: dict[int, np.ndarray] = {}
         self._not_done: list[int] = []
         for place, file in found.files.items():

@@ -217,7 +217,7 @@ def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
 
 def test_blocks_are_read_in_groups_that_fit_into_memory(six):
     survey = open_survey([six])
-    grid = BlockGrid(survey_frame(survey.crs), Blocks(20.0, 5.0))
+    grid = BlockGrid(survey_frame(survey.crs), LabelGround(SlopeFilter(), cut=Blocks(20.0, 5.0)))
     places = [BlockIndex(column, row) for row in range(6) for column in range(15)]
     many = grouped(grid, survey, places, 1, 1 << 40)
     assert len(many) == 4 * 2  # squares of 4 x 4; with 8 x 8 there would be too few

@@ -28,6 +28,7 @@ from ...engine.jobs import BlockJob, Share
 from ...engine.manifest import block_file, stamp_of
 from ...engine.plan import Results
 from ...engine.unpacking import Unpacking
+from ...engine.values import BlockFiles
 from ...engine.workers import Workers
 from ...grids.cell_window import CellWindow
 from ...las.cloud import survey_frame
@@ -43,8 +44,9 @@ class RasterJob(BlockJob):
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
-        step, counts, has_points = self.step, self.step.counts(), False
-        found: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in self.places}
+        step, files, has_points = self.output.grid.step, self.output.files, False
+        counts = step.counts()
+        found: dict[BlockIndex, list[BlockRasters]] = {place: [] for place in files}
         with self.store(share) as store:
             for cloud in self.clouds(progress.part(0.0, 0.5)):
                 marks = step.marks(cloud, counts)
@@ -56,21 +58,21 @@ class RasterJob(BlockJob):
                 for rasters in step.work(store, share.resources, rest, self._is_wanted):
                     found[self._place_of(rasters.window)].append(rasters)
         progress(1.0)  # ends a job of a run that was cancelled, before it writes
-        for place, file in zip(self.places, self.files):
+        for place, file in files.items():
             _store(file, found[place])
 
     def _is_wanted(self, block: Block) -> bool:
         """Return whether a block, or a part of one, is one of this job."""
-        return self._place(block) in self.places
+        return self._place(block) in self.output.files
 
     def _place(self, block: Block) -> BlockIndex:
         """Return the index of the block that holds a smaller block."""
-        share = round(self.grid.blocks.side / block.side)
+        share = round(self.output.grid.blocks.side / block.side)
         return BlockIndex(block.column // share, block.row // share)
 
     def _place_of(self, window: CellWindow) -> BlockIndex:
         """Return the index of the block that holds the centre of the first cell."""
-        cell, blocks = self.step.cell, self.grid.blocks
+        cell, blocks = self.output.grid.step.cell, self.output.grid.blocks
         return BlockIndex(
             int(blocks.number((window.column + 0.5) * cell)),
             int(blocks.number((window.row + 0.5) * cell)),
@@ -130,10 +132,11 @@ def make_rasters(
     # there when it was cancelled or killed are not made again if nothing has changed.
     results = results or Results(survey)
     step = step.placed(survey.crs, survey.box, progress)
-    grid = BlockGrid(survey_frame(survey.crs, step.origin), step.blocks, survey.stated)
+    frame = survey_frame(survey.crs, step.origin)
     reading, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
-    step = step.seeing(results.parts(unpacking, reading), grid.frame, reading)
-    run, is_cancelled = _RasterRun(survey, grid, step, results), False
+    step = step.seeing(results.parts(unpacking, reading), frame, reading)
+    run = _RasterRun(survey, BlockGrid(frame, step, survey.stated), results)
+    is_cancelled = False
     files = run.files(folder)
     try:
         jobs = run.jobs(files, workers, unpacking)
@@ -158,25 +161,23 @@ class _RasterRun(NamedTuple):
 
     survey: Survey
     grid: BlockGrid
-    step: MakeRasters
     results: Results
 
     def files(self, folder: Path) -> dict[BlockIndex, Path]:
         """Return the file for the rasters of each block."""
-        survey, grid, step, results = self
+        survey, grid, results = self
         places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
-        if step.area is not None:
-            around = step.area.buffered_box(AROUND_AREA / grid.frame.horizontal_unit)
-            columns, rows = grid.places_in(around)
-            places = [place for place in places if place.column in columns and place.row in rows]
+        area = grid.step.area
+        if area is not None:
+            around = area.buffered_box(AROUND_AREA / grid.frame.horizontal_unit)
+            places = grid.among(places, around)
             if not places:
-                raise no_point_in(step.area)
+                raise no_point_in(area)
         stamps = {path: stamp_of(source) for path, source in results.read_from.items()}
         grids = [*(found.grid for found in results.found), grid]
-        steps = [*(found.step for found in results.found), step]
         sources = {place: sources_of(grid, survey, place) for place in places}
         return {
-            place: block_file(grids, steps, folder, place, [stamps[path] for path in paths])
+            place: block_file(grids, folder, place, [stamps[path] for path in paths])
             for place, paths in sources.items()
         }
 
@@ -184,7 +185,7 @@ class _RasterRun(NamedTuple):
         self, files: Mapping[BlockIndex, Path], workers: Workers, unpacking: Unpacking | None
     ) -> list[RasterJob]:
         """Start the workers, and return the jobs of the blocks that are not done yet."""
-        survey, grid, step, results = self
+        survey, grid, results = self
         missing = [place for place, file in files.items() if not file.exists()]
         least = max((least_memory(grid, survey, place) for place in missing), default=0)
         workers.start(next(iter(files.values())).parent, least, len(missing), 0)
@@ -195,15 +196,12 @@ class _RasterRun(NamedTuple):
             sources = tuple(sorted(results.read_from[path] for path in paths))
             jobs.append(
                 RasterJob(
-                    grid=grid,
-                    places=tuple(group),
-                    files=tuple(files[place] for place in group),
+                    output=BlockFiles(grid, {place: files[place] for place in group}),
                     sources=sources,
                     count=points_in(survey, window),
                     before=tuple(found.within(window) for found in results.found),
                     finished=results.finished.intersection(sources),
                     unpacking=unpacking,
-                    step=step,
                 )
             )
         if unpacking is None:
@@ -218,8 +216,8 @@ class _RasterRun(NamedTuple):
     def written(self, files: Iterable[Path], progress: Progress) -> RasterSize:
         """Write the rasters, given the files of those of all blocks."""
         blocks = [rasters for file in files for rasters in _stored_in(file)]
-        per_file = None
-        if self.step.per_file:
+        frame, step, per_file = self.grid.frame, self.grid.step, None
+        if step.per_file:
             per_file = {split_name(tile.path)[0]: tile.box for tile in self.survey.tiles}
         with Outputs() as outputs:
-            return write_rasters(blocks, self.grid.frame, self.step, outputs, progress, per_file)
+            return write_rasters(blocks, frame, step, outputs, progress, per_file)
