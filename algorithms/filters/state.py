@@ -12,6 +12,7 @@ from ..core.progress import Progress
 from ..core.threads import in_threads
 from ..grids.cells import Cells, first_of_each, spacing
 from ..grids.height_grid import HeightGrid
+from ..grids.morphology import within_square
 
 # Least spacing of points in metres; a smaller one counts as this.
 _LEAST_SPACING = 0.01
@@ -220,10 +221,7 @@ class State:
 
 def covered(known: np.ndarray) -> np.ndarray:
     """Return which cells were surveyed: cells with a height (rows, columns), and small gaps."""
-    from scipy import ndimage
-
-    closed = np.pad(known, _GAP).astype(np.uint8)
-    for extreme in (ndimage.maximum_filter1d, ndimage.minimum_filter1d):
-        for axis in (0, 1):
-            closed = extreme(closed, 2 * _GAP + 1, axis=axis, mode="nearest")
-    return closed[_GAP:-_GAP, _GAP:-_GAP].astype(bool)
+    closed = np.pad(known, _GAP)
+    for extreme in (np.maximum, np.minimum):
+        closed = within_square(extreme, closed, _GAP)
+    return closed[_GAP:-_GAP, _GAP:-_GAP]
