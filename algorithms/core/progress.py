@@ -109,11 +109,16 @@ class _Quiet(Progress):
 
 
 class Notes(Progress):
-    """Stores messages, to show them later or elsewhere."""
+    """Stores messages, to show them later or elsewhere, and passes on how much is done."""
 
-    def __init__(self) -> None:
+    def __init__(self, whole: Progress = Progress()) -> None:
+        self._whole = whole
         self.messages: list[tuple[str, str]] = []  # kind (the called method) and text
         self.seconds: dict[str, float] = {}  # by stage, in the order in which they ended first
+
+    def report(self, fraction: float) -> None:
+        """Pass on how much is done."""
+        self._whole(fraction)
 
     def info(self, text: str) -> None:
         """Store a message."""

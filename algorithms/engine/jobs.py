@@ -225,7 +225,7 @@ class TileJob(Job):
 
 def attempt(job: Job, share: Share, progress: Progress) -> JobResult:
     """Run a job and return its errors in the result instead of raising them."""
-    notes = _JobMessages(progress)
+    notes = Notes(progress)
     begun, memory = time.monotonic(), PeakMemory() if share.is_alone else None
     try:
         with share.threads.used():
@@ -246,14 +246,3 @@ def attempt(job: Job, share: Share, progress: Progress) -> JobResult:
     except Exception as error:
         failure = f"Unexpected {type(error).__name__}: {error}. Please report it."
     return JobResult(None, tuple(notes.messages), failure)
-
-
-class _JobMessages(Notes):
-    """Passes on progress and collects the messages."""
-
-    def __init__(self, whole: Progress) -> None:
-        super().__init__()
-        self._whole = whole
-
-    def report(self, fraction: float) -> None:
-        self._whole(fraction)

@@ -207,13 +207,9 @@ class _BlockMessages(Notes):
     """Passes on the progress of a block, and collects its messages until all blocks are done."""
 
     def __init__(self, whole: Progress, count: int, is_only: bool) -> None:
-        super().__init__()
-        # points to label in the block
-        self._whole, self._is_only, self.count = whole, is_only, count
+        super().__init__(whole)
+        self._is_only, self.count = is_only, count  # points to label in the block
         self.failure: BareEarthError | None = None  # why the block has no ground
-
-    def report(self, fraction: float) -> None:
-        self._whole(fraction)
 
     def keep(self, kind: str, text: str) -> None:
         if self._is_only:  # nothing to wait for
