@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections import defaultdict
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Iterable, Iterator, NamedTuple, Sequence
+from typing import Any, Iterable, NamedTuple, Sequence
 
 import numpy as np
 
@@ -145,9 +146,9 @@ def grouped(
     """Return blocks in groups whose files are read together, from south to north; `workers` groups
     have `memory` bytes each, and a block that needs more is alone.
     """
-    groups, width = [[place] for place in sorted(places, key=_by_row)], 2
+    groups, width = _squares(places, 1), 2
     while width <= _LARGEST_GROUP:
-        wider = list(_squares(places, width))
+        wider = _squares(places, width)
         if len(wider) < _GROUPS_A_WORKER * workers:
             break
         counts = (points_in(survey, grid.window(group)) for group in wider)
@@ -157,13 +158,9 @@ def grouped(
     return groups
 
 
-def _squares(places: Sequence[BlockIndex], width: int) -> Iterator[list[BlockIndex]]:
-    def square(place: BlockIndex) -> tuple[int, int]:
-        return place.row // width, place.column // width
-
-    for _, group in itertools.groupby(sorted(places, key=square), square):
-        yield sorted(group, key=_by_row)
-
-
-def _by_row(place: BlockIndex) -> tuple[int, int]:
-    return place.row, place.column
+def _squares(places: Iterable[BlockIndex], width: int) -> list[list[BlockIndex]]:
+    """Return blocks by the squares of `width` blocks a side in which they lie."""
+    squares = defaultdict(list)
+    for row, column in sorted((place.row, place.column) for place in places):
+        squares[row // width, column // width].append(BlockIndex(column, row))
+    return [squares[square] for square in sorted(squares)]
