@@ -67,12 +67,11 @@ class _PlannedBlock:
     def needs(self) -> frozenset[_PlannedBlock]:
         """The blocks of earlier steps, of those that change classes, whose results it needs."""
         box, plan = self._grid.window([self.place]), self._plan
-        return frozenset(
-            plan.block(number, place)
-            for number in filter(plan.gives_classes, range(self.step))
-            for tile in plan.seen.touching(box)
-            for place in plan.grids[number].among(plan.places_of(tile, number), box)
-        )
+        tiles, found = plan.seen.touching(box), []
+        for number in filter(plan.gives_classes, range(self.step)):
+            places = {place for tile in tiles for place in plan.places_of(tile, number)}
+            found += [plan.block(number, place) for place in plan.grids[number].among(places, box)]
+        return frozenset(found)
 
     @cached_property
     def inputs(self) -> frozenset[Path]:
