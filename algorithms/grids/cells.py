@@ -187,7 +187,7 @@ class Cells:
         holding[self.index[which]] = True
         return holding.reshape(self.shape)
 
-    def at(self, grid: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    def interpolated(self, grid: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Interpolate a grid (rows, columns) bilinearly between cell centres at places in metres;
         beyond the outermost centres the value of the border is taken.
         """

@@ -61,7 +61,7 @@ class Trend:
         rows = np.arange(first, last) + self._within[0]
         return self._rises([_interpolated(each, rows, self._block, -2) for each in self._across])
 
-    def at(self, row: np.ndarray, column: np.ndarray) -> Rises:
+    def of_cells(self, row: np.ndarray, column: np.ndarray) -> Rises:
         """Return the rises at cells."""
         row, column = row + self._within[0], column + self._within[1]
         return self._rises([_at_places(each, self._block, row, column) for each in self._blocks])

@@ -106,7 +106,7 @@ def test_a_grid_is_interpolated_exactly_where_it_is_a_plane():
     rows, columns = np.indices(cells.shape)
     plane = 2.0 * (columns + cells.first_column + 0.5) - (rows + cells.first_row + 0.5)
     x, y = np.array([0.3, 5.7]), np.array([1.9, -3.2])
-    assert np.allclose(cells.at(plane, x, y), 2.0 * x - y)
+    assert np.allclose(cells.interpolated(plane, x, y), 2.0 * x - y)
 
 
 @pytest.mark.parametrize("radius", [1, 1.5, 2, 3, 4.5, 7, 12])

@@ -193,7 +193,7 @@ def test_the_trend_is_the_same_at_single_cells_and_over_rows():
     heights[20:30, 20:30] += 8.0
     trend = Trend(heights, 1.0)
     row, column = np.divmod(np.arange(heights.size), heights.shape[1])
-    for whole, single in zip(trend.of_rows(0, 70), trend.at(row, column)):
+    for whole, single in zip(trend.of_rows(0, 70), trend.of_cells(row, column)):
         assert np.array_equal(whole.ravel(), single)
     rises = trend.of_rows(0, 70)
     assert np.allclose(rises.east, 0.3, atol=0.02) and np.allclose(rises.north, 0.0, atol=0.02)

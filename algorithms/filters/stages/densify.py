@@ -82,7 +82,7 @@ class Densification(PointRule):
             )
         waiting = waiting[may_join.ravel()[cells.index[waiting]]]
         candidates = points.take(waiting)
-        distance = np.abs(candidates.z - cells.at(surface, candidates.x, candidates.y))
+        distance = np.abs(candidates.z - cells.interpolated(surface, candidates.x, candidates.y))
         slope = _steepness_at(cells, surface, candidates)
         reachable = distance <= _REACHABLE * self.iteration_distance * np.hypot(1.0, slope)
         state.progress(0.1)
@@ -103,8 +103,8 @@ def with_lower(heights: np.ndarray, cells: Cells, points: Points, which: np.ndar
 def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarray:
     """Return the steepness of a surface over cells at some points, rise over run."""
     step, (x, y, _) = cells.size, points
-    north = cells.at(surface, x, y + step) - cells.at(surface, x, y - step)
-    east = cells.at(surface, x + step, y) - cells.at(surface, x - step, y)
+    north = cells.interpolated(surface, x, y + step) - cells.interpolated(surface, x, y - step)
+    east = cells.interpolated(surface, x + step, y) - cells.interpolated(surface, x - step, y)
     return np.hypot(north, east) / (2.0 * step)
 
 
@@ -156,7 +156,7 @@ def _ring(cells: Cells, surface: np.ndarray) -> Points:
     x, y = _multiples(west, east), _multiples(south, north)
     ring_x = np.concatenate((x, x, np.full(len(y), west), np.full(len(y), east)))
     ring_y = np.concatenate((np.full(len(x), south), np.full(len(x), north), y, y))
-    return Points(ring_x, ring_y, cells.at(surface, ring_x, ring_y))
+    return Points(ring_x, ring_y, cells.interpolated(surface, ring_x, ring_y))
 
 
 def _multiples(start: float, end: float) -> np.ndarray:

@@ -97,7 +97,7 @@ class HeightSteps:
         kept = np.pad(kept, self._step).ravel()
         grid = np.pad(heights.astype(np.float32), self._step, constant_values=np.nan).ravel()
         cells = np.flatnonzero(np.isfinite(grid) & ~kept)
-        trend = self._trend.at(*self._places(cells))
+        trend = self._trend.of_cells(*self._places(cells))
         for _ in range(_GROWING_PASSES):
             rises, count = np.zeros(len(cells), np.float32), np.zeros(len(cells), np.float32)
             for row, column in _DIRECTIONS:

@@ -253,8 +253,8 @@ class FineSeeds(PointRule):
         x, y, z = state.points.take(fine.lowest)
         surface = wide.heights.where(~wide.raised).filled(_RELAXATIONS)
         rise = cells.size * np.minimum(steepness(surface, cells.size), _STEEPEST)
-        allowed = self.height + self.unevenness * cells.at(rise, x, y)
-        near = np.abs(z - cells.at(surface, x, y)) <= allowed
+        allowed = self.height + self.unevenness * cells.interpolated(rise, x, y)
+        near = np.abs(z - cells.interpolated(surface, x, y)) <= allowed
         of_wide = cells.index[fine.lowest]
         near &= wide.is_ground.ravel()[of_wide]
         known = wide.heights.known.ravel()[of_wide]

@@ -291,7 +291,7 @@ def below_ground(
     progress(0.5)
 
     def fill(part: slice) -> None:
-        below[part] = points.z[part] < cells.at(limit, points.x[part], points.y[part])
+        below[part] = points.z[part] < cells.interpolated(limit, points.x[part], points.y[part])
 
     over_parts(fill, points.count, _CHUNK, progress.part(0.5, 1.0))
     return below & ~ground

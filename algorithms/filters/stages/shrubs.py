@@ -63,7 +63,7 @@ class Shrubs(PointRule):
         """Return which seeds lie above the planes of all sides."""
         blocks = Cells.over(seeds, width)
         mean = mean_surface(seeds, np.arange(seeds.count), blocks, width)
-        above = seeds.z - blocks.at(mean, seeds.x, seeds.y)
+        above = seeds.z - blocks.interpolated(mean, seeds.x, seeds.y)
         slope = steepness(mean, width).ravel()[blocks.index]
         open_ = self.height + self.per_slope * width * slope
         allowed = np.where(in_wood, self.in_woods, open_)
@@ -77,7 +77,7 @@ class Shrubs(PointRule):
             (np.array(number) + first + 0.5) * quarters.size
             for number, first in ((column, quarters.first_column), (row, quarters.first_row))
         )
-        middles = Points(x, y, blocks.at(mean, x, y))
+        middles = Points(x, y, blocks.interpolated(mean, x, y))
         lowest = seeds.take(blocks.lowest_points(seeds))
         sides = Sides(lowest, _REACH * width, _APART * width)
         rise, east, north, misfit = (found[inside] for found in sides.planes(middles))
