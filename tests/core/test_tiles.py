@@ -548,9 +548,11 @@ class FailingInTheEast(LabelGround):
 @pytest.mark.parametrize("heights", [False, True])
 def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, tmp_path, heights):
     def failing(job):
-        if isinstance(job, PointJob) and isinstance(job.step, LabelGround):
-            own = {each.name: getattr(job.step, each.name) for each in dataclasses.fields(job.step)}
-            return dataclasses.replace(job, step=FailingInTheEast(**own))
+        if isinstance(job, PointJob) and isinstance(step := job.output.grid.step, LabelGround):
+            own = {field.name: getattr(step, field.name) for field in dataclasses.fields(step)}
+            grid = dataclasses.replace(job.output.grid, step=FailingInTheEast(**own))
+            output = dataclasses.replace(job.output, grid=grid)
+            return dataclasses.replace(job, output=output)
 
     workers, output = replacing_jobs(Threads, failing), Output(height_above_ground=heights)
     blocks = Blocks(20.0, 5.0)
