@@ -13,7 +13,6 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import check_output
 from ..core.progress import SILENT, Progress
 from ..core.temporary import shown
 from ..rasters.libraries import GdalErrors
@@ -49,14 +48,6 @@ class Feature(NamedTuple):
     # float64, (n, 2) or (n, 3): x, y and z if the kind has it; (1, 3) for a point; of a polygon the
     # closed rings, x and y, the outer one first
     corners: Any
-
-
-def check_features(target: Path, sources: tuple[Path, ...] = ()) -> None:
-    """Refuse, before any work is done, a vector layer that could not be written at the end: its
-    name or folder is unsuitable, or a library is missing.
-    """
-    check_output(target, sources)
-    feature_writer(target)
 
 
 def feature_writer(target: Path) -> Callable[..., int]:
