@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import configparser
 import re
 import unicodedata
 from pathlib import Path
@@ -10,13 +11,14 @@ from typing import Mapping, NamedTuple, Sequence
 from ...core.errors import BareEarthError
 from ...crs.unit_names import FOOT, UNITS, US_FOOT
 
+# Lists of words that surveyors write, in two sections.
+VOCABULARY = configparser.ConfigParser(interpolation=None)
+VOCABULARY.read_string(Path(__file__).with_name("words.ini").read_text(encoding="utf-8"))
+_LISTS = {name: words.split() for name, words in VOCABULARY["columns"].items()}
+# Names of columns, by what they hold; earlier names count before later ones.
+NAMES = {role: _LISTS[role] for role in ("x", "y", "z", "cover", "type", "name")}
 _LETTERS = str.maketrans({"ø": "o", "Ø": "O", "ł": "l", "Ł": "L", "ß": "ss", "æ": "a"})
 _PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
-
-
-def words_of(text: str) -> frozenset[str]:
-    """Return the words of a list."""
-    return frozenset(text.split())
 
 
 def without_accents(text: str) -> str:
@@ -32,43 +34,6 @@ def parts_of(text: str) -> list[str]:
     return _PARTS.findall(without_accents(text))
 
 
-# Names of columns without accents and signs; a name of several words is also recognised if all of
-# its words are in the row. Earlier names count before later ones.
-NAMES = {
-    "x": "x e east easting eastings ost ostwert rechtswert rechts est este leste oost oosting"
-    " xcoord coordx pointx xutm abscisse lon long lng longitude longitud longitudine lange laenge"
-    " geolange geolaenge",
-    "y": "y n north northing northings nord nordwert hochwert hoch norte noord noording ycoord"
-    " coordy pointy yutm ordonnee lat latitude latitud latitudine breite geobreite",
-    "z": "z elevation elev elv ele cota elevacion quota kote rl rzedna zcoord coordz pointz"
-    " altitude alt altura altezza height hgt ht hohe hoehe geohohe geohoehe hauteur hoogte hojde"
-    " hoyde hojd korkeus wysokosc vyska h",
-    "cover": "cover landcover landcoverclass landcovertype covertype groundcover vegetation"
-    " landuse lulc vegetated vegetacion vegetatie bewuchs bodenbedeckung bedeckung landbedeckung"
-    " nutzung landnutzung oberflache untergrund occupation occupationsol couverture typesol sol"
-    " cobertura coberturasuelo usosuelo tiposuelo copertura bodembedekking bodemgebruik"
-    " landgebruik grondgebruik begroeiing surface surfacetype terraintype class klasse classe"
-    " clase category kategorie categorie categoria description desc featurecode codedescription"
-    " code",
-    "type": "pointtype pttype ptype type gcptype checkpointtype pointclass pointusage usage"
-    " purpose role nvavva typ punktart art typepoint naturepoint tipo tipopunto punttype soort",
-    "name": "name id pointid pointname ptid uniqueidentifier uniqueide uniqueid point pt pnt nr no"
-    " num number nummer punkt punktnr punktnummer pkt station label nom nombre nome numero naam"
-    " navn namn p marker gcp gcpname checkpoint checkpointid gcpid",
-}
-# Words that say nothing about what a column holds.
-_FILLERS = words_of(
-    "source grid coord coords coordinate coordinates koordinate utm map projected surveyed"
-    " measured known reference field gps gnss survey check checkpoint control the of de du des del"
-    " della di la le les el der die das von van het in"
-)
-# Words by which a height is above the geoid, those that may go with them, and words by which it is
-# above the ellipsoid.
-_ORTHOMETRIC = words_of(
-    "nhn nn navd ngvd msl amsl asl nap ngf ign evrf odn aod ahd nzvd cgvd dhhn lhn ln taw egm"
-)
-_ABOVE = words_of("sea level normal mean uber ueber u above over sur sobre boven")
-_ELLIPSOIDAL = words_of("hae wgs etrs grs nad hell helli")
 _PREFIX = re.compile(
     r"(orth[a-z]*?|ortom?[a-z]*?|normal|ellip[a-z]*?|elip[a-z]*?|ell)"
     r"(?:elevation|elev|heights?|hgt|hts?|altitude|alt|hohen?|hoehen?|z|h)?"
@@ -113,14 +78,14 @@ class ColumnName(NamedTuple):
         starts = (*(prefix[:2] for prefix in prefixes), *(word[:5] for word in words))
         if "el" in starts or "ellip" in starts:
             return 2
-        if prefixes or not words.isdisjoint(_ORTHOMETRIC) or words >= {"sea", "level"}:
+        if prefixes or not words.isdisjoint(_LISTS["orthometric"]) or words >= {"sea", "level"}:
             return 0
-        return 1 if words.isdisjoint(_ELLIPSOIDAL) else 2
+        return 1 if words.isdisjoint(_LISTS["ellipsoidal"]) else 2
 
     def rank(self, role: str) -> tuple[int, int] | None:
         """Return how well it names a role, the smaller the better; None if it does not."""
-        known = NAMES[role].split()
-        words = [word for word in self._lower if word not in _FILLERS] or self._lower
+        known = NAMES[role]
+        words = [word for word in self._lower if word not in _LISTS["fillers"]] or self._lower
         if role == "z":
             return self._rank_of_height(known, words)
         joined = ["".join(words), "".join(self._lower)]
@@ -138,14 +103,24 @@ class ColumnName(NamedTuple):
             if word in known:
                 # Surveyors write H above the geoid, and h above the ellipsoid.
                 places.append(0 if self.words == ("H",) else known.index(word))
-            elif _PREFIX.fullmatch(word) or word in _ELLIPSOIDAL:
+            elif _PREFIX.fullmatch(word) or word in _LISTS["ellipsoidal"]:
                 places.append(len(known))
-            elif word not in _ORTHOMETRIC | _ABOVE:
+            elif word not in (*_LISTS["orthometric"], *_LISTS["above"]):
                 return None
         if places:
             return self.height_kind, min(places)
-        is_datum = len(words) == 1 and words[0] in _ORTHOMETRIC  # NHN alone
+        is_datum = len(words) == 1 and words[0] in _LISTS["orthometric"]  # NHN alone
         return (0, 0) if is_datum else None
+
+
+def answer_in(text: str, column: str) -> str:
+    """Return yes or no in a column of plants as a land cover, and any other text as it is."""
+    words = {word.lower() for word in ColumnName.of(column).words}
+    if words.isdisjoint(_LISTS["plants"]):
+        return text
+    word = text.lower()
+    is_no = "not vegetated" if word in _LISTS["no"] else text
+    return "vegetated" if word in _LISTS["yes"] else is_no
 
 
 def columns_in(text: str | None) -> dict[str, str]:

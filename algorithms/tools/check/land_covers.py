@@ -13,7 +13,7 @@ from typing import NamedTuple, Sequence
 
 from ...core.progress import Progress
 from .checkpoints import Checkpoints
-from .columns import parts_of, words_of
+from .columns import VOCABULARY, parts_of
 
 NVA, VVA, CONTROL, UNKNOWN = "NVA", "VVA", "control", ""
 
@@ -28,125 +28,25 @@ def _key(word: str) -> str:
     return _UMLAUTS.sub(r"\1", word.lower())
 
 
-def _keys(text: str) -> frozenset[str]:
-    return frozenset(map(_key, words_of(text)))
-
-
 def _words(text: str) -> list[str]:
     """Return the words in what somebody wrote."""
     return [_key(part) for part in parts_of(text) if part.isalpha()]
 
 
-# Plants and what is covered by them: English, German, French, Dutch, Spanish, some of others.
-# Plurals with s, es or x need no entry.
-_VEGETATED = _keys(
-    "veg vegetated vegetation vegetative forest forested forestry wood woods woodland wooded woody"
-    " tree timber shrub shrubland shrubby scrub scrubland brush brushy brushland bush bushland"
-    " undergrowth understory understorey underbrush thicket hedge hedgerow orchard vineyard grove"
-    " plantation crop cropland corn maize wheat barley rye oats rice soy soybean cotton sugarcane"
-    " cane alfalfa hay canola rapeseed sunflower potato potatoes weed weedy reed reedbed rushes"
-    " cattail sedge marsh marshland swamp swampland swampy bog fen mangrove wetland fern bracken"
-    " heath heather heathland gorse bamboo palmetto sawgrass sagebrush chaparral mesquite juniper"
-    " pine spruce fir oak birch aspen willow evergreen deciduous conifer coniferous hardwood"
-    " softwood canopy jungle rainforest tussock flax manuka kanuka bramble blackberry ivy"
-    " herbaceous twc blt"
-    # German
-    " wald waelder forst baum baeume baeumen gehoelz busch buesche gebuesch strauch straeucher"
-    " straeuchern gestruepp hecke hecken dickicht unterholz unterwuchs schilf schilfrohr roehricht"
-    " ried heide farn farne brombeere brombeeren mais korn weizen raps gerste roggen hafer getreide"
-    " rueben zuckerrueben sonnenblumen kartoffeln hopfen weinberg weinberge weingarten reben"
-    " obst obstgarten obstwiese streuobst streuobstwiese plantage sumpf moor hochgras stauden"
-    " hochstauden bewachsen bewaldet bewuchs laub kiefer kiefern fichte"
-    " fichten buche buchen eiche eichen jungwuchs schonung unkraut brennnesseln brennesseln"
-    " feldfrucht feldfruechte buschland"
-    # French
-    " foret bois boise boisee boisement arbre arbuste arbustif arbustive arbore arboree buisson"
-    " broussaille fourre taillis futaie haie verger vigne vignoble ble colza tournesol culture"
-    " lande maquis garrigue bruyere roseau roseliere friche fougere bosquet vegetal vegetale"
-    " vegetalise vegetalisee ripisylve peupleraie pinede sapiniere chenaie hetraie marais marecage"
-    # Dutch
-    " bos bossen bomen boom struik struiken struikgewas struweel riet rietkraag heg heggen haag"
-    " houtwal boomgaard wijngaard gewas gewassen tarwe gerst koolzaad aardappelen bieten onkruid"
-    " vegetatie begroeid begroeiing ruigte moeras"
-    # Spanish, Italian, Portuguese, Scandinavian
-    " bosque arbol arbolado arboleda arbusto matorral maleza selva pinar encinar robledal hayedo"
-    " eucaliptal cultivo maiz trigo cebada vinedo vina olivar olivo huerto huerta frutal seto"
-    " manglar marisma carrizo carrizal junco juncal helecho vegetacion vegetado sotobosque zarza"
-    " bosco alberi arbusti siepe vigneto oliveto frutteto macchia vegetazione canneto floresta"
-    " arvore skog"
+_LISTS = {
+    name: frozenset(map(_key, words.split())) for name, words in VOCABULARY["land covers"].items()
+}
+# How a word of a kind ends: Nadelwald, Waldweg.
+_ENDS = tuple(
+    (kind, tuple(VOCABULARY["land covers"][name].split()))
+    for kind, name in ((VVA, "ends of vegetated"), (NVA, "ends of open"))
 )
-# Land without vegetation, or with low grass.
-_OPEN = _keys(
-    "bare open earth soil dirt sand sandy gravel gravelly rock rocky stone stony boulder scree"
-    " asphalt concrete cement pavement paved paving road street roadway highway freeway avenue"
-    " boulevard lane drive track trail path pathway footpath sidewalk walkway driveway parking"
-    " carpark runway taxiway tarmac apron helipad deck decking curb kerb gutter manhole urban"
-    " developed built building barren hard hardstand grass lawn turf grassland short mown mowed"
-    " beach dune desert playa snow ice clay mud mudflat quarry ballast railway railroad rail bridge"
-    " plaza square playground court fairway terrain impervious sealed unpaved brick cobble"
-    " cobblestone clear cleared airport pier dock ramp stairs levee dike dyke"
-    # German
-    " weg wege strasse strassen gasse platz pfad bahn bruecke steig beton pflaster schotter kies"
-    " fels felsen stein steine rasen gras offen offenes offenland befestigt versiegelt hof halde"
-    " deponie duene strand watt siedlung stadt bebaut bordstein gully schacht deckel freiflaeche"
-    " gelaende erde deich damm"
-    # French
-    " nu nue route rue chemin sentier piste chaussee trottoir allee place gravier cailloux rocher"
-    " roche sable plage pelouse gazon herbe urbain urbaine bati pont terrasse ouvert ouverte degage"
-    " terre quai digue esplanade enrobe bitume"
-    # Dutch
-    " straat pad stoep plein verharding verhard onverhard tegels klinkers grind zand rots steen"
-    " gazon grasland brug stedelijk bebouwd kaal dijk"
-    # Spanish, Italian, Portuguese
-    " suelo desnudo carretera calle camino sendero pista acera asfalto hormigon grava roca piedra"
-    " arena cesped hierba pasto urbano urbana edificado puente terraza abierto despejado tierra"
-    " aparcamiento strada sentiero piazza calcestruzzo ghiaia roccia sabbia spiaggia prato ponte"
-    " estrada rua caminho"
-)
-# In these languages the first noun decides: "chemin forestier", "camino del bosque".
-_FIRST_DECIDES = _keys(
-    "route rue chemin sentier piste chaussee trottoir allee pont terrasse carretera calle camino"
-    " sendero pista puente plaza terraza acera strada sentiero ponte rua estrada caminho"
-)
-_LOW_PLANTS = _keys("grass grasses gras herbe herbes hierba hierbas pasto pastos erba erbe")
-_TALL = _keys(
-    "tall high long hoch hohe hohes hoher hohen hoog hoge lang langes lange haut haute hautes alto"
-    " alta altos altas dense dicht dichtes unmown uncut overgrown thick"
-)
-# A word that ends so is of this kind: Nadelwald, Waldweg.
-_ENDS = (
-    (VVA, "wald forst busch gebusch geholz strauch hecke baum baume straucher schilf rohricht moor"
-     " heide wuchs plantage brush enbos naaldbos loofbos"),
-    (NVA, "weg wege strasse gasse platz pfad bahn brucke steig rasen gras beton schotter kies sand"
-     " deich damm straat plein brug pad dijk road street way hof"),
-)  # fmt: skip
 # These endings say nothing. The word before them does: Maisfeld, Waldboden, cornfield.
 _NEUTRAL_ENDS = re.compile(
     "(.{3,})(?:felder|feld|fields|field|flachen|flache|gebiet|bestand|boden|rand|veld|velden|zone)"
 )
 _WITHOUT = re.compile("(.{3,})(?:less|los|lose|loses|losen|frei|freie|freies)|(?:un|non)(.+)")
-# What is named behind one of these is not there.
-_NEGATIONS = _keys(
-    "non no not without un nicht kein keine keinen ohne sans hors pas sin niet geen zonder senza"
-    " sem"
-)
-# Where something is beside plants or under them, it is vegetated.
-_AND = _keys("and und et y e mit avec con met with under unter sous bajo onder beneath")
 _BETWEEN = re.compile(r"[,;/+&()|:]|\s[-\u2013]\s")
-_OF = _keys("of in im am at an dans en de des du del la d van op through durch")
-_FREE = _keys("free frei libre vrij")  # what is named before one of these is not there
-_CONTROL = _keys(
-    "control controls gcp gcps calibration passpunkt passpunkte paspunt paspunten appui calage"
-    " apoyo appoggio adjustment tiepoint"
-)
-_CHECK = _keys(
-    "check checks checked checkpoint checkpoints chk chkpt cp icp qc qa quality verification"
-    " validation kontrollpunkt kontrolle pruefpunkt checkpunkt controle controlepunt verificacion"
-    " comprobacion chequeo verifica controllo independent"
-)
-_POINT = _keys(
-    "point points pt pts punkt punkte punt punto d de ground photo survey terrestre dgps"
-)
 
 
 class LandCovers(NamedTuple):
@@ -160,7 +60,8 @@ class LandCovers(NamedTuple):
         nothing is written, by use, such as Check or NVA, and land cover.
         """
         used, named = _words(use), _words(cover)
-        if _is_control(used) or (_is_control(named) and {*named} <= _CONTROL | _POINT):
+        says_more = not {*named} <= _LISTS["control"] | _LISTS["point"]
+        if _is_control(used) or (_is_control(named) and not says_more):
             return CONTROL
         return (self._land(use) if used else None) or self._land(cover)
 
@@ -170,9 +71,9 @@ class LandCovers(NamedTuple):
         explicit = {_STATED[word] for word in words if word in _STATED}
         if len(explicit) == 1:
             return explicit.pop()
-        if not text.strip() or (words and {*words} <= _CHECK | _POINT):
+        if not text.strip() or (words and {*words} <= _LISTS["check"] | _LISTS["point"]):
             return None
-        if not self.words and not _TALL.isdisjoint(words) and not _LOW_PLANTS.isdisjoint(words):
+        if not self.words and _has("tall", words) and _has("low plants", words):
             return VVA
         kinds = set(map(self._of_part, _parts(text)))
         if VVA in kinds:
@@ -183,30 +84,30 @@ class LandCovers(NamedTuple):
         """Return the kind of land that a few words name together."""
         kinds = [self._of_word(word) for word in words]
         for place, word in enumerate(words):
-            if word in _NEGATIONS and VVA in kinds[place + 1 :]:
+            if word in _LISTS["not"] and VVA in kinds[place + 1 :]:
                 kinds[kinds.index(VVA, place + 1)] = NVA
-            if word in _FREE and place and kinds[place - 1] == VVA:
+            if word in _LISTS["free"] and place and kinds[place - 1] == VVA:
                 kinds[place - 1] = NVA
         marked = [place for place, kind in enumerate(kinds) if kind]
         if not marked:
             return UNKNOWN
         first = marked[0]
         between = words[first + 1 : marked[1]] if marked[1:] else []
-        is_first = words[first] in _FIRST_DECIDES or not _OF.isdisjoint(between)
+        is_first = words[first] in _LISTS["first decides"] or _has("of", between)
         return kinds[first if is_first else marked[-1]]
 
     def _of_word(self, word: str) -> str:
         """Return the kind of land that a word names."""
         if self.words:
             return VVA if any(_is_same(word, _key(given)) for given in self.words) else UNKNOWN
-        for kind, known in ((VVA, _VEGETATED), (NVA, _OPEN)):
-            if not known.isdisjoint(_singular(word)):
+        for kind, known in ((VVA, "vegetated"), (NVA, "open")):
+            if _has(known, _singular(word)):
                 return kind
         without = _WITHOUT.fullmatch(word)
         if without and self._of_word(without[1] or without[2]) == VVA:
             return NVA
         for kind, ends in _ENDS:
-            if word.endswith(tuple(ends.split())):
+            if word.endswith(ends):
                 return kind
         neutral = _NEUTRAL_ENDS.fullmatch(word)
         return self._of_word(neutral[1]) if neutral else UNKNOWN
@@ -244,13 +145,18 @@ def kinds_of(
     return [kind or NVA for kind in found], dict(unknown.most_common())
 
 
+def _has(name: str, words: Sequence[str]) -> bool:
+    """Return whether one of the words is in a list."""
+    return not _LISTS[name].isdisjoint(words)
+
+
 def _parts(text: str) -> list[list[str]]:
     """Return the words of each part of a text: of what is beside or under something else."""
     found: list[list[str]] = []
     for part in _BETWEEN.split(text):
         found.append([])
         for word in _words(part):
-            if word in _AND:
+            if word in _LISTS["and"]:
                 found.append([])
             else:
                 found[-1].append(word)
@@ -269,4 +175,4 @@ def _is_same(word: str, wanted: str) -> bool:
 
 def _is_control(words: Sequence[str]) -> bool:
     """Return whether words say that a survey was fitted to a point."""
-    return not _CONTROL.isdisjoint(words) and _CHECK.isdisjoint(words)
+    return _has("control", words) and not _has("check", words)

@@ -14,7 +14,7 @@ from ...crs.stated import stated_wkt
 from ...survey.shapes import Shapes
 from ...survey.vector_files import read_points
 from .checkpoints import Checkpoints, OtherHeights
-from .columns import ColumnName, columns_in, columns_of, parts_of, words_of
+from .columns import ColumnName, answer_in, columns_in, columns_of, parts_of
 from .tables import SUFFIXES, number_of, places_without_names, read_table
 
 # For the help of options.
@@ -25,10 +25,6 @@ FORMATS = (
 # Heights that stand for none.
 _NODATA = (-9999.0, -999.0, -32768.0, -32767.0)
 _LIMIT = 50_000.0
-# A column of such a name may say yes or no to plants.
-_PLANTS = words_of("vegetation vegetated vegetacion vegetatie begroeiing bewuchs")
-_YES = words_of("yes y true 1 ja j oui si sí x")
-_NO = words_of("no n false 0 none nein non nee geen keine kein aucune")
 # Two columns of heights that differ by less, in metres, hold the same.
 _SAME = 0.002
 
@@ -264,8 +260,7 @@ class _Rows(NamedTuple):
         for column in self.columns.get(role, []):
             texts = tuple(_word(record.cells[column]) for record in self.records)
             if any(texts):
-                words = {word.lower() for word in ColumnName.of(self.names[column]).words}
-                return texts if words.isdisjoint(_PLANTS) else tuple(map(_answer, texts))
+                return tuple(answer_in(text, self.names[column]) for text in texts)
         return ("",) * len(self.records)
 
 
@@ -285,12 +280,6 @@ def _with_kind_of_file(found: Checkpoints, path: str) -> Checkpoints:
             " they do not test these."
         )
     return replace(found, notes=(*found.notes, note)) if note else found
-
-
-def _answer(text: str) -> str:
-    """Return yes or no to plants as a land cover."""
-    word = text.lower()
-    return "vegetated" if word in _YES else "not vegetated" if word in _NO else text
 
 
 def _is_height(values: np.ndarray) -> np.ndarray:
