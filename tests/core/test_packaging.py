@@ -88,11 +88,21 @@ def test_pip_gets_every_package_of_the_classifier():
     assert listed == there | {"bare_earth"}
 
 
+def test_pip_gets_every_list_of_words_of_the_classifier():
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    lists = [path.relative_to(ROOT) for path in (ROOT / "algorithms").rglob("*.ini")]
+    assert lists
+    for path in lists:
+        folder = ".".join(("bare_earth", *path.parts[:-1]))
+        assert f'"{folder}" = ["{path.name}"]' in text
+
+
 def test_the_zip_holds_one_folder_with_what_qgis_needs(names):
     assert {name.split("/")[0] for name in names} == {"bare_earth"}
     needed = (
         "__init__.py metadata.txt LICENSE README.md requirements.txt plugin/plugin.py"
         " algorithms/runs/entry.py packages/laspy/__init__.py help/index.html"
+        " algorithms/tools/check/words.ini"
         " plugin/i18n/bare_earth_de.qm plugin/i18n/bare_earth_fr.qm"
         " plugin/models/terrain_contours.model3 plugin/models/cloud_heights.model3"
         " plugin/models/two_methods.model3"
