@@ -53,14 +53,17 @@ class Shrubs(PointRule):
         if self.most_open < 1.0:
             judged = (openness_of(state) < self.most_open).ravel()
         for width in self.widths:
-            seeds, in_wood = state.points.take(state.seeds), woods[cells.index[state.seeds]]
-            wrong = self._wrong(seeds, in_wood, width) & judged[cells.index[state.seeds]]
+            cell = cells.index[state.seeds]
+            seeds, in_wood = state.points.take(state.seeds), woods[cell]
+            wrong = self._wrong(seeds, in_wood, judged[cell], width)
             wrong &= ~self._long(cells, state.seeds, wrong, in_wood)
             state.waiting = np.append(state.waiting, state.seeds[wrong])
             state.seeds = state.seeds[~wrong]
 
-    def _wrong(self, seeds: Points, in_wood: np.ndarray, width: float) -> np.ndarray:
-        """Return which seeds lie above the planes of all sides."""
+    def _wrong(
+        self, seeds: Points, in_wood: np.ndarray, judged: np.ndarray, width: float
+    ) -> np.ndarray:
+        """Return which of the judged seeds lie above the planes of all sides."""
         blocks = Cells.over(seeds, width)
         mean = mean_surface(seeds, np.arange(seeds.count), blocks, width)
         above = seeds.z - blocks.interpolated(mean, seeds.x, seeds.y)
@@ -68,7 +71,7 @@ class Shrubs(PointRule):
         open_ = self.height + self.per_slope * width * slope
         allowed = np.where(in_wood, self.in_woods, open_)
         doubtful = above > np.where(in_wood, self.in_woods, self.height)
-        doubtful = np.flatnonzero(doubtful & (slope <= self.steepest))
+        doubtful = np.flatnonzero(doubtful & judged & (slope <= self.steepest))
         # The planes are those round the middle of a quarter of a block, for all seeds in it.
         quarters = Cells.over(seeds, width / 2.0)
         which, inside = np.unique(quarters.index[doubtful], return_inverse=True)
