@@ -18,8 +18,16 @@ WITH_BUILDINGS = "terrain_with_buildings"
 # of 1 m are usual also in woods, where a cell often has none.
 _CELLS = ((100.0, 0.1), (16.0, 0.25), (4.0, 0.5), (0.25, 1.0), (0.0625, 2.0))
 _LARGEST_CELL = 5.0
-# Cell sizes that specifications state, in metres.
-_STATED_CELLS = {"lbs-ql1": 0.5, "lbs-ql2": 1.0, "linz": 1.0, "ign": 0.5}
+# Values of the parameters of tools that specifications state. Beside a shore, the ground up to the
+# nominal spacing of pulses is ignored; that of IGN has no class for it.
+STATED: Mapping[str, Mapping[str, Any]] = {
+    "none": {},
+    "lbs-ql1": {"dtm_cell_size": 0.5, "shore_distance": 0.35},
+    "lbs-ql2": {"dtm_cell_size": 1.0, "shore_distance": 0.71},
+    "linz": {"dtm_cell_size": 1.0},
+    "ign": {"dtm_cell_size": 0.5, "shore_distance": 0.0, "above_ground": "ign"},
+}
+_CLASSES_OF_WATER = {"water-classes": "Classes of water"}
 # Classes of what stands on the ground.
 _ABOVE_GROUND = {3, 4, 5, 6}
 
@@ -37,8 +45,9 @@ class Delivery(NamedTuple):
     above_ground: bool = False  # whether the points above the ground get classes
     heights: bool = False  # whether each point gets its height above ground
     water: Mapping[str, float] | None = None  # which water is found, flattened and delivered
-    # whether ground in water and beside its shore gets the classes 9 and 20
-    water_classes: bool = False
+    # The tools that change the classified points where there is water, by their commands, and
+    # titles for their parameters.
+    in_water: Mapping[str, str] = MappingProxyType({})
     terrain: Mapping[str, Any] = MappingProxyType({})
     surface: Mapping[str, Any] = MappingProxyType({})  # values of the surface and canopy models
     with_buildings: bool = False  # whether there is a terrain model on which the buildings stand
@@ -52,8 +61,8 @@ class Delivery(NamedTuple):
         """Return the side of a cell of the terrain model in metres, by ground points in a square
         metre, if known, and the specification.
         """
-        if self.cell_as_specified and specification in _STATED_CELLS:
-            return _STATED_CELLS[specification]
+        if self.cell_as_specified and "dtm_cell_size" in STATED[specification]:
+            return float(STATED[specification]["dtm_cell_size"])
         if density is None:
             return max(1.0, self.finest)
         by_density = (cell for least, cell in _CELLS if density >= least)
@@ -75,7 +84,7 @@ DELIVERIES = {
         pictures=("hillshade", "dtm"),
         finest=0.5,
         water={},
-        water_classes=True,
+        in_water=_CLASSES_OF_WATER,
         terrain={"raster_nodata": -999999.0},
         quality=(
             "pulse_density", "ground_density", "voids", "overlap", "strip_differences",
@@ -121,7 +130,7 @@ DELIVERIES = {
         above_ground=True,
         # Canals and ponds too: on three real tiles this finds five of them, the usual limits none.
         water={"min_area": 1000.0, "min_width": 5.0},
-        water_classes=True,
+        in_water=_CLASSES_OF_WATER,
         contours=True,
     ),
     "drone-site": Delivery(

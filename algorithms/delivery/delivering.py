@@ -5,21 +5,20 @@ from __future__ import annotations
 import contextlib
 from dataclasses import asdict
 from pathlib import Path
-from typing import Iterable, Iterator
+from typing import Callable, Iterable, Iterator
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..core.files import temporary_folder
-from ..core.progress import SILENT, Progress
+from ..core.progress import SILENT, PassingOn, Progress
 from ..core.version import __version__
 from ..engine.workers import Workers
-from ..report.units import Units
 from ..survey.files import Survey, is_one_file, open_survey
 from ..survey.shapes import Place
-from .folder import CHANGES, PAGE, DeliveryFolder
-from .heard import Heard
-from .page import cell_text, delivery_html, settings_of
+from ..tools import POINT_TOOLS
+from .folder import PAGE, DeliveryFolder
+from .page import delivery_html, settings_of
 from .request import DeliveryRequest
-from .steps import DeliverySteps, Made
+from .steps import DeliverySteps
 from .summary import DeliverySummary
 
 
@@ -32,31 +31,82 @@ def deliver(
 ) -> DeliverySummary:
     """Make all outputs of a job from raw points: a delivery."""
     given = [sources] if isinstance(sources, (str, Path)) else list(sources)
-    paths, place = [Path(each) for each in given], DeliveryFolder(Path(folder))
+    paths, place = [Path(path) for path in given], DeliveryFolder(Path(folder))
     place.check(paths)
     is_one = is_one_file(paths)
-    heard = Heard(progress)
-    survey = _opened(paths, request, heard)
+    messages = _Messages(progress)
+    survey = _opened(paths, request, messages)
     if not is_one:
         place.begin(request.delivery)
     # On the disk of the folder, so that outputs can be moved there.
     beside = place.path.parent if is_one else place.path
     with _left_in_order(place, is_one), temporary_folder(beside) as working:
-        changed = {place.waiting / name: place.points for name in CHANGES}
-        heard.folders.update({working: place.path, **changed})
+        changed = {place.waiting / command: place.points for command in POINT_TOOLS}
+        messages.folders = {working: place.path, **changed}
+        summary = DeliverySummary(
+            str(place.path), request.delivery, str(place.path / PAGE), warnings=messages.warnings
+        )
         work = DeliveryFolder(working)
-        steps = DeliverySteps(request, survey, paths, is_one, work, place, workers)
+        steps = DeliverySteps(request, survey, paths, is_one, work, place, workers, summary)
         try:
-            made = steps.run(heard.part(0.01, 0.97))
+            steps.run(messages.part(0.01, 0.97))
         except BareEarthError as error:
             raise BareEarthError(str(error).replace(str(working), str(place.path))) from error
-        made.warnings = heard.warnings
-        page = delivery_html(request, made, survey, working)
+        page = delivery_html(request, summary, survey, working, steps.files)
         (working / PAGE).write_text(page, encoding="utf-8")
-        summary = _summary(request, made, survey, working, place.path)
-        heard(1.0)  # the last moment to cancel
-        place.take(working, made.waiting, _record(request, made, place.path))
+        shown = {"cloud": summary.cloud, **summary.layers}
+        places = {name: path.replace(str(working), str(place.path)) for name, path in shown.items()}
+        summary.cloud, summary.layers = places.pop("cloud"), places
+        messages(1.0)  # the last moment to cancel
+        # The points of many files are in the folder already.
+        there = [path for path in steps.files if path.parent == place.points and path.is_file()]
+        record = {
+            "delivery": request.delivery,
+            "version": __version__,
+            "settings": settings_of(request, summary.cell_size),
+            "points": summary.point_count,
+            "ground": summary.ground_count,
+            "classes": summary.class_counts,
+            "water": None if summary.water is None else asdict(summary.water),
+            "files": [path.relative_to(place.path).as_posix() for path in there],
+        }
+        place.replace(working, steps.waiting, record)
     return summary
+
+
+class _Messages(PassingOn):
+    """Passes on messages, each once, since several steps read the same files; keeps warnings."""
+
+    def __init__(self, whole: Progress) -> None:
+        super().__init__(whole)
+        # which messages name in place of those that are temporary
+        self.folders: dict[Path, Path] = {}
+        self.warnings: list[str] = []
+        self._said: set[str] = set()
+
+    def info(self, text: str) -> None:
+        """Pass on a message."""
+        self._tell(super().info, text)
+
+    def choice(self, text: str) -> None:
+        """Pass on a choice."""
+        self._tell(super().choice, text)
+
+    def warning(self, text: str) -> None:
+        """Pass on a warning, and keep it."""
+        self._tell(super().warning, text, self.warnings)
+
+    def _tell(
+        self, pass_on: Callable[[str], None], text: str, kept: list[str] | None = None
+    ) -> None:
+        """Pass on a message as it is to be read, unless it was passed on before."""
+        for temporary, folder in self.folders.items():
+            text = text.replace(str(temporary), str(folder))
+        if text not in self._said:
+            self._said.add(text)
+            pass_on(text)
+            if kept is not None:
+                kept.append(text)
 
 
 def _opened(paths: list[Path], request: DeliveryRequest, progress: Progress) -> Survey:
@@ -82,52 +132,3 @@ def _left_in_order(place: DeliveryFolder, is_one: bool) -> Iterator[None]:
         if not stays and isinstance(error, FinishedFilesStay):
             raise Cancelled from error
         raise
-
-
-def _moved(path: Path, working: Path, folder: Path) -> Path:
-    """Return where a file of the working folder will be."""
-    return folder / path.relative_to(working) if working in path.parents else path
-
-
-def _summary(
-    request: DeliveryRequest, made: Made, survey: Survey, working: Path, folder: Path
-) -> DeliverySummary:
-    if made.cloud is None or made.quality is None:
-        raise BareEarthError("The delivery is not complete.")
-    units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
-    return DeliverySummary(
-        folder=str(folder),
-        delivery=request.delivery,
-        page=str(folder / PAGE),
-        cloud=str(_moved(made.cloud, working, folder)),
-        layers={name: str(_moved(path, working, folder)) for name, path in made.layers.items()},
-        point_count=made.point_count,
-        ground_count=made.ground_count,
-        class_counts=made.class_counts,
-        cell_size=made.cell_size,
-        cell_text=cell_text(request, made, units),
-        failures=made.failures,
-        warnings=made.warnings,
-        seconds={name: round(took, 2) for name, took in made.seconds.items()},
-        quality=made.quality,
-        check=made.check,
-        water=made.water,
-        interval=made.interval,
-    )
-
-
-def _record(request: DeliveryRequest, made: Made, folder: Path) -> dict[str, object]:
-    """Return what is said of a delivery beside its files."""
-    # The points of many files are in the folder already. Their records are no part of a delivery.
-    points = DeliveryFolder(folder).points
-    there = [each for each in made.files if each.parent == points and each.is_file()]
-    return {
-        "delivery": request.delivery,
-        "version": __version__,
-        "settings": settings_of(request, made.cell_size),
-        "points": made.point_count,
-        "ground": made.ground_count,
-        "classes": made.class_counts,
-        "water": None if made.water is None else asdict(made.water),
-        "files": [each.relative_to(folder).as_posix() for each in there],
-    }

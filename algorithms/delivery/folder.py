@@ -6,7 +6,7 @@ import contextlib
 import json
 import os
 from pathlib import Path
-from typing import Any, Iterator, Sequence
+from typing import Any, Sequence
 
 from ..core.errors import BareEarthError, OutputInUse
 from ..core.exchange import exchange
@@ -27,10 +27,8 @@ from ..survey.files import is_cloud
 
 POINTS, QUALITY = "points", "quality"
 PAGE, RECORD = "index.html", "delivery.json"
-# Folder of files that further steps will read.
+# Folder of what tools made of the classified files, in folders with the names of the tools.
 _WAITING = ".waiting"
-# Folders in it, of classified files that a step changed.
-CHANGES = WATER, KEY_POINTS = "water", "keys"
 # The lock in the folder of records, see `alone_in`.
 _LOCK = "lock"
 
@@ -48,7 +46,7 @@ class DeliveryFolder:
 
     @property
     def waiting(self) -> Path:
-        """The folder of files that further steps will read."""
+        """The folder of changed files that further steps will read."""
         return self.path / _WAITING
 
     @property
@@ -60,13 +58,14 @@ class DeliveryFolder:
         return during, self.path / during.name
 
     @property
-    def record(self) -> dict[str, Any] | None:
+    def _record(self) -> dict[str, Any] | None:
         """The record of the delivery that the folder holds; None if it holds none."""
         try:
-            found = json.loads((self.path / RECORD).read_text(encoding="utf-8"))
+            record = json.loads((self.path / RECORD).read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return None
-        return found if isinstance(found, dict) and isinstance(found.get("files"), list) else None
+        is_whole = isinstance(record, dict) and isinstance(record.get("files"), list)
+        return record if is_whole else None
 
     def check(self, sources: Sequence[Path]) -> None:
         """Refuse, before any work, a folder with files of the user, or that cannot be made."""
@@ -83,15 +82,15 @@ class DeliveryFolder:
                     f"The input {source} is in the folder of the delivery, {self.path}. Choose"
                     " another folder."
                 )
-        seen = [each for each in os.listdir(self.path) if not each.startswith(".")]
-        if seen and self.record is None:
+        seen = [name for name in os.listdir(self.path) if not name.startswith(".")]
+        if seen and self._record is None:
             raise BareEarthError(
                 f"The folder {self.path} holds other files, such as {min(seen)}. Choose an empty"
                 " folder, a new one, or that of an earlier delivery, which is replaced."
             )
         check_output(self.path / RECORD)
-        for each in self._files:
-            check_free(self.path / each)
+        for name in self._files:
+            check_free(self.path / name)
 
     def begin(self, delivery: str) -> None:
         """Make the folder for files that are finished one by one, and say that more will follow."""
@@ -109,50 +108,53 @@ class DeliveryFolder:
 
     def leave(self) -> bool:
         """Remove what is not finished; return whether finished files stay."""
-        folders = [each for each in (self.points, self.waiting) if each.is_dir()]
-        if any(is_cloud(each) for folder in folders for each in folder.rglob("*")):
+        folders = [folder for folder in (self.points, self.waiting) if folder.is_dir()]
+        if any(is_cloud(path) for folder in folders for path in folder.rglob("*")):
             return True
-        for each in folders:
-            remove(each)
+        for folder in folders:
+            remove(folder)
         with contextlib.suppress(OSError):  # it may hold files of the user
             if not self._files:
                 (self.path / RECORD).unlink(missing_ok=True)
             self.path.rmdir()
         return False
 
-    def take(self, made: Path, changed: Sequence[Path], record: dict[str, Any]) -> None:
+    def replace(self, working: Path, changed: Sequence[Path], record: dict[str, Any]) -> None:
         """Put a finished delivery from a temporary folder on the same disk here in place of an
         earlier one: all of it, or nothing, and its record with the names of the files.
         """
-        # The changed files are in a folder of `CHANGES`, and replace those of the same names in
-        # `points`. `OutputInUse` says, if another program has an old file open, where the new
-        # delivery is.
-        old, names = self._files, sorted(_files_in(made))
-        kept = {*names, *record.get("files", ())}
-        _write_record(made / RECORD, {**record, "is_finished": True, "files": sorted(kept)})
+        # The changed files are in folders of tools, and replace those with the same names among the
+        # points. `OutputInUse` says, if an old file is open, where the new delivery is.
+        old = self._files
+        names = [
+            path.relative_to(working).as_posix() for path in working.rglob("*") if path.is_file()
+        ]
+        kept = {*names, *record["files"]}
+        _write_record(working / RECORD, {**record, "is_finished": True, "files": sorted(kept)})
         # The records of many files first, which tell whether a file was changed; the page last.
-        moves = [(each, self._place_of(each)) for each in changed]
+        moves = [
+            (path, self.points.joinpath(*path.relative_to(self.waiting).parts[1:]))
+            for path in changed
+        ]
         moves.sort(key=lambda move: -len(move[1].parts))
-        names.sort(key=lambda each: each == PAGE)
-        moves += [(made / each, self.path / each) for each in (*names, RECORD)]
-        outdated = [self.path / each for each in set(old) - kept]
-        is_one = (made / POINTS).is_dir()
+        names.sort(key=lambda name: (name == PAGE, name))
+        moves += [(working / name, self.path / name) for name in (*names, RECORD)]
+        outdated = [self.path / name for name in set(old) - kept]
+        is_one = (working / POINTS).is_dir()
         try:
             with new_folder(self.path), temporary_folder(self.path) as aside:
                 exchange(moves, outdated, aside)
         except OutputInUse as error:
             what = "delivery" if is_one else "delivery, all but its points,"
             kept_in = free_path(self.path)
-            patiently(os.rename, made, kept_in)
+            patiently(os.rename, working, kept_in)
             raise OutputInUse(f"{error} The new {what} is kept in {kept_in}.") from error
         remove(self.waiting)
         with write_errors_told(self.path):
             self._put_records_away(is_one)
-            self._remove_empty({Path(name).parent for name in old})
-
-    def _place_of(self, changed: Path) -> Path:
-        """Return where a file of a folder of `CHANGES` goes."""
-        return self.points.joinpath(*changed.relative_to(self.waiting).parts[1:])
+            for folder in {(self.path / name).parent for name in old} - {self.path}:
+                if folder.is_dir() and not any(folder.iterdir()):
+                    folder.rmdir()
 
     def _put_records_away(self, is_one: bool) -> None:
         """Move the records of many files out of the points, and remove those of other files."""
@@ -167,22 +169,9 @@ class DeliveryFolder:
     @property
     def _files(self) -> list[str]:
         """The files of the delivery that the folder holds, if they are in it."""
-        record, here = self.record or {"files": []}, self.path.resolve()
-        named = (each for each in record["files"] if isinstance(each, str))
-        return [each for each in named if here in (self.path / each).resolve().parents]
-
-    def _remove_empty(self, folders: set[Path]) -> None:
-        for each in folders - {Path(".")}:
-            folder = self.path / each
-            if folder.is_dir() and not any(folder.iterdir()):
-                folder.rmdir()
-
-
-def _files_in(folder: Path) -> Iterator[str]:
-    """Yield the names of files of a folder and of those in it."""
-    for each in folder.rglob("*"):
-        if each.is_file():
-            yield each.relative_to(folder).as_posix()
+        record, here = self._record or {"files": []}, self.path.resolve()
+        named = (name for name in record["files"] if isinstance(name, str))
+        return [name for name in named if here in (self.path / name).resolve().parents]
 
 
 def _write_record(path: Path, record: dict[str, Any]) -> None:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from datetime import date
 from pathlib import Path
-from typing import Iterator
+from typing import Any, Iterator, Mapping, Sequence
 from urllib.parse import quote
 
 from ..core.parameters import ParameterSet, shown_value
+from ..core.words import counted
 from ..filters import method_of
 from ..las.class_names import named_class
 from ..report.page import (
@@ -28,13 +29,13 @@ from ..tools.check.accuracy import Figures
 from ..tools.quality.figures import FAIL
 from ..tools.quality.rasters import QUALITY_RASTERS
 from ..tools.rasters.rows import RASTERS
-from .deliveries import WITH_BUILDINGS
+from .deliveries import WITH_BUILDINGS, Delivery
+from .folder import POINTS, QUALITY
 from .pictures import picture_of
 from .request import DeliveryRequest
-from .steps import Made
+from .summary import DeliverySummary
 
 _MOST_ROWS = 200
-_NOT_MEASURED = "Not measured: no checkpoints are given."
 _STYLE = """
 .maps { grid-template-columns: repeat(auto-fill, minmax(380px, 1fr)); }
 .maps figure:first-child { grid-column: 1 / -1; }
@@ -55,137 +56,134 @@ _ABOUT = {
 }
 
 
-def delivery_html(request: DeliveryRequest, made: Made, survey: Survey, root: Path) -> str:
+def delivery_html(
+    request: DeliveryRequest,
+    summary: DeliverySummary,
+    survey: Survey,
+    root: Path,
+    files: Sequence[Path],
+) -> str:
     """Return the page of a delivery; `root` has its files, all but the points of many files."""
     units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
-    content = request.content
+    content, crs = request.content, survey.crs.name or "not stated"
+    figures = [("CRS", crs), *_figures(summary), *_accuracy(request, summary)]
     parts = [
         paragraph(content.about),
-        section("In figures", table(_figures(request, made, survey, units), is_named=True)),
-        *_comparison(made),
-        section("Look at this", listed(_warnings(made))),
-        section("Maps", maps(_pictures(request, made, units))),
-        _files(made, root),
-        _settings(request, made, survey),
+        section("In figures", table(figures, is_named=True)),
+        *_comparison(summary),
+        section("Look at this", listed(_warnings(summary))),
+        section("Maps", maps(_pictures(content, summary, units))),
+        _files(root, files),
+        _settings(request, summary, survey),
     ]
-    name = survey.tiles[0].path.name
-    others = len(survey.tiles) - 1
-    more = f" and {others:,} more {'file' if others == 1 else 'files'}" if others else ""
+    name, others = survey.tiles[0].path.name, len(survey.tiles) - 1
+    more = f" and {counted(others, 'more file', 'more files')}" if others else ""
     return page(f"{content.label}: {name}{more}", parts, _STYLE)
 
 
-def _figures(
-    request: DeliveryRequest, made: Made, survey: Survey, units: Units
-) -> list[tuple[str, str]]:
-    found, rows = made.quality, [("CRS", survey.crs.name or "not stated")]
-    rows.append(("Points", f"{made.point_count:,}"))
-    share = 100.0 * made.ground_count / max(made.point_count, 1)
-    rows.append(("Ground points", f"{made.ground_count:,} ({share:.1f} %)"))
-    for value, count in made.class_counts.items():
-        rows.append((named_class(value).capitalize(), f"{count:,}"))
-    if found is not None:
-        rows.append(("Area, without a border of 10 to 20 m", f"{found.area / 10_000:,.2f} ha"))
-        densities = (found.pulse_density, found.ground_density)
-        for name, density in zip(("First returns", "Ground points"), densities):
-            shown = "none" if density is None else f"{density:.2f}"
-            rows.append((f"{name} in a square metre", shown))
-    rows.append(("Cell size of the terrain model", cell_text(request, made, units)))
-    if made.interval is not None:
-        rows.append(("Contour interval", made.interval.in_words()))
-    if made.water is not None:
-        rows.append(("Water", made.water.text))
-    return rows + _accuracy(request, made)
+def _figures(summary: DeliverySummary) -> Iterator[tuple[str, str]]:
+    yield "Points", f"{summary.point_count:,}"
+    share = 100.0 * summary.ground_count / max(summary.point_count, 1)
+    yield "Ground points", f"{summary.ground_count:,} ({share:.1f} %)"
+    for value, count in summary.class_counts.items():
+        yield named_class(value).capitalize(), f"{count:,}"
+    quality = summary.quality
+    if quality is not None:
+        yield "Area, without a border of 10 to 20 m", f"{quality.area / 10_000:,.2f} ha"
+        densities = {
+            "First returns": quality.pulse_density,
+            "Ground points": quality.ground_density,
+        }
+        for name, density in densities.items():
+            yield f"{name} in a square metre", "none" if density is None else f"{density:.2f}"
+    yield "Cell size of the terrain model", summary.cell_text
+    if summary.interval is not None:
+        yield "Contour interval", summary.interval.in_words()
+    if summary.water is not None:
+        yield "Water", summary.water.text
 
 
-def cell_text(request: DeliveryRequest, made: Made, units: Units) -> str:
-    """Return the cell size of the terrain model in words."""
-    size = request.terrain_with(made.cell_size).cells(units.horizontal).metres
-    return units.length(size)
-
-
-def _accuracy(request: DeliveryRequest, made: Made) -> list[tuple[str, str]]:
-    check = made.check
-    if check is None:
-        return [("Accuracy of the terrain", _NOT_MEASURED)]
-    rows: dict[str, Figures | None] = {
+def _accuracy(request: DeliveryRequest, summary: DeliverySummary) -> Iterator[tuple[str, str]]:
+    check = summary.check
+    measured = {} if check is None else {
         "Checkpoints, without vegetation (NVA)": check.nva,
         "Checkpoints, with vegetation (VVA)": check.vva,
         "Checkpoints, terrain model (NVA)": check.dtm_nva,
-    }
-    told = [(name, each.text) for name, each in rows.items() if each is not None]
-    if not told:
-        told.append(("Accuracy of the terrain", _NOT_MEASURED))
-    stated = {"Verdict": check.verdict, "Statement": "" if check.doubt else check.statement}
-    told += [(name, words) for name, words in stated.items() if words]
-    left = check.hold_out
-    if left is None:
-        return told
-    rows = {
-        "Ground points held out": left.all, "Held out, open land": left.open,
-        "Held out, under trees": left.under_trees, "Held out, steep": left.steep,
     }  # fmt: skip
-    told += [(name, each.text) for name, each in rows.items() if each is not None]
-    share = None if made.quality is None else made.quality.ground_void_share
-    limits = left.limits(share, request.quality.void_distance)
-    return [*told, ("What held-out points tell", limits)]
+    yield from _known(measured)
+    if not any(measured.values()):
+        yield "Accuracy of the terrain", "Not measured: no checkpoints are given."
+    if check is None:
+        return
+    if check.verdict:
+        yield "Verdict", check.verdict
+    if check.statement and not check.doubt:
+        yield "Statement", check.statement
+    left = check.hold_out
+    if left is not None:
+        yield from _known(
+            {
+                "Ground points held out": left.all,
+                "Held out, open land": left.open,
+                "Held out, under trees": left.under_trees,
+                "Held out, steep": left.steep,
+            }
+        )
+        voids = None if summary.quality is None else summary.quality.ground_void_share
+        yield "What held-out points tell", left.limits(voids, request.quality.void_distance)
 
 
-def _comparison(made: Made) -> list[Html]:
-    if made.quality is None or not made.quality.lines:
+def _known(figures: Mapping[str, Figures | None]) -> Iterator[tuple[str, str]]:
+    return ((name, found.text) for name, found in figures.items() if found is not None)
+
+
+def _comparison(summary: DeliverySummary) -> list[Html]:
+    quality = summary.quality
+    if quality is None or not quality.lines:
         return []
-    lines, failed = made.quality.lines, made.quality.left
+    passed = len(quality.lines) - len(quality.left)
     words = {
         True: "No comparison fails.",
         None: "No comparison fails, but not all could be decided.",
         False: "The survey does not meet it.",
-    }[made.quality.passes]
-    count = f"{words} {len(lines) - len(failed)} of {len(lines)} comparisons pass; "
+    }[quality.passes]
+    count = f"{words} {passed} of {len(quality.lines)} comparisons pass; "
     rows = [
         (line.name, line.found, line.asked, "fail" if line.state == FAIL else "look at it")
-        for line in failed
+        for line in quality.left
     ]
     said = element("p", Html(count + link("quality.html", "all of them") + "."))
     head = ("What", "Found", "Asked for", "Result")
     return [section("Specification", said, table(rows, head, is_named=True))]
 
 
-def _warnings(made: Made) -> list[str]:
-    said = [f"{Path(path).name} is left out. {why}" for path, why in made.failures.items()]
-    said += [warning for warning in made.warnings if warning not in said]
-    return said[:_MOST_ROWS]
+def _warnings(summary: DeliverySummary) -> list[str]:
+    left = (f"{Path(path).name} is left out. {why}" for path, why in summary.failures.items())
+    return list(dict.fromkeys((*left, *summary.warnings)))[:_MOST_ROWS]
 
 
-def _pictures(request: DeliveryRequest, made: Made, units: Units) -> Iterator[Html]:
-    for name in request.content.pictures:
-        picture, legend = picture_of(made.layers[name], name, units)
-        yield map_of(picture, label_of(name), legend, units)
-
-
-def label_of(name: str) -> str:
-    """Return the label of a layer."""
-    labels = {WITH_BUILDINGS: "Terrain with buildings", "contours": "Contour lines"}
-    return RASTERS[name].label if name in RASTERS else labels.get(name, name.capitalize())
+def _pictures(content: Delivery, summary: DeliverySummary, units: Units) -> Iterator[Html]:
+    for name in content.pictures:
+        picture, legend = picture_of(Path(summary.layers[name]), name, units)
+        label = "Terrain with buildings" if name == WITH_BUILDINGS else RASTERS[name].label
+        yield map_of(picture, label, legend, units)
 
 
 def _about(path: Path) -> str:
     """Return what a file holds."""
     if path.stem in RASTERS:
         return RASTERS[path.stem].help
-    if path.parent.name == "quality" and path.stem in QUALITY_RASTERS:
+    if path.parent.name == QUALITY and path.stem in QUALITY_RASTERS:
         raster = QUALITY_RASTERS[path.stem]
         return f"{raster.label or raster.title}."
     return _ABOUT.get(path.name, _ABOUT.get(path.stem, ""))
 
 
-def _files(made: Made, root: Path) -> Html:
+def _files(root: Path, files: Sequence[Path]) -> Html:
+    points = sorted(file.name for file in files if file.suffix.lower() in (".las", ".laz"))
+    rows = [(f"{POINTS}/{name}", "Classified points.") for name in points[:_MOST_ROWS]]
     names = sorted(file.relative_to(root).as_posix() for file in root.rglob("*") if file.is_file())
-    rows = [
-        (name, _about(root / name))
-        for name in names
-        if not name.startswith("points/") and name != "index.html"
-    ]
-    points = sorted(file.name for file in made.files if file.suffix.lower() in (".las", ".laz"))
-    rows[:0] = [(f"points/{name}", "Classified points.") for name in points[:_MOST_ROWS]]
+    rows += [(name, _about(root / name)) for name in names if not name.startswith(f"{POINTS}/")]
     left = len(points) - _MOST_ROWS
     return section(
         "Files",
@@ -199,10 +197,10 @@ def _broken(name: str) -> Html:
     return element("span", name, "files")
 
 
-def _settings(request: DeliveryRequest, made: Made, survey: Survey) -> Html:
+def _settings(request: DeliveryRequest, summary: DeliverySummary, survey: Survey) -> Html:
     rows = [
         (title, ", ".join(f"{name} {value}" for name, value in values.items()) or "defaults")
-        for title, values in settings_of(request, made.cell_size).items()
+        for title, values in settings_of(request, summary.cell_size).items()
     ]
     rows.append(("Made on", date.today().isoformat()))
     files = [(_broken(tile.path.name), f"{tile.count:,}") for tile in survey.tiles[:_MOST_ROWS]]
@@ -215,10 +213,9 @@ def _settings(request: DeliveryRequest, made: Made, survey: Survey) -> Html:
 
 def settings_of(request: DeliveryRequest, cell_size: float) -> dict[str, dict[str, str]]:
     """Return what differs from the defaults, by the name of the step and of the parameter."""
-    how = request.classify
-    method = method_of(how.parameters).label
+    how, content = request.classify, request.content
     sets: dict[str, ParameterSet] = {
-        method: how.parameters,
+        method_of(how.parameters).label: how.parameters,
         "Classes": how.selection,
         "Terrain model": request.terrain_with(cell_size),
         "Surface model": request.surface_model,
@@ -227,24 +224,23 @@ def settings_of(request: DeliveryRequest, cell_size: float) -> dict[str, dict[st
         sets["Above the ground"] = how.above_ground
     if request.water_wanted is not None:
         sets["Water"] = request.water_wanted
-    if request.water_classes is not None:
-        sets["Classes of water"] = request.water_classes
-    if request.content.contours:
+    for command, title in content.in_water.items():
+        sets[title] = request.sets_of(command)[0]
+    if content.contours:
         sets["Contour lines"] = request.contours
-    return {name: _changed(each) for name, each in sets.items()}
+    return {name: _changed(values) for name, values in sets.items()}
 
 
 def _changed(given: ParameterSet) -> dict[str, str]:
     values = {}
-    for each in given.declarations():
-        value = getattr(given, each.name)
-        if value != each.default:
+    for declared in given.declarations():
+        value = getattr(given, declared.name)
+        if value != declared.default:
             many = value if isinstance(value, tuple) else (value,)
-            values[each.name] = " ".join(map(_shown, many))
+            values[declared.name] = " ".join(map(_shown, many))
     return values
 
 
-def _shown(value: object) -> str:
-    if value is None or isinstance(value, (bool, str)):
-        return {None: "none", True: "on", False: "off"}.get(value, str(value))  # type: ignore
-    return shown_value(value)  # type: ignore[arg-type]
+def _shown(value: Any) -> str:
+    words = {None: "none", True: "on", False: "off"}
+    return words[value] if value is None or isinstance(value, bool) else shown_value(value)

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from typing import Any, Mapping, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..filters import DEFAULT_METHOD, METHODS
 from ..rasters.cell_grid import ANYWHERE, RasterTarget
-from ..runs.requests import ClassifyRequest, Request
+from ..runs.options import TileInput
+from ..runs.requests import ClassifyRequest, PointRequest, Request
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
+from ..tools import point_tool
 from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.check.accuracy import Accuracy
 from ..tools.check.checkpoints import Checkpoints
@@ -24,15 +26,14 @@ from ..tools.quality.specifications import SPECIFICATIONS
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
 from ..tools.rasters.parameters import MapTerrain, SurfaceModel
 from ..tools.water.finding import Water
-from ..tools.water_classes import WaterClasses
-from .deliveries import DEFAULT_DELIVERY, DELIVERIES, Delivery
+from .deliveries import DEFAULT_DELIVERY, DELIVERIES, STATED, Delivery
 
 _Set = TypeVar("_Set", bound=ParameterSet)
 # No delivery but outputs that the user chooses, and the specification that a delivery has.
 NO_DELIVERY, AS_DELIVERY = "own", "as-delivery"
 _BRIDGE_CLASS = 17
-# The specification whose limits of vegetation are not the usual ones, and the name of these.
-_IGN = "ign"
+# Values of the tools that change classified points, in all deliveries.
+_VALUES = {"mark_as": "flag"}
 
 
 @dataclass(frozen=True)
@@ -189,7 +190,7 @@ class DeliveryRequest(Request):
         """Whether the points above the ground get classes, and which."""
         if not self.content.needs_classes(self.specification):
             return ThenAboveGround()
-        return ThenAboveGround(above_ground=_IGN if self.specification == _IGN else "asprs")
+        return ThenAboveGround(above_ground=STATED[self.specification].get("above_ground", "asprs"))
 
     @property
     def ground(self) -> GroundClasses:
@@ -246,15 +247,20 @@ class DeliveryRequest(Request):
         given = {name: value for name, value in vars(self.water).items() if value is not None}
         return Water(**{**values, **given})
 
-    @property
-    def water_classes(self) -> WaterClasses | None:
-        """The classes of ground in water and beside its shore; None if they are not wanted."""
-        if not self.content.water_classes:
-            return None
-        how, asked = WaterClasses(), SPECIFICATIONS[self.specification]
-        if asked.classes is not None and how.ignored_class not in asked.classes:
-            return replace(how, shore_distance=0.0)
-        return how if asked.spacing is None else replace(how, shore_distance=asked.spacing)
+    def sets_of(self, command: str) -> list[ParameterSet]:
+        """Return the parameters of a tool that changes the classified points, given its command."""
+        values = {**_VALUES, **STATED[self.specification]}
+        return [
+            self.ground if declared is GroundClasses else _or_else(declared(), values)
+            for declared in point_tool(command).sets
+        ]
+
+    def to_change(self, command: str, inputs: Mapping[str, Any]) -> PointRequest:
+        """Return the request for such a tool and its further inputs."""
+        options = TileInput(), self.tiles, self.resources
+        return PointRequest.of(
+            point_tool(command), [*self.sets_of(command), *options], inputs, self.crs
+        )
 
     @property
     def surface_model(self) -> SurfaceModel:
@@ -263,7 +269,10 @@ class DeliveryRequest(Request):
 
 
 def _or_else(given: _Set, values: Any) -> _Set:
-    """Return parameters in which defaults are replaced by values, given by name."""
-    defaults = {each.name: each.default for each in given.declarations()}
-    left = {name: it for name, it in values.items() if getattr(given, name) == defaults[name]}
-    return replace(given, **left)
+    """Return parameters in which defaults are replaced by those of the values that they have."""
+    missing = {
+        declared.name: values[declared.name]
+        for declared in given.declarations()
+        if declared.name in values and getattr(given, declared.name) == declared.default
+    }
+    return replace(given, **missing)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field, is_dataclass
 from typing import Any
 
 from ..tools.check.hold_out import AGREEMENT
@@ -11,25 +11,29 @@ from ..tools.contours import Interval
 from ..tools.quality.figures import Quality
 from ..tools.water.tool import WaterSummary
 
+_NO_CHECKPOINTS = "accuracy", "not measured: no checkpoints are given"
 
-@dataclass(frozen=True)
+
+@dataclass
 class DeliverySummary:
     """What a delivery holds."""
 
     folder: str
     delivery: str
     page: str  # that shows it
-    cloud: str  # the classified file, or the virtual point cloud of many
-    layers: dict[str, str]  # files that a map shows, by names of `RASTERS` and of vector layers
-    point_count: int
-    ground_count: int
-    class_counts: dict[int, int]
-    cell_size: float  # of the terrain model, in metres or in the unit asked for
-    cell_text: str  # the same in words, with its unit
-    failures: dict[str, str]  # why some of many files are left out, by their paths
-    warnings: list[str]
-    seconds: dict[str, float]  # that each step took
-    quality: Quality = field(repr=False)
+    cloud: str = ""  # the classified file, or the virtual point cloud of many
+    # files that a map shows, by names of `RASTERS` and of vector layers
+    layers: dict[str, str] = field(default_factory=dict)
+    point_count: int = 0
+    ground_count: int = 0
+    class_counts: dict[int, int] = field(default_factory=dict)
+    cell_size: float = 1.0  # of the terrain model, in metres or in the unit asked for
+    cell_text: str = ""  # the same in words, with its unit
+    # why some of many files are left out, by their paths
+    failures: dict[str, str] = field(default_factory=dict)
+    warnings: list[str] = field(default_factory=list)
+    seconds: dict[str, float] = field(default_factory=dict)  # that each step took
+    quality: Quality | None = field(default=None, repr=False)
     # errors at checkpoints and at points that were held out
     check: Check | None = field(default=None, repr=False)
     water: WaterSummary | None = None  # that was found; None if none was looked for
@@ -44,31 +48,31 @@ class DeliverySummary:
     def rows(self) -> list[tuple[str, str]]:
         """Return titles and values of the figures that matter most, as text."""
         classes = ", ".join(f"{value}: {count:,}" for value, count in self.class_counts.items())
-        found = [("classes", classes)]
+        rows = [("classes", classes)]
         if self.water is not None:
-            found.append(("water", self.water.text))
-        found += self.accuracy()
-        lines, left = self.quality.lines, self.quality.left
-        if lines:
-            names = ", ".join(f"{each.name} ({each.state})" for each in left)
+            rows.append(("water", self.water.text))
+        rows += self.accuracy()
+        if self.quality is not None and self.quality.lines:
+            lines, left = self.quality.lines, self.quality.left
+            names = ", ".join(f"{line.name} ({line.state})" for line in left)
             passed = f"{len(lines) - len(left)} of {len(lines)} pass"
-            found.append(("comparisons", f"{passed}; not: {names}" if left else passed))
-        return [*found, ("cell size", self.cell_text), ("page", self.page)]
+            rows.append(("comparisons", f"{passed}; not: {names}" if left else passed))
+        return [*rows, ("cell size", self.cell_text), ("page", self.page)]
 
     def accuracy(self) -> list[tuple[str, str]]:
         """Return the rows of the errors at checkpoints and at points that were held out."""
         check = self.check
-        nva, vva = (None, None) if check is None else (check.nva, check.vva)
-        found = [] if nva or vva else [("accuracy", "not measured: no checkpoints are given")]
-        for name, figures in (("checkpoints", nva), ("vegetated", vva)):
+        if check is None:
+            return [_NO_CHECKPOINTS]
+        rows = [] if check.nva or check.vva else [_NO_CHECKPOINTS]
+        for name, figures in (("checkpoints", check.nva), ("vegetated", check.vva)):
             if figures is not None:
-                found.append((name, figures.text))
-        if check is not None and check.verdict:
-            found.append(("verdict", check.verdict))
-        left = None if check is None or check.hold_out is None else check.hold_out.all
-        if left is not None:
-            found.append(("held out", f"{left.text}; {AGREEMENT}"))
-        return found
+                rows.append((name, figures.text))
+        if check.verdict:
+            rows.append(("verdict", check.verdict))
+        if check.hold_out is not None and check.hold_out.all is not None:
+            rows.append(("held out", f"{check.hold_out.all.text}; {AGREEMENT}"))
+        return rows
 
     def lines(self) -> list[str]:
         """Return the figures as lines of text."""
@@ -76,12 +80,10 @@ class DeliverySummary:
 
     def as_dict(self) -> dict[str, Any]:
         """Return all figures as plain values."""
-        plain = {**vars(self), "quality": self.quality.as_dict()}
-        for name in ("check", "water", "interval"):
-            value = plain[name]
-            plain[name] = None if value is None else _plain(value)
-        return plain
+        return {name: _plain(value) for name, value in vars(self).items()}
 
 
 def _plain(value: Any) -> Any:
-    return value.as_dict() if hasattr(value, "as_dict") else dict(vars(value))
+    if hasattr(value, "as_dict"):
+        return value.as_dict()
+    return asdict(value) if is_dataclass(value) and not isinstance(value, type) else value

@@ -372,8 +372,8 @@ def test_water_that_was_found_gives_classes_in_one_file_and_in_two(made):
 
 def test_classes_of_water_are_those_that_the_specification_knows():
     def of(name, specification="as-delivery"):
-        options = DeliveryOptions(specification)
-        return DeliveryRequest(delivery=name, options=options).water_classes
+        request = DeliveryRequest(delivery=name, options=DeliveryOptions(specification))
+        return request.sets_of("water-classes")[0] if request.content.in_water else None
 
     distances = {
         "as-delivery": 0.7, "none": 0.7, "linz": 0.7, "lbs-ql1": 0.35, "lbs-ql2": 0.71, "ign": 0.0,
@@ -484,7 +484,7 @@ class StopsAfter(Progress):
         self._folder, self._count = folder, count
 
     def report(self, fraction):
-        if len(finished(self._folder / ".waiting" / "water")) >= self._count:
+        if len(finished(self._folder / ".waiting" / "water-classes")) >= self._count:
             raise Cancelled
 
 
@@ -551,7 +551,7 @@ def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
     move = os.replace
 
     def refuse(source, place):
-        is_last = Path(source).parent == target / ".waiting" / "water"
+        is_last = Path(source).parent == target / ".waiting" / "water-classes"
         if is_last and Path(place) == target / "points" / "west.laz":
             raise OSError(28, "No space left on device")
         move(source, place)
