@@ -25,7 +25,7 @@ from ..survey.shapes import Place
 from ..tools import file_tool, point_tool
 from ..tools.check.checking import CheckOptions
 from ..tools.contours import write_contours
-from ..tools.quality.measuring import QualityRequest, survey_quality
+from ..tools.quality import QualityRequest, survey_quality
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
 from ..tools.rasters.fixed_terrain import parts_of
 from ..tools.rasters.parameters import SurfaceModel
