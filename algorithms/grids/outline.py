@@ -11,7 +11,7 @@ import numpy as np
 from ..core.progress import SILENT, Progress
 from .morphology import closing, dilation
 
-# Cells are kept in parts of so many rows and columns.
+# Cells are kept in parts of so many rows and columns. Files have blocks of as many rows.
 _ROWS, _COLUMNS = 256, 4096
 # Cells that are worked on at a time.
 _CELLS_A_STRIP = 4_000_000
@@ -24,6 +24,14 @@ _OUTSIDE = 0
 ReadRows = Callable[[int, int], np.ndarray]
 
 
+def strips(shape: tuple[int, int]) -> Iterator[tuple[int, int]]:
+    """Yield the first row, and the row after the last, of strips of a raster."""
+    rows, columns = shape
+    step = max(_CELLS_A_STRIP // columns // _ROWS, 1) * _ROWS
+    for start in range(0, rows, step):
+        yield start, min(start + step, rows)
+
+
 class Outline:
     """Which cells of a raster (rows from north) lie inside; kept in so few bytes that any raster
     fits into memory.
@@ -32,13 +40,6 @@ class Outline:
     def __init__(self, shape: tuple[int, int]) -> None:
         self.shape = shape
         self._parts: dict[tuple[int, int], bool | bytes] = {}
-
-    def strips(self) -> Iterator[tuple[int, int]]:
-        """Yield the first row, and the row after the last, of strips in which to set cells."""
-        rows, columns = self.shape
-        step = max(_CELLS_A_STRIP // columns // _ROWS, 1) * _ROWS
-        for start in range(0, rows, step):
-            yield start, min(start + step, rows)
 
     def set(self, start: int, cells: np.ndarray) -> None:
         """Set the cells of a strip, which begins at row `start`; bool, shape (rows, columns)."""
@@ -128,13 +129,13 @@ def with_gaps_inside(
     # raster. The gaps of strips are joined where they touch, so the result is that of all rows at
     # once.
     cells, joined = Outline(shape), _JoinedGaps()
-    for start, end in cells.strips():
+    for start, end in strips(shape):
         part = read(start, end)
         cells.set(start, part)
         joined.add(part, start == 0, end == shape[0])
         progress(0.7 * end / shape[0])
     filled = Outline(shape)
-    for number, (start, end) in enumerate(cells.strips()):
+    for number, (start, end) in enumerate(strips(shape)):
         filled.set(start, ~joined.outside(number, cells.rows(start, end)))
         progress(0.7 + 0.3 * end / shape[0])
     return filled

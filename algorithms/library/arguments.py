@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from ..survey.feature_files import FORMATS as LINE_FORMATS
 from ..survey.vector_files import FORMATS
 from ..tools.check.reading import FORMATS as POINT_FORMATS
-from ..tools.rasters.rows import RASTERS as _RASTERS
+from ..tools.rasters.rows import RASTERS
 
 REQUIRED = inspect.Parameter.empty
 _PATH, _LITERAL = "str | PathLike[str]", "Literal[{}]"
@@ -99,7 +99,6 @@ SCHEDULER = Argument.of(
 VPC = path(
     "vpc", "with many files: the virtual point cloud that lists the results, by default in OUTPUT"
 )
-RASTERS = tuple(path(name, f"GeoTIFF (.tif). {each.help}") for name, each in _RASTERS.items())
 CONTOURS = path(
     "contours",
     f"contour lines of the terrain model ({', '.join(LINE_FORMATS)}); the field ELEV has the"
@@ -177,6 +176,11 @@ CHECKPOINTS = (
         " states, or the CRS of the points",
     ),
 )
+
+
+def rasters() -> tuple[Argument, ...]:
+    """Return the keywords of the rasters."""
+    return tuple(path(name, f"GeoTIFF (.tif). {row.help}") for name, row in RASTERS.items())
 
 
 def area(what: str, more: str = "") -> tuple[Argument, Argument]:

@@ -99,7 +99,7 @@ def _classify() -> Function:
         " them.",
         (arguments.SOURCES, arguments.OUTPUT),
         (
-            arguments.CRS_OF_OUTPUT, *arguments.RASTERS, arguments.CONTOURS, *arguments.TARGET,
+            arguments.CRS_OF_OUTPUT, *arguments.rasters(), arguments.CONTOURS, *arguments.TARGET,
             *arguments.CONSTRAINTS, *area, arguments.CORRECTIONS, explain, arguments.VPC, *_REACHES,
         ),
         (
@@ -138,7 +138,7 @@ def _terrain() -> Function:
         " points; all files together are one survey.",
         (CLASSIFIED,),
         (
-            arguments.CRS, *arguments.RASTERS, arguments.CONTOURS, *arguments.TARGET, *area,
+            arguments.CRS, *arguments.rasters(), arguments.CONTOURS, *arguments.TARGET, *area,
             *arguments.WITH_AUTOMATIC_WATER, *_REACHES,
         ),
         (

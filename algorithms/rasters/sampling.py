@@ -132,9 +132,9 @@ class HeightSampler:
         codes = squares[0] * (columns // _SIDE + 1) + squares[1]
         order = np.argsort(codes, kind="stable")
         cuts = np.flatnonzero(np.diff(codes[order])) + 1
-        for some in np.split(order, cuts) if len(order) else ():
-            square = self._square(*squares[:, some[0]].tolist())
-            here = which[some]
+        for group in np.split(order, cuts) if len(order) else ():
+            square = self._square(*squares[:, group[0]].tolist())
+            here = which[group]
             values[here] = _interpolated(square, row[here], column[here])
         return values
 
@@ -157,21 +157,18 @@ class HeightSampler:
 
 def _interpolated(square: _Square, row: np.ndarray, column: np.ndarray) -> np.ndarray:
     """Return heights at places of a square, given in cells of the raster."""
+    from scipy.ndimage import map_coordinates
+
     heights, (rows, columns) = square.heights, square.heights.shape
     row, column = row - square.row, column - square.column
     own = heights[
         np.clip(row.astype(np.intp), 0, rows - 1), np.clip(column.astype(np.intp), 0, columns - 1)
     ]
     # Relative to the centres of cells; beyond the outermost ones, heights stay the same.
-    row, column = np.clip(row - 0.5, 0, rows - 1), np.clip(column - 0.5, 0, columns - 1)
-    top, left = row.astype(np.intp), column.astype(np.intp)
-    down, right = row - top, column - left
-    total, weights = np.zeros(len(row)), np.zeros(len(row))
-    for i, share in ((top, 1.0 - down), (np.minimum(top + 1, rows - 1), down)):
-        for k, part in ((left, 1.0 - right), (np.minimum(left + 1, columns - 1), right)):
-            values, weight = heights[i, k], share * part
-            weight = np.where(np.isnan(values), 0.0, weight)
-            total += weight * np.nan_to_num(values)
-            weights += weight
+    known, places = ~np.isnan(heights), np.array((row - 0.5, column - 0.5))
+    total, weights = (
+        map_coordinates(values, places, np.float64, order=1, mode="nearest")
+        for values in (np.where(known, heights, 0.0), known.astype(np.float64))
+    )
     found = np.divide(total, weights, out=np.full(len(row), np.nan), where=weights > 0.0)
     return np.where(np.isnan(own), np.nan, found)

@@ -15,8 +15,7 @@ from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.grids import outline as outline_module
 from bare_earth.algorithms.grids.canopy import without_pits
 from bare_earth.algorithms.grids.morphology import closing
-from bare_earth.algorithms.grids.outline import Discs, Outline, with_gaps_inside
-from bare_earth.algorithms.tools.rasters import mosaic
+from bare_earth.algorithms.grids.outline import Discs, Outline, strips, with_gaps_inside
 from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RASTERS, RasterFiles
 
@@ -89,7 +88,7 @@ def test_strips_give_the_closing_of_all_rows_wherever_the_raster_begins(radius):
 def test_an_outline_of_a_large_raster_takes_little_memory():
     outline = Outline((1024, 60_000))
     x = np.arange(60_000)
-    for start, end in outline.strips():
+    for start, end in strips(outline.shape):
         row = np.arange(start, end)[:, None]
         outline.set(start, np.hypot(row - 500.0, (x - 30_000.0) / 60.0) < 500.0)
     assert len(pickle.dumps(outline)) < 50_000
@@ -310,7 +309,6 @@ def test_blocks_files_and_strips_give_the_same_outlines(tmp_path, monkeypatch, n
         las.write(str(each))
     monkeypatch.setattr(blocks_module, "_SIDE", 100.0)
     monkeypatch.setattr(outline_module, "_CELLS_A_STRIP", 1)
-    monkeypatch.setattr(mosaic, "_CELLS_A_STRIP", 1)
     many = _terrain(tmp_path / "rasters", [tmp_path / "many"], names=names)
     for (a, _, _), (b, _, _) in zip(one, many):
         assert np.array_equal(np.isnan(a), np.isnan(b))
@@ -423,8 +421,8 @@ def test_pits_of_the_canopy_are_filled_without_seams(tmp_path, monkeypatch):
     before, after = plain[1][0], filled[1][0]
     assert np.array_equal(np.isnan(before), np.isnan(after))
     assert np.nanmin(after - before) == 0.0 and np.mean(after - before > 2.0) > 0.02
-    monkeypatch.setattr(mosaic, "_CELLS_A_STRIP", 1)
-    monkeypatch.setattr(mosaic, "_ROWS", 7)
+    monkeypatch.setattr(outline_module, "_CELLS_A_STRIP", 1)
+    monkeypatch.setattr(outline_module, "_ROWS", 7)
     monkeypatch.setattr(blocks_module, "_SIDE", 100.0)
     strips = _terrain(tmp_path / "c", path, SurfaceModel(pit_free=True), cell=2.0, names=names)
     assert np.nanmax(np.abs(strips[1][0] - after)) < 0.001

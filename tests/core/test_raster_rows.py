@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 from runs import said
 from surveys import write
-from toy_raster import NAME, add_toy, is_right
+from toy_raster import add_toy, forget, is_right
 
-from bare_earth.algorithms.runs.entry import terrain
-from bare_earth.algorithms.runs.requests import TerrainRequest
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
+import bare_earth
 
 rasterio = pytest.importorskip("rasterio")
 
 
 @pytest.fixture
 def toy(monkeypatch):
-    return add_toy(monkeypatch)
+    yield add_toy(monkeypatch)
+    monkeypatch.undo()
+    forget()
 
 
 @pytest.fixture
@@ -38,9 +38,11 @@ def test_the_command_has_an_option_and_writes_the_file(toy, ground, tmp_path):
         assert raster.nodata == -9999 and raster.units == ("metre",)
 
 
-def test_the_library_takes_its_name_for_one_file_and_for_many(toy, ground, tmp_path):
+def test_the_library_has_a_keyword_for_one_file_and_for_many(toy, ground, tmp_path):
+    documentation = " ".join(bare_earth.terrain.__doc__.split())
+    assert f"toy_roughness : path, optional GeoTIFF (.tif). {toy.help}" in documentation
     for name, source in (("one", ground), ("many", [ground.parent])):
         path = tmp_path / f"{name}.tif"
-        terrain(source, TerrainRequest(rasters=RasterFiles(**{NAME: path})))
+        bare_earth.terrain(source, toy_roughness=path)
         with rasterio.open(path) as raster:
             assert is_right(raster.read(1))

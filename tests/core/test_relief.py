@@ -10,14 +10,13 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.grids import horizons
+from bare_earth.algorithms.grids import horizons, outline
 from bare_earth.algorithms.grids.hillshade import hillshade, slope
 from bare_earth.algorithms.grids.horizons import openness, sky_view, sky_view_and_openness
 from bare_earth.algorithms.grids.local_dominance import local_dominance
 from bare_earth.algorithms.grids.local_relief import multi_scale_relief
 from bare_earth.algorithms.grids.relief_pictures import archaeological_topography, red_relief
 from bare_earth.algorithms.tools import relief as relief_module
-from bare_earth.algorithms.tools.rasters import mosaic
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RASTERS, How
 from bare_earth.algorithms.tools.relief import KINDS, ReliefPictures, write_relief
@@ -309,8 +308,8 @@ def cells(path):
 
 def test_files_and_strips_make_no_seams(tmp_path, monkeypatch):
     whole = drawn([write(tmp_path / "in.laz")], tmp_path / "a")
-    monkeypatch.setattr(mosaic, "_CELLS_A_STRIP", 1)
-    monkeypatch.setattr(mosaic, "_ROWS", 7)
+    monkeypatch.setattr(outline, "_CELLS_A_STRIP", 1)
+    monkeypatch.setattr(outline, "_ROWS", 7)
     parts = [write(tmp_path / f"{n}.laz", 20.0 * n, 20.0 * n + 20) for n in range(3)]
     many = drawn(parts, tmp_path / "b")
     for name in NAMES:

@@ -6,13 +6,13 @@ import pytest
 from realdata import real
 
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.grids import outline
 from bare_earth.algorithms.grids.hillshade import hillshade
 from bare_earth.algorithms.grids.local_trend import local_trend
 from bare_earth.algorithms.grids.relief_smoothing import smoothing_reach, without_noise
 from bare_earth.algorithms.runs.entry import terrain
 from bare_earth.algorithms.runs.requests import TerrainRequest
 from bare_earth.algorithms.tools import relief as relief_module
-from bare_earth.algorithms.tools.rasters import mosaic
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from bare_earth.algorithms.tools.relief import ReliefPictures, write_relief
@@ -131,8 +131,8 @@ def test_the_terrain_model_is_the_same_and_the_pictures_are_smoother(tmp_path):
 
 def test_strips_and_files_make_no_seams(tmp_path, monkeypatch):
     whole = drawn(write(tmp_path / "in.laz"), tmp_path / "a")
-    monkeypatch.setattr(mosaic, "_CELLS_A_STRIP", 1)
-    monkeypatch.setattr(mosaic, "_ROWS", 7)
+    monkeypatch.setattr(outline, "_CELLS_A_STRIP", 1)
+    monkeypatch.setattr(outline, "_ROWS", 7)
     parts = [write(tmp_path / f"{n}.laz", 20.0 * n, 20.0 * n + 20) for n in range(3)]
     many = drawn(parts, tmp_path / "b")
     for name in PICTURES:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bare_earth.algorithms.library import table
 from bare_earth.algorithms.rasters.looks import GREY, Look, Ramp
 from bare_earth.algorithms.tools.rasters.rows import RASTERS, Raster
 
@@ -28,7 +29,14 @@ ROW = Raster(
 def add_toy(monkeypatch):
     """Add the row, as its lines in the table of rasters do."""
     monkeypatch.setitem(RASTERS, NAME, ROW)
+    forget()
     return ROW
+
+
+def forget():
+    """Let the library declare its functions anew."""
+    table.declared.cache_clear()
+    table.function.cache_clear()
 
 
 def is_right(values):

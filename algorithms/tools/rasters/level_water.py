@@ -11,7 +11,7 @@ import numpy as np
 from ...core.points import Box
 from ...grids.cell_window import CellWindow
 from ...grids.lines import NearestHeights, near_rings
-from ...grids.outline import Outline
+from ...grids.outline import Outline, strips
 from ...grids.tin import Tin
 from ...survey.area import Area
 
@@ -128,7 +128,7 @@ def _cells_in(water: LevelWater, window: CellWindow, cell: float) -> Outline:
     """Return which cells of a window have their centre in water."""
     cells = Outline(window.shape)
     x, y = window.centres(cell)
-    for start, end in cells.strips():
+    for start, end in strips(window.shape):
         east, north = np.meshgrid(x, y[start:end])
         inside = water.contains(east.ravel(), north.ravel())
         cells.set(start, inside.reshape(east.shape))

@@ -11,16 +11,11 @@ from ...core.points import Points
 from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
 from ...grids.morphology import within_square
-from ...grids.outline import Outline
+from ...grids.outline import Outline, strips
 from ...grids.surface import CellLattice, Surface
 from ...survey.area import Area
 from .block import CONTENTS, TOP, BlockRasters
 from .level_water import NO_WATER_CELLS, WaterCells
-
-# Cells that are joined at a time.
-_CELLS_A_STRIP = 4_000_000
-# The rows of a strip are a multiple of this, as the file has blocks of so many rows.
-_ROWS = 256
 
 
 def joined(blocks: Sequence[BlockRasters], layer: str, strip: CellWindow, empty: Any) -> np.ndarray:
@@ -102,7 +97,7 @@ class Mosaic:
         along them and of more vertices, shape (n, 3).
         """
         vertices = [points]
-        for start, end in _strips(self.window):
+        for start, end in strips(self.window.shape):
             first, last = max(start - 1, 0), min(end + 1, self.window.rows)
             heights, inside = self.rows(first, last), self._inside(first, last)
             vertices.append(self._along_gaps(heights, np.isnan(heights) & inside, first))
@@ -128,12 +123,6 @@ class Mosaic:
             heights[row, column] = gaps.heights(x, y, cells=lattice)
 
 
-def _strips(window: CellWindow) -> list[tuple[int, int]]:
-    """Return the rows, from north, at which strips begin and end."""
-    rows = max(_CELLS_A_STRIP // window.columns // _ROWS, 1) * _ROWS
-    return [(start, min(start + rows, window.rows)) for start in range(0, window.rows, rows)]
-
-
 def gathered_strips(
     mosaics: Sequence[Mosaic],
     window: CellWindow,
@@ -151,7 +140,7 @@ def gathered_strips(
     left = window.column - whole.column
     parts = [mosaic.columns(left - margin, left + window.columns + margin) for mosaic in mosaics]
     inside = slice(margin, margin + window.columns)
-    for start, end in _strips(window):
+    for start, end in strips(window.shape):
         first, last = north + start - margin, north + end + margin
         rows = make(*(part.rows(first, last) for part in parts))
         yield rows[..., margin : margin + end - start, inside]

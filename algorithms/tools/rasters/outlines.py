@@ -17,7 +17,7 @@ from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
 from ...grids.cells import are_inside, usual_count
 from ...grids.morphology import closing, within_square
-from ...grids.outline import MOST_CELLS, Discs, Outline, with_gaps_inside
+from ...grids.outline import MOST_CELLS, Discs, Outline, strips, with_gaps_inside
 from .block import ANY, CONTENTS, QUARTERS, BlockRasters, RasterStep
 from .level_water import NO_WATER_CELLS, WaterCells
 from .mosaic import Mosaic, joined
@@ -141,7 +141,7 @@ class Outlines:
         ground = Discs(self._contents.ground, self._corner, self._near_ground, self._near_ground)
         wide = with_gaps_inside(ground.rows, self._shape, progress.part(0.0, 0.8))
         inside = Outline(self._shape)
-        for start, end in inside.strips():
+        for start, end in strips(self._shape):
             cells = wide.rows(start - 1, end + 1)
             if ground.group == 1:
                 self._refine(cells, start - 1)
@@ -155,7 +155,7 @@ class Outlines:
         """Return where the surface was measured, and the terrain nearby."""
         measured = Outline(self._shape)
         ground = Discs(self._contents.ground, self._corner, self._longest, 0.0)
-        for start, end in measured.strips():
+        for start, end in strips(self._shape):
             measured.set(start, self._closed(start, end) & ground.rows(start, end))
             progress(end / self._shape[0])
         return measured

@@ -16,7 +16,6 @@ from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
 from ...rasters.cell_grid import (
     MOST_CELLS,
-    CellGrid,
     no_points,
 )
 from ...rasters.geotiff import NO_GROUND, RasterGrid, check_cells
@@ -82,7 +81,7 @@ def write_rasters(
         names = [folder / f"{name}.tif" for name in windows]
         shares = part.shares(*[1.0] * len(windows))
         grids = dict(zip(names, map(write, names, windows.values(), shares)))
-        virtual, grid = virtual_of(path), _grid_of(window, step, frame)
+        virtual, grid = virtual_of(path), step.cells.of(window, frame)
         band = Band.of(grid, raster.nodata(step.model.nodata), raster.shows, raster.bands)
         write_virtual(outputs.file(virtual), virtual.parent, grid, grids, raster.kind, band)
     ground, top = np.sum([block.counts for block in blocks], axis=0).tolist()
@@ -100,7 +99,7 @@ def _write(
     progress: Progress,
 ) -> RasterGrid:
     """Write some cells of a raster; return where they lie."""
-    grid, nodata = _grid_of(window, step, frame), raster.nodata(step.model.nodata)
+    grid, nodata = step.cells.of(window, frame), raster.nodata(step.model.nodata)
     how = How((grid.cell_metres, grid.cell_metres), step.model, step.surface)
     make = partial(raster.rows, how=how, unit=frame.vertical_unit, nodata=nodata)
     strips = gathered_strips(layers, window, make, raster.margin(how), progress)
@@ -138,11 +137,11 @@ def _window_of(blocks: Sequence[BlockRasters], cell: float) -> CellWindow:
 
 def _covered(window: CellWindow, step: MakeRasters, frame: Frame) -> CellWindow:
     """Return the cells of the rasters, given those that have points."""
-    wanted = step.cells.window if step.cells else None
+    wanted = step.cells.window
     if wanted is None:
         return window
     if wanted.within(window).is_empty:
-        raise no_points(*(_grid_of(cells, step, frame).box for cells in (wanted, window)))
+        raise no_points(*(step.cells.of(cells, frame).box for cells in (wanted, window)))
     return wanted
 
 
@@ -152,8 +151,3 @@ def no_point_in(area: Area) -> BareEarthError:
         f"No point lies in the area ({box_in_words(area.bounds)}), so that no raster can be made."
         " Give the area in the CRS of the points."
     )
-
-
-def _grid_of(window: CellWindow, step: MakeRasters, frame: Frame) -> RasterGrid:
-    cells = step.cells or CellGrid(step.cell, step.cell / frame.horizontal_unit)
-    return cells.of(window, frame)

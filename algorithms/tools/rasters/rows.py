@@ -281,8 +281,3 @@ class RasterFiles:
         rasters of its own.
         """
         return [("raster set" if per_file else "raster", path) for _, path in self.files]
-
-
-RasterFiles.__doc__ = (RasterFiles.__doc__ or "").format(
-    names="\n".join(f"        {name}: {raster.title}." for name, raster in RASTERS.items())
-)

@@ -67,7 +67,7 @@ class MakeRasters(Step):
     per_file: bool = False  # each of many files gets its own rasters
     fixed: FixedTerrain | None = None  # the vertices of the constraints; `seeing` finds these
     target: RasterTarget = ANYWHERE  # a grid or an extent that the rasters must have
-    cells: CellGrid | None = None  # where the cells lie; `placed` finds this
+    placed_cells: CellGrid | None = None  # where the cells lie; `placed` finds this
     area: Area | None = None  # without values outside, where points still take part
 
     counts = RasterCounts
@@ -88,19 +88,25 @@ class MakeRasters(Step):
         return "surface" in self.files.layers
 
     @property
+    def cells(self) -> CellGrid:
+        """Where the cells lie; before that is known, as in metres."""
+        return self.placed_cells or self.model.cells(1.0)
+
+    @property
     def cell(self) -> float:
         """Side of a cell in metres."""
-        return self.cells.metres if self.cells else self.model.dtm_cell_size
+        return self.cells.metres
 
     @property
     def origin(self) -> tuple[float, float]:
         """The origin of the cells, in units of the CRS."""
-        return self.cells.origin if self.cells else (0.0, 0.0)
+        return self.cells.origin
 
     def placed(self, crs: Crs, box: Box | None = None, progress: Progress = SILENT) -> MakeRasters:
         """Return the step for points in a CRS; see `cell_grid`."""
         usual = self.model.cells(crs.horizontal_unit)
-        return replace(self, cells=cell_grid(self.target, usual, crs, box, progress))
+        cells = cell_grid(self.target, usual, crs, box, progress)
+        return replace(self, placed_cells=cells)
 
     @property
     def of_block(self) -> RasterStep:
