@@ -13,7 +13,7 @@ from qgis.core import (
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
-from ...algorithms.rasters.cell_grid import ANYWHERE, RasterTarget
+from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area, Polygon
 from ...algorithms.tools.ground.output import Output
 from .. import compat
@@ -122,9 +122,6 @@ def given_options(crs: str | None, raster_target: RasterTarget, **others: Any) -
     extent = raster_target.extent and tuple(map(repr, raster_target.extent))
     like = raster_target.like and str(raster_target.like)
     return {"crs": crs, "like": like, "raster-extent": extent}
-
-
-NOTHING_GIVEN = given_options(None, ANYWHERE)
 
 
 def add_limits(algorithm: QgsProcessingAlgorithm) -> None:

@@ -63,22 +63,15 @@ def constraints_of(
     """Return the contents of the layers, in the CRS of the points; a message says how to give these
     layers in the command line.
     """
-    given = [name for name in _FIELDS if not compat.is_empty(parameters.get(name))]
-    if not given:
-        return Constraints()
-    found: dict[str, Any] = {}
-    for name in given:
-        label, kind, _ = _FIELDS[name]
-        shapes = layer_shapes(algorithm, parameters, name, label, context, crs, kind)
-        found[name.lower()] = tuple(corners for corners, _ in shapes)
-    progress.info(
-        "In the command line some layers are missing: save each in the CRS of the points as"
-        f" GeoJSON, and add {' '.join(map(_option, given))}."
-    )
-    return Constraints(**found)
-
-
-def _option(name: str) -> str:
-    """Return the option of the command line for a field, with a file named after it."""
-    name = name.lower().replace("_", "-")
-    return f"--{name} {name}.geojson"
+    shapes: dict[str, Any] = {}
+    for name, (label, kind, _) in _FIELDS.items():
+        if not compat.is_empty(parameters.get(name)):
+            found = layer_shapes(algorithm, parameters, name, label, context, crs, kind)
+            shapes[name.lower()] = tuple(corners for corners, _ in found)
+    if shapes:
+        names = [name.replace("_", "-") for name in shapes]
+        progress.info(
+            "In the command line some layers are missing: save each in the CRS of the points as"
+            f" GeoJSON, and add {' '.join(f'--{name} {name}.geojson' for name in names)}."
+        )
+    return Constraints(**shapes)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Mapping, Sequence
 
 from qgis.core import (
     QgsProcessingContext,
@@ -71,9 +71,9 @@ def run_name_of(chosen: Sequence[ParameterSet]) -> str:
 def without_delivery(chosen: Sequence[ParameterSet]) -> list[ParameterSet]:
     """Return the parameters of single outputs."""
     return [
-        each.with_cells(_USUAL_CELL) if isinstance(each, DeliveryTerrain) else each
-        for each in chosen
-        if not isinstance(each, (DeliveryChoice, *SETS))
+        values.with_cells(_USUAL_CELL) if isinstance(values, DeliveryTerrain) else values
+        for values in chosen
+        if not isinstance(values, (DeliveryChoice, *SETS))
     ]
 
 
@@ -101,21 +101,23 @@ def tell_of_ignored(
     """Warn of values that a delivery, or a run without one, does not use."""
     chosen = algorithm.chosen(parameters, context)
     if delivery_of(chosen):
-        outputs = (each.name() for each in algorithm.destinationParameterDefinitions())
-        names = [name for name in outputs if name != FOLDER]
-        names = [name for name in names if given_path(parameters.get(name), context) is not None]
+        outputs = (field.name() for field in algorithm.destinationParameterDefinitions())
+        names = [
+            name
+            for name in outputs
+            if name != FOLDER and given_path(parameters.get(name), context) is not None
+        ]
         why = "a delivery names its outputs itself, in its folder"
     else:
         names = [
-            each.name.upper()
-            for one in chosen
-            if isinstance(one, SETS)
-            for each in one.declarations()
-            if getattr(one, each.name) != each.default
+            declared.name.upper()
+            for values in chosen
+            if isinstance(values, SETS)
+            for declared in values.declarations()
+            if getattr(values, declared.name) != declared.default
         ]
-        names += [
-            name for name in ("CHECKPOINTS", FOLDER) if not compat.is_empty(parameters.get(name))
-        ]
+        fields = "CHECKPOINTS", FOLDER
+        names += [name for name in fields if not compat.is_empty(parameters.get(name))]
         why = "only deliveries use them, and none is chosen"
     if names:
         progress.warning(f"Not used: {', '.join(names)}; {why}.")
@@ -134,7 +136,7 @@ def make_delivery(
 
     chosen = algorithm.chosen(parameters, context)
     name = delivery_of(chosen)
-    sets = [each for each in chosen if not isinstance(each, DeliveryChoice)]
+    sets = [values for values in chosen if not isinstance(values, DeliveryChoice)]
     sets.append(TileOutput(format=point_cloud_formats()[0], overview=True))
     folder = algorithm.parameterAsString(parameters, FOLDER, context)
     words = [name, *map(str, algorithm.inputs), folder]
@@ -174,8 +176,9 @@ def _show(
     if done.check is not None:
         looks["checkpoints"] = layers.residuals(done.check.scale)
     for name, path in done.layers.items():
+        if name in looks:
+            compat.load_vector(path, context)
+        else:
+            compat.load_raster(path, context)
         look = looks.get(name) or layers.raster_looks()[name.upper()]
-        load: Callable[[str, QgsProcessingContext], None]
-        load = compat.load_vector if name in looks else compat.load_raster
-        load(path, context)
         algorithm.show(path, layers.first(look) if name == first else look)

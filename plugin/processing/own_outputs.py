@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any, Iterator, Mapping, Sequence
 
 from qgis.core import QgsProcessingContext
 
+from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.engine.memory import Resources
+from ...algorithms.runs.options import TileMethod
+from ...algorithms.survey.kept_classes import GROUND
+from ...algorithms.survey.selection import Selection
+from ...algorithms.tools.contours import Contours
+from ...algorithms.tools.rasters.parameters import MapTerrain, SurfaceModel, TerrainModel
 from ..styles.layers import BELOW_TERRAIN, contours
 from . import outputs
 from .area import area_options, given_options
-from .base import BareEarthAlgorithm
+from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
-from .commands import terrain_commands
 from .delivery import without_delivery
 from .feedback import FeedbackProgress
 
@@ -34,16 +40,45 @@ def make_own(
     lines, rasters = results.get("CONTOURS"), outputs.raster_files(results)
     files = MapFiles(Path(cloud) if cloud else None, rasters, Path(lines) if lines else None)
     summary = make_maps(algorithm.inputs, files, request, progress)
-    made = str(cloud and summary.cloud)
-    words = area_options(request.area, progress, is_all=True), given_options(**limits)
-    for each in terrain_commands(algorithm.inputs, made, results, chosen, *words):
-        progress.command(each)
+    written = str(cloud and summary.cloud)
+    area = area_options(request.area, progress, is_all=True)
+    for command in _commands(algorithm.inputs, written, results, chosen, area, limits):
+        progress.command(command)
     progress.share(summary.ground_count, summary.point_count, bool(request.area))
     if lines and summary.contour_interval is not None:
         algorithm.show(lines, contours(summary.contour_interval))
     if cloud:
-        results["OUTPUT"], algorithm.class_counts = made, summary.class_counts
-        outputs.do_not_load(context, {cloud} - {made})
+        results["OUTPUT"], algorithm.class_counts = written, summary.class_counts
+        outputs.do_not_load(context, {cloud} - {written})
         look = request, context, progress, BELOW_TERRAIN
-        show_classified(algorithm, made, summary.class_counts, *look)
+        show_classified(algorithm, written, summary.class_counts, *look)
     return {**results, "POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
+
+
+def _commands(
+    sources: Sequence[Path],
+    cloud: str,
+    rasters: Mapping[str, str],
+    chosen: Sequence[ParameterSet],
+    area: Sequence[str],
+    limits: Mapping[str, Any],
+) -> Iterator[str]:
+    """Yield the commands for a classified cloud, empty if none is kept, and for its rasters and
+    contour lines, by the names of their fields.
+    """
+    of_type: dict[type, Any] = {type(values): values for values in chosen}
+    cloud = cloud or "classified.laz"
+    # For many files, the folder of their virtual point cloud.
+    target = str(Path(cloud).parent) if cloud.endswith(".vpc") else cloud
+    finding = [of_type[kind] for kind in (TileMethod, Selection, Resources)]
+    words = [*map(str, sources), target, *area]
+    yield command_line("classify", words, finding, {"crs": limits["crs"]})
+    if rasters:
+        ground = of_type[Selection].to_class
+        classes = {"ground-classes": "" if ground == GROUND else str(ground)}
+        # The command has other defaults.
+        model = TerrainModel(**vars(of_type[MapTerrain]))
+        drawing = [model, *(of_type[kind] for kind in (SurfaceModel, Contours, Resources))]
+        words = [cloud, *(word for word in area if word != "--area-only")]
+        options = {**classes, **given_options(**limits), **rasters}
+        yield command_line("terrain", words, drawing, options)
