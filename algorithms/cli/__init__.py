@@ -10,16 +10,16 @@ from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..tools import FILE_TOOLS, POINT_TOOLS
-from . import checking, comparing, odm, runs
+from . import checking, commands, comparing, odm
 from .command import FAILED, USAGE
+from .commands import tool_command
 from .options import UsageError
-from .tools import command_of
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (
-    runs.CLASSIFY, runs.TILES, runs.DELIVER, *comparing.COMMANDS, *checking.COMMANDS,
-    *map(command_of, ("remove-off-terrain-objects", "height", "above-ground", "key-points")),
-    runs.TERRAIN, *map(command_of, ("contours", "relief", "water", "water-classes")),
+    commands.CLASSIFY, commands.TILES, commands.DELIVER, *comparing.COMMANDS, *checking.COMMANDS,
+    *map(tool_command, ("remove-off-terrain-objects", "height", "above-ground", "key-points")),
+    commands.TERRAIN, *map(tool_command, ("contours", "relief", "water", "water-classes")),
     *odm.COMMANDS,
 )  # fmt: skip
 
@@ -87,7 +87,7 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
         "--verbose", action="store_true", help="print what is done, and where an error arose"
     )
     names = {each.name for each in _COMMANDS}
-    further = (command_of(name) for name in (*POINT_TOOLS, *FILE_TOOLS) if name not in names)
+    further = (tool_command(name) for name in (*POINT_TOOLS, *FILE_TOOLS) if name not in names)
     for each in (*_COMMANDS, *further):
         its_parser = commands.add_parser(
             each.name, parents=[common], help=each.help, description=each.description, epilog=_EMPTY

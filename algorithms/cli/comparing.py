@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Sequence
 
 from .command import DONE, Command
+from .commands import tool_command
 from .options import add_crs, add_json, add_parameters, chosen
 from .terminal import Terminal
-from .tools import command_of
 
 
 def _add_assess(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -47,7 +47,7 @@ def _assess(options: argparse.Namespace) -> int:
 
 
 COMMANDS = (
-    command_of("info"),
+    tool_command("info"),
     Command(
         "assess",
         "compare a classified file with a reference",

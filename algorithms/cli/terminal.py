@@ -67,13 +67,9 @@ def _progress_bar() -> Any:
 
 
 def tell(options: argparse.Namespace, summary: Any, text: str, always: bool = False) -> None:
-    """Print the result as JSON, or as a sentence if that is wanted, or with `always`."""
+    """Print the result as JSON, or in words: in a terminal, with `verbose`, or with `always`."""
     if options.json:
-        print(json.dumps(dataclasses.asdict(summary)))
-    elif always or is_told(options):
+        is_own = hasattr(summary, "as_dict")
+        print(json.dumps(summary.as_dict() if is_own else dataclasses.asdict(summary)))
+    elif always or options.verbose or sys.stdout.isatty():
         print(text)
-
-
-def is_told(options: argparse.Namespace) -> bool:
-    """Return whether what was done is told: in a terminal, or with `verbose`."""
-    return bool(options.verbose) or sys.stdout.isatty()

@@ -30,7 +30,6 @@ from .given import (
     rasters_of,
     run_on,
     target_of,
-    workers_of,
 )
 from .tools import CLASSIFIED, of_tool
 

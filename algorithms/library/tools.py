@@ -27,7 +27,7 @@ from .given import (
     paths_of,
     polygons_of,
     progress_of,
-    workers_of,
+    run_on,
 )
 
 CLASSIFIED = replace(arguments.SOURCES, help=f"classified {arguments.SOURCES.help}")
@@ -134,8 +134,7 @@ def _of_point_tool(command: str) -> Function:
         for each in tool.inputs:
             inputs[each.name], progress = _tool_input(each, values, sets, progress)
         request = PointRequest.of(tool, sets, inputs, values.crs)
-        workers = workers_of(values.scheduler, request.resources)
-        as_survey = bool(values.scheduler) or None
+        workers, as_survey = run_on(values, request.resources)
         return write(values.sources, values.output, request, progress, workers, as_survey)
 
     return Function(

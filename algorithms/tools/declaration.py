@@ -127,11 +127,12 @@ class Tool:
     # labels.
     numbers: tuple[tuple[str, str], ...] = ()
     inputs: tuple[Input, ...] = ()
+    titles: tuple[str, ...] = ()  # of the sets, in the help of the command
+    json: str | None = "what was done"  # what --json prints; None if there is nothing to tell
     # If the dialog has another order, or other defaults: derived classes of those of the command.
     dialog_sets: tuple[type[ParameterSet], ...] = ()
-    shown: tuple[str, ...] | None = (
-        None  # parameters not advanced in the dialog, if not as declared
-    )
+    # Parameters that are not advanced in the dialog, if not as declared.
+    shown: tuple[str, ...] | None = None
 
     @property
     def sets_of_dialog(self) -> tuple[type[ParameterSet], ...]:
@@ -183,12 +184,10 @@ class FileTool(Tool):
     # `as_dict`, with `text` (a sentence) or `lines` (figures, which are always printed).
     work: Callable[..., Any] = _nothing
     outputs: tuple[Output, ...] = ()
-    titles: tuple[str, ...] = ()  # of the sets, in the help of the command
     # Says what a user of the command did not give, from the inputs and the sets; empty for nothing.
     lacks: Callable[[Mapping[str, Any], Sequence[ParameterSet]], str] = lambda inputs, sets: ""
     # Further flags of parameters, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
-    json: str | None = "what was done"  # what --json prints; None if there is nothing to tell
     always_tells: bool = False  # whether the command prints the text, not only with --verbose
 
     @property

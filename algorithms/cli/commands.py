@@ -1,9 +1,8 @@
-"""The commands that classify points and make rasters, from the functions of the library."""
+"""The commands, from the functions of the library."""
 
 from __future__ import annotations
 
 import argparse
-import json
 import re
 from functools import partial
 from pathlib import Path
@@ -11,6 +10,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
+from ..tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool
 from .command import DONE, FAILED, Command
 from .options import UsageError, add_json, add_parameters, chosen
 from .terminal import Terminal, tell
@@ -18,10 +18,13 @@ from .terminal import Terminal, tell
 if TYPE_CHECKING:
     from ..filters.method import Method
     from ..library.arguments import Argument
+    from ..library.functions import Function
+    from ..tools.declaration import Tool
 
 # What values are called in the help, where not FILE.
 _METAVARS = {
-    "crs": "CRS", "like": "RASTER", "scheduler": "ADDRESS", "checkpoints_crs": "CRS",
+    "source": "INPUT", "folder": "FOLDER", "like": "RASTER", "scheduler": "ADDRESS",
+    "crs": "CRS", "checkpoints_crs": "CRS",
     "columns": "x=E,y=N,z=H,cover=Class,type=Use,name=ID",
 }  # fmt: skip
 _KEYWORD = re.compile(r"`([a-z_]+)`")  # in texts of the library
@@ -40,8 +43,15 @@ class _Run(NamedTuple):
     description: str
     titles: tuple[str, ...]  # of the parameter sets
     tell: Callable[[argparse.Namespace, Any], int]  # given what was done; returns the exit code
-    json: str = "what was done "
+    json: str = "what was done"
     function: str = ""  # if it is not that of the name
+
+
+def tool_command(name: str) -> Command:
+    """Return the command of a tool, which is imported when its options are asked for."""
+    listed = FILE_TOOLS.get(name) or POINT_TOOLS[name]
+    work = _do_file_tool if name in FILE_TOOLS else _do_point_tool
+    return Command(name, listed.help, "", partial(_add_tool, name), partial(work, name))
 
 
 def _command_of(run: _Run) -> Command:
@@ -56,14 +66,36 @@ def _add(run: _Run, parser: argparse.ArgumentParser, arguments: Sequence[str]) -
     sets, titles = function.sets, run.titles
     if run.name == "deliver":
         _add_deliveries(parser)
-    for argument in (*function.positional, *function.keywords):
-        if argument.name not in ("progress", "delivery"):
-            _add_argument(parser, argument)
+    _add_arguments(parser, function)
     if function.has_method:
         method = _add_method(parser, arguments)
         sets, titles = (method.parameters, *sets), (f"{method.label} parameters", *titles)
-    add_json(parser, run.json)
+    add_json(parser, f"{run.json} ")
     add_parameters(parser, *sets, titles=titles)
+
+
+def _add_tool(name: str, parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    """Add the arguments of the function of a tool as options."""
+    from ..library.tools import of_tool
+
+    function = of_tool(name)
+    tool: Tool = file_tool(name) if name in FILE_TOOLS else point_tool(name)
+    parser.description = tool.command_about
+    _add_arguments(parser, function)
+    if tool.json is not None:
+        add_json(parser, f"{tool.json} ".lstrip())
+    add_parameters(parser, *function.sets, titles=tool.titles)
+    for parameter, flag in function.flags.items():
+        parser.add_argument(
+            f"--{flag}", dest=parameter, metavar=flag.upper(), default=argparse.SUPPRESS,
+            help=f"the same as {_option(parameter)}",
+        )  # fmt: skip
+
+
+def _add_arguments(parser: argparse.ArgumentParser, function: Function) -> None:
+    for argument in (*function.positional, *function.keywords):
+        if argument.name not in ("progress", "delivery"):
+            _add_argument(parser, argument)
 
 
 def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
@@ -71,17 +103,18 @@ def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
 
     name, text = argument.name, _HELP.get(argument.name, argument.help).replace("%", "%%")
     text = _KEYWORD.sub(lambda found: _option(found[1]), text)
-    kind = Path if argument.kind in (KINDS["path"], KINDS["clouds"]) else str
+    is_needed, metavar = argument.default is REQUIRED, _METAVARS.get(name, "FILE")
     if argument.kind == KINDS["clouds"]:
-        parser.add_argument(name, metavar="INPUT", type=kind, nargs="+", help=text)
-    elif argument.default is REQUIRED:
-        parser.add_argument(name, metavar=name.upper(), type=kind, help=text)
+        parser.add_argument(name, metavar="INPUT", type=Path, nargs="+", help=text)
+    elif is_needed and argument.kind == KINDS["path"]:
+        parser.add_argument(name, metavar=_METAVARS.get(name, name.upper()), help=text)
     elif argument.kind == KINDS["extent"]:
         text = text.replace("xmin, ymin, xmax, ymax: ", "")
         parser.add_argument(_option(name), nargs=4, type=float, metavar=_BOX, help=text)
+    elif argument.kind == KINDS["words"]:
+        parser.add_argument(_option(name), nargs="+", metavar="WORD", help=text)
     else:
-        metavar = _METAVARS.get(name, "FILE")
-        parser.add_argument(_option(name), metavar=metavar, type=kind, help=text)
+        parser.add_argument(_option(name), metavar=metavar, required=is_needed, help=text)
 
 
 def _option(name: str) -> str:
@@ -114,17 +147,52 @@ def _do(run: _Run, options: argparse.Namespace) -> int:
     from ..library.given import is_automatic
     from ..library.table import declared
 
-    sets = chosen(options)
-    _check_boxes(options)
     if run.name in (_CLASSIFY, _TILES) and is_automatic(options.water):
         raise UsageError(
             "Water is found in classified points: make the rasters with 'bare-earth terrain"
             " --water automatic'."
         )
-    values = SimpleNamespace(**vars(options), in_processes=True, is_survey=run.name == _TILES)
+    return run.tell(options, _called(declared(run.function or run.name), options))
+
+
+def _do_file_tool(name: str, options: argparse.Namespace) -> int:
+    """Let a tool read and write files, and tell what it found."""
+    from ..library.tools import of_tool
+
+    tool = file_tool(name)
+    if lacking := tool.lacks(vars(options), chosen(options)):
+        raise UsageError(lacking)
+    found = _called(of_tool(name), options)
+    if tool.json is None:
+        return DONE
+    if hasattr(found, "lines"):
+        tell(options, found, "\n".join(found.lines()), always=True)
+        return DONE
+    places = [f"{getattr(options, output.name)}: " for output in tool.outputs if output.is_main]
+    tell(options, found, f"{''.join(places)}{found.text}", tool.always_tells)
+    return DONE
+
+
+def _do_point_tool(name: str, options: argparse.Namespace) -> int:
+    """Write classified files with what a tool finds, and tell what was done."""
+    from ..library.tools import of_tool
+    from ..runs.many_files import SurveySummary
+
+    done = _called(of_tool(name), options)
+    if isinstance(done, SurveySummary):
+        return _tell_of_survey(options, done)
+    tell(options, done, f"{Path(options.output).parent / done.text}")
+    return DONE
+
+
+def _called(function: Function, options: argparse.Namespace) -> Any:
+    """Call a function with the values of the options."""
+    sets = chosen(options)
+    _check_boxes(options)
+    is_survey = options.command == _TILES
+    values = SimpleNamespace(**vars(options), in_processes=True, is_survey=is_survey)
     with Terminal(options.verbose) as values.progress:
-        done = declared(run.function or run.name).run(values, sets)
-    return run.tell(options, done)
+        return function.run(values, sets)
 
 
 def _check_boxes(options: argparse.Namespace) -> None:
@@ -133,15 +201,15 @@ def _check_boxes(options: argparse.Namespace) -> None:
     from ..survey.area import Area
 
     try:
-        if options.extent is not None:
+        if getattr(options, "extent", None) is not None:
             Area(tuple(options.extent))
-        if options.raster_extent is not None:
+        if getattr(options, "raster_extent", None) is not None:
             RasterTarget(options.like, tuple(options.raster_extent))
     except BareEarthError as error:
         raise UsageError(str(error)) from error
 
 
-def tell_of_survey(options: argparse.Namespace, summary: Any) -> int:
+def _tell_of_survey(options: argparse.Namespace, summary: Any) -> int:
     """Print the result for many files; return the exit code."""
     tell(options, summary, f"{options.output}: {summary.text}")
     return FAILED if summary.failures else DONE
@@ -151,7 +219,7 @@ def _tell_of_ground(options: argparse.Namespace, done: Any) -> int:
     from ..runs.one_file import Summary
 
     if not isinstance(done, Summary):
-        return tell_of_survey(options, done)
+        return _tell_of_survey(options, done)
     ground, count = done.area_ground_count, done.area_count
     place = "" if options.extent is None and options.boundary is None else " in the area"
     text = f"{ground:,} of {count:,} points{place} are ground ({100 * ground / count:.1f} %)"
@@ -166,10 +234,8 @@ def _tell_of_rasters(options: argparse.Namespace, done: Any) -> int:
 
 
 def _tell_of_delivery(options: argparse.Namespace, done: Any) -> int:
-    if options.json:
-        print(json.dumps(done.as_dict()))
-    else:
-        print("\n".join([f"{options.output}: {done.text}", *done.lines()]))
+    text = "\n".join([f"{options.output}: {done.text}", *done.lines()])
+    tell(options, done, text, always=True)
     return FAILED if done.failures else DONE
 
 
@@ -197,7 +263,7 @@ CLASSIFY, TILES, DELIVER, TERRAIN = map(_command_of, (
         " in the output." + _ABOUT,
         _TITLES,
         _tell_of_ground,
-        "the counts ",
+        "the counts",
     ),
     _Run(
         _TILES,
@@ -206,7 +272,7 @@ CLASSIFY, TILES, DELIVER, TERRAIN = map(_command_of, (
         + _ABOUT,
         _TITLES,
         _tell_of_ground,
-        "the counts ",
+        "the counts",
         function=_CLASSIFY,
     ),
     _Run(
@@ -217,7 +283,7 @@ CLASSIFY, TILES, DELIVER, TERRAIN = map(_command_of, (
         " Each delivery has settings of its own. The options replace them.",
         _DELIVERY_TITLES,
         _tell_of_delivery,
-        "the figures ",
+        "the figures",
     ),
     _Run(
         "terrain",
