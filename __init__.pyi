@@ -219,12 +219,12 @@ def check(
     checkpoints: _Path | Sequence[Any] | None = None,
     columns: str | None = None,
     checkpoints_crs: str | None = None,
-    vegetated: Sequence[str] | None = None,
     dtm: _Path | None = None,
+    vegetated: Sequence[str] | None = None,
     confidence: _Path | None = None,
+    residuals: _Path | None = None,
     report: _Path | None = None,
     table: _Path | None = None,
-    residuals: _Path | None = None,
     accuracy_class: float | None = None,
     survey_error: float = 0.0,
     max_edge: float = 20.0,
@@ -235,7 +235,11 @@ def check(
     crs: str | None = None,
     progress: Progress | Callable[[float], object] | None = None,
 ) -> Check:
-    """Compare the ground, and a terrain model, with checkpoints, or with points that are held out.
+    """Compare the ground with checkpoints, or with points that are held out.
+
+    Compares the TIN of the ground points, and a terrain model, with checkpoints: RMSE and other
+    figures, on land with and without vegetation, and the statement of the ASPRS Positional
+    Accuracy Standards, edition 2. With --hold-out, it needs no checkpoints.
 
     Parameters
     ----------
@@ -253,21 +257,21 @@ def check(
     checkpoints_crs : str, optional
         The CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file
         states, or the CRS of the points.
-    vegetated : sequence of str, optional
-        Land covers with one of these words are vegetated, and no others; without it, those with
-        words such as forest, crops and brush in several languages.
     dtm : path, optional
         Check this terrain model as well, in the CRS of the points.
+    vegetated : sequence of str, optional
+        Land covers with one of these words are vegetated, and no others (default: words such as
+        forest, crops and brush in several languages).
     confidence : path, optional
-        The confidence of the terrain model, 0 to 1, as `terrain` makes it; checkpoints where it
-        is low are not counted.
+        The confidence of the terrain model, 0 to 1, as 'terrain `confidence`' makes it;
+        checkpoints where it is low are not counted.
+    residuals : path, optional
+        Write the checkpoints and their errors as points (.gpkg, .geojson, .shp, .fgb); all but
+        .geojson need pyogrio.
     report : path, optional
         Write a page (.html).
     table : path, optional
         Write the checkpoints and their errors (.csv).
-    residuals : path, optional
-        Write the checkpoints and their errors as points (.gpkg, .geojson, .shp, .fgb); all but
-        .geojson need pyogrio.
     accuracy_class : float, optional
         The vertical accuracy class that the data are to meet, as RMSE: 0.1 for the 10 cm class.
         It is tested by the checkpoints on land without vegetation. None: the figures are only
@@ -852,8 +856,11 @@ def compare_settings(
     crs: str | None = None,
     progress: Progress | Callable[[float], object] | None = None,
 ) -> TrialSummary:
-    """Try methods and presets on a window, and show them side by side on a page. No point cloud is
-    written.
+    """Try methods and presets on a window, and show them side by side.
+
+    Classifies a window of one or many files with each of the settings, and writes a page that
+    shows their terrain, a profile and where they differ. No point cloud is written. A setting
+    is a method with a preset, such as slope:town.
 
     Parameters
     ----------

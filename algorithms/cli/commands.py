@@ -103,6 +103,7 @@ def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
 
     name, text = argument.name, _HELP.get(argument.name, argument.help).replace("%", "%%")
     text = _KEYWORD.sub(lambda found: _option(found[1]), text)
+    text = text.replace(", or their x, y and z in the CRS of the points", "")  # of arrays
     is_needed, metavar = argument.default is REQUIRED, _METAVARS.get(name, "FILE")
     if argument.kind == KINDS["clouds"]:
         parser.add_argument(name, metavar="INPUT", type=Path, nargs="+", help=text)

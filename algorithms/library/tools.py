@@ -124,12 +124,12 @@ def _input(declared: Input, values: SimpleNamespace) -> Any:
 
 def _of_point_tool(command: str) -> Function:
     """Return the function of a tool that writes classified files anew."""
-    from ..runs.entry import write
-    from ..runs.requests import PointRequest
-
     tool = point_tool(command)
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        from ..runs.entry import write
+        from ..runs.requests import PointRequest
+
         progress, inputs = progress_of(values.progress), {}
         for each in tool.inputs:
             inputs[each.name], progress = _tool_input(each, values, sets, progress)
