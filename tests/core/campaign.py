@@ -33,7 +33,7 @@ from mutants import Original, mutant
 from runs import classify_file, classify_tiles, write_height_above_ground, write_key_points
 
 import bare_earth.algorithms as package
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las.edits import Edits

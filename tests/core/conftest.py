@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bare_earth import Progress
 from bare_earth.algorithms.core import temporary as temporary_module
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import workers
 from bare_earth.algorithms.las.laszip import with_chunk_size
 

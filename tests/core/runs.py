@@ -9,9 +9,9 @@ import sys
 from pathlib import Path
 
 import bare_earth
+from bare_earth import Cancelled, Progress
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import Cancelled
-from bare_earth.algorithms.core.progress import SILENT, Progress
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.core.temporary import is_temporary
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_store import MemoryStore

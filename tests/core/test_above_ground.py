@@ -7,7 +7,7 @@ from conftest import Heard
 from runs import said
 
 import bare_earth
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
 from bare_earth.algorithms.engine.blocks import Blocks

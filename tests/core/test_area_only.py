@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from surveys import bytes_of, cut, finished, points_of, strip, write
 
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.runs.entry import classify
 from bare_earth.algorithms.runs.options import TileOutput

@@ -10,8 +10,8 @@ import laspy
 import numpy as np
 import pytest
 
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.report.pictures import Relief, png, rgb
 from bare_earth.algorithms.tools import assess

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core.files import check_output
 from bare_earth.algorithms.las import backends, sources
 from bare_earth.algorithms.las.backends import install_hint, missing_packages, require

@@ -16,8 +16,7 @@ from runs import (
     write_key_points,
 )
 
-from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.core.progress import Progress
+from bare_earth import BareEarthError, Progress
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.runs.entry import terrain

@@ -8,7 +8,7 @@ from conftest import Heard
 from realdata import real
 from test_checkpoints import CORNER, check, cloud, height, places, write
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.tools.check.accuracy import Accuracy
 from bare_earth.algorithms.tools.check.checkpoints import Checkpoints
 from bare_earth.algorithms.tools.check.columns import ColumnName

@@ -10,8 +10,8 @@ import pytest
 from conftest import Heard
 from test_assessment import Tags
 
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.products import survey_ground
 from bare_earth.algorithms.survey.ground_classes import GroundClasses

@@ -7,7 +7,7 @@ import lazrs
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.las import class_layers as module
 from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.las.class_layers import class_layers

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from runs import classify_file
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.crs.system import Crs

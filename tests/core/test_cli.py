@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from runs import command, environment
 
+from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.points import Frame
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.runs import entry as runs
 from bare_earth.algorithms.runs.one_file import Summary

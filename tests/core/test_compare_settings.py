@@ -11,8 +11,8 @@ from pyproj import CRS
 from runs import CancelAt
 from test_assessment import Tags
 
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.tools.compare_settings import compare_settings
 from bare_earth.algorithms.tools.compare_settings.settings import SETTINGS, TrialOptions

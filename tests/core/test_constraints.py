@@ -10,8 +10,8 @@ import pytest
 from conftest import Heard
 from surveys import cut
 
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope import SlopeFilter

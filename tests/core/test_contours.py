@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.grids.isolines import Isolines

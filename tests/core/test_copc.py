@@ -8,8 +8,7 @@ import pytest
 from fulldisks import TELLS, become_full
 from laspy import CopcReader
 
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import Progress
+from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.las import copc, copc_octree, copc_points, edits
 from bare_earth.algorithms.las.copc_octree import TOP, Cube, SortedPoints, keys_of, nodes_of
 from bare_earth.algorithms.las.edits import Edits

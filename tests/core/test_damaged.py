@@ -17,8 +17,7 @@ import surveys
 from conftest import GPS_TIMES, make_records
 from runs import classify_file
 
-from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.core.progress import Progress
+from bare_earth import BareEarthError, Progress
 from bare_earth.algorithms.crs.provider import to_wgs84
 from bare_earth.algorithms.crs.system import crs_of_wkt
 from bare_earth.algorithms.engine.memory import Resources

@@ -14,10 +14,9 @@ import pytest
 from runs import classify_tiles, temporary_in
 from surveys import bytes_of, cut, finished, strip
 
+from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core import version
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine import cluster as cluster_module
 from bare_earth.algorithms.engine.cluster import Cluster
 from bare_earth.algorithms.filters.slope import SlopeFilter

@@ -14,10 +14,9 @@ from independent_water import compare, corners_in_flat_water
 from scipy.spatial import cKDTree
 from surveys import finished
 
-from bare_earth import BareEarthError, Cancelled
+from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import FinishedFilesStay, OutputInUse
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.delivery.deliveries import DELIVERIES
 from bare_earth.algorithms.delivery.delivering import deliver
 from bare_earth.algorithms.delivery.request import (

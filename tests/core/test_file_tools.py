@@ -9,7 +9,7 @@ from runs import said
 from toy_file_tool import TOOL, Lift, add_toy
 
 import bare_earth
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.tools import FILE_TOOLS, file_tool
 from bare_earth.algorithms.tools.running import run
 

@@ -9,8 +9,9 @@ import time
 import numpy as np
 import pytest
 
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.core import exchange as exchange_module
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled, OutputInUse
+from bare_earth.algorithms.core.errors import OutputInUse
 from bare_earth.algorithms.core.exchange import exchange
 from bare_earth.algorithms.core.files import (
     Outputs,

@@ -8,7 +8,7 @@ import pytest
 from realdata import real
 from runs import CancelAt
 
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum

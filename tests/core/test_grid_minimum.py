@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError, Progress
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.filters.grid_minimum import METHOD, PRESETS, GridMinimum
 from benchmarks.scenes.simple import error, scatter, surveyed, village
 

@@ -12,7 +12,7 @@ from conftest import Heard
 from realdata import real
 from runs import said
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import SILENT, Notes
 from bare_earth.algorithms.crs.provider import wkt_of_epsg, wkt_of_text

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.plugin.libraries import folders, laz_support, pip, wheels
 from bare_earth.plugin.libraries.build import Build
 from bare_earth.plugin.libraries.laz_support import LazSupport

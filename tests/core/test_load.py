@@ -11,7 +11,7 @@ import pytest
 import surveys
 from runs import classify_file, classify_tiles, write_height_above_ground
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.slope import SlopeFilter
 

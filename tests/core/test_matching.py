@@ -8,8 +8,8 @@ import pytest
 from conftest import Heard
 from runs import CancelAt
 
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.survey import common_points
 from bare_earth.algorithms.tools.assess import assess_files

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints, model_key_points, reach

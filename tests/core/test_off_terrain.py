@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from conftest import Heard
 
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.tools.off_terrain import (
     OffTerrain,

@@ -12,7 +12,7 @@ from fulldisks import TELLS, become_full
 from realdata import real
 from runs import CancelAt, classify_file, environment, write_height_above_ground
 
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.engine import disk_store
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.memory import Resources

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from runs import classify_file, write_height_above_ground
 
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension

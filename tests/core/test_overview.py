@@ -6,7 +6,7 @@ import laspy
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.runs import many_files
 from bare_earth.algorithms.runs.options import TileOutput

@@ -3,8 +3,8 @@ from dataclasses import dataclass
 
 import pytest
 
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core import parameters
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.parameters import ParameterSet, parameter
 from bare_earth.algorithms.filters import METHODS
 

@@ -10,8 +10,8 @@ from runs import CancelAt, write_height_above_ground, write_key_points, write_te
 from surveys import cut, strip
 from surveys import write as write_strip
 
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.grids.canopy import canopy_height
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.las.reading import read_cloud

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import surveys
 
-from bare_earth.algorithms.core.progress import Progress
+from bare_earth import Progress
 from bare_earth.algorithms.engine.memory import Resources
 from benchmarks.progress import Recorder, pace_of, runs
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from runs import CancelAt
 
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.las.reading import read_parts
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.tools.quality import (

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.core.points import Frame, Points
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.rasters import writing

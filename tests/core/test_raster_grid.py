@@ -7,7 +7,7 @@ from realdata import real
 from runs import said
 from surveys import cut, strip, write
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.rasters.cell_grid import RasterTarget
 from bare_earth.algorithms.runs.entry import terrain

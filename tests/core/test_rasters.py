@@ -9,8 +9,8 @@ import pytest
 from runs import CancelAt, classify_file, classify_tiles, memory_store, write_terrain_models
 from surveys import cloud_of, cut, strip, write
 
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
 from bare_earth.algorithms.core.files import Outputs
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import blocks as blocks_module

@@ -7,8 +7,8 @@ import pytest
 from realdata import real
 from runs import CancelAt, said
 
+from bare_earth import Cancelled
 from bare_earth.algorithms.core import progress
-from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
 

@@ -10,8 +10,8 @@ from runs import classify_file, classify_tiles, write_heights, write_key_points
 from surveys import bytes_of, cut, finished, strip, write
 
 import bare_earth
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints

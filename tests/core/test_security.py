@@ -21,7 +21,7 @@ from runs import said
 from shipped import name_of, nodes
 from test_laz_support import PACKAGE, make_wheel
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from bare_earth.plugin.libraries import wheels

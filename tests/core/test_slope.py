@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
+from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.core.threads import may_use
 from bare_earth.algorithms.filters import whitebox
 from bare_earth.algorithms.filters.slope import METHOD, SlopeFilter

@@ -10,7 +10,7 @@ from realdata import real
 from runs import said
 from surveys import cut, strip, write
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core.progress import Notes
 from bare_earth.algorithms.crs import stated as stated_module
 from bare_earth.algorithms.crs.measurable import length_scale, require_measurable

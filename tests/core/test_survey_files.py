@@ -3,7 +3,7 @@ import struct
 
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.survey.files import find_files, open_survey
 from bare_earth.algorithms.survey.vpc import write_vpc
 

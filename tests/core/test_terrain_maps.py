@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.grids.local_relief import local_relief
 from bare_earth.algorithms.tools.contours import Contours, Interval
 

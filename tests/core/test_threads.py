@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from runs import CancelAt
 
+from bare_earth import Cancelled
 from bare_earth.algorithms.core import progress as progress_module
-from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.progress import SILENT, paced
 from bare_earth.algorithms.core.threads import (
     SharedThreads,

@@ -29,9 +29,8 @@ from surveys import (
     write,
 )
 
+from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.jobs import PointJob

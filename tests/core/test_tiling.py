@@ -9,8 +9,8 @@ import surveys
 from realdata import real
 from runs import memory_store
 
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-from bare_earth.algorithms.core.progress import SILENT, Progress
+from bare_earth import BareEarthError, Cancelled, Progress
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.blockwise import run_jobs

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.filters.tin import METHOD, TinDensification
 from bare_earth.algorithms.grids.tin import Tin
 from benchmarks.scenes.simple import error, scatter, surveyed, village

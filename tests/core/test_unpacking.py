@@ -14,7 +14,7 @@ import pytest
 from runs import classify_file, classify_tiles, write_terrain_models
 from surveys import bytes_of, cut, strip, write
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import unpacking as unpacking_module
 from bare_earth.algorithms.engine.memory import Resources

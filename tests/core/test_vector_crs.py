@@ -9,8 +9,8 @@ import pytest
 from conftest import Heard
 from realdata import real
 
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.runs.entry import classify, terrain

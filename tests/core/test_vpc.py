@@ -6,7 +6,7 @@ from urllib.request import pathname2url
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.crs.provider import to_wgs84, wkt_of_epsg
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc

@@ -7,8 +7,8 @@ import pytest
 from realdata import real
 from test_checkpoints import write
 
+from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.descent import isotonic
 from bare_earth.algorithms.tools.water.finding import Water, find_water

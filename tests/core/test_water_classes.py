@@ -13,7 +13,7 @@ from runs import CancelAt, said
 from scipy.spatial import cKDTree
 from test_water import lake, lake_scene
 
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.crs.provider import wkt_of_epsg
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.grids.lines import along, near_rings

@@ -5,7 +5,7 @@ import pytest
 from conftest import LasKit
 from runs import CancelAt
 
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.las import copc_nodes, copc_octree, reading, writing
 from bare_earth.algorithms.las.copc import HIERARCHY_ENTRY
 from bare_earth.algorithms.las.copc_nodes import find_nodes, read_hierarchy, read_pages

@@ -7,7 +7,7 @@ import pytest
 from realdata import real
 from runs import CancelAt
 
-from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.las import edits
 from bare_earth.algorithms.las import records as records_module
 from bare_earth.algorithms.las.reading import read_cloud

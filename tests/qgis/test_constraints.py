@@ -18,7 +18,7 @@ from qgis.core import (
 )
 from support import Log, layer_of, write_scene
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.survey.shapes import Place
 from bare_earth.algorithms.survey.vector_files import read_corrections

@@ -6,7 +6,7 @@ from typing import Optional
 import pytest
 from qgis.core import QgsProcessingContext, QgsProperty
 
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core.parameters import ParameterSet, parameter
 from bare_earth.plugin.processing.base import BareEarthAlgorithm, command_line
 

@@ -16,8 +16,8 @@ from qgis.core import (
 )
 from support import ALGORITHM, write_scene
 
+from bare_earth import Cancelled
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.errors import Cancelled
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.rasters import writing
