@@ -67,7 +67,8 @@ class FixedTerrain:
     @cached_property
     def _cells(self) -> np.ndarray:
         """The cells of the lattice with a vertex."""
-        return np.unique(squares(*np.concatenate((self.edges, self.inside))[:, :2].T, self.cell))
+        vertices = np.concatenate((self.edges, self.inside))
+        return np.unique(squares(vertices[:, 0], vertices[:, 1], self.cell))
 
 
 def fixed_terrain(
@@ -177,8 +178,8 @@ def _with_level(
             z = falling(stations, places, heights, line[:, :2], _LEVEL)
         return np.column_stack((line[:, :2], z))
 
-    rivers = map(raised, parts)
-    downstream = (line if line[0, 2] >= line[-1, 2] else line[::-1] for line in rivers)
+    lines = map(raised, parts)
+    downstream = (line if line[0, 2] >= line[-1, 2] else line[::-1] for line in lines)
     return LevelWater(tuple(map(raised, rings)), tuple(downstream))
 
 
@@ -220,7 +221,8 @@ def _ground_near(
     """Return ground and ignored ground round lines, shape (n, 3), and which is ground."""
     found, are_ground = [np.zeros((0, 3))], [np.zeros(0, dtype=bool)]
     if lines:
-        wanted = NearPlaces(*np.concatenate(lines)[:, :2].T, NEAR)
+        places = np.concatenate(lines)
+        wanted = NearPlaces(places[:, 0], places[:, 1], NEAR)
         for cloud in clouds:
             is_ground = ground.of(cloud, GroundCounts())
             which = np.flatnonzero(is_ground | ground.points_of(cloud, (IGNORED_GROUND,)))
