@@ -27,12 +27,13 @@ def _add_odm(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
 
 
 def _odm(options: argparse.Namespace) -> int:
-    from ..core.files import check_output, replacing
+    from ..core.files import replacing
     from ..engine.memory import Resources
     from ..filters.smrf import SmrfValues
     from ..runs.entry import classify
     from ..runs.requests import ClassifyRequest
     from ..survey.kept_classes import ALL_CLASSES
+    from ..survey.outputs import check_outputs
     from ..survey.selection import Selection
 
     sets = chosen(options)
@@ -43,7 +44,7 @@ def _odm(options: argparse.Namespace) -> int:
         resources=Resources.among(sets),
         crs=options.crs,
     )
-    check_output(options.output)
+    check_outputs([("cloud", options.output)])
     with Terminal(options.verbose) as progress, replacing(options.output) as temporary:
         done = classify(options.input, temporary, request, progress)
     ground = f"{done.ground_count:,} of {done.point_count:,} points are ground"

@@ -85,7 +85,6 @@ def write_geotiff(
     """Write a cloud-optimised GeoTIFF of float32 or uint8, of one band, or of three for red, green
     and blue.
     """
-    check_output(target)
     if isinstance(values, np.ndarray):
         values = Rows(values.shape, values.dtype.name, [values])
     band = Band.of(grid, nodata, shows, values.bands)

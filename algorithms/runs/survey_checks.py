@@ -23,8 +23,7 @@ def check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Pat
     require_measurable("The survey", survey.crs, survey.box)
     if folder.exists() and not folder.is_dir():
         raise BareEarthError(f"Cannot write into {folder}: it is a file. Give a folder.")
-    if not folder.exists():
-        check_output(folder)
+    check_outputs([("folder", folder)])
     here = folder.resolve()
     for path in _paths(survey):
         if path.parent.resolve() == here:
