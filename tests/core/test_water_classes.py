@@ -13,6 +13,7 @@ from runs import CancelAt, said
 from scipy.spatial import cKDTree
 from test_water import lake, lake_scene
 
+import bare_earth
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.crs.provider import wkt_of_epsg
 from bare_earth.algorithms.engine.memory import Resources
@@ -25,9 +26,6 @@ from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.shapes import Shapes
 from bare_earth.algorithms.survey.vector_files import read_boundary
-from bare_earth.algorithms.tools.water.finding import Water
-from bare_earth.algorithms.tools.water.tool import WaterRequest
-from bare_earth.algorithms.tools.water.tool import write_water as find_water
 from bare_earth.algorithms.tools.water_classes import ClassifyWater, WaterClasses, WaterPolygons
 
 pytest.importorskip("pyproj")
@@ -263,7 +261,7 @@ def test_what_cannot_be_done_is_a_sentence(tmp_path):
 )
 def test_water_of_real_tiles_gets_its_class_back(tmp_path, name, least):
     source, ground, target = real(f"real/{name}.laz"), tmp_path / "ground.laz", tmp_path / "out.laz"
-    find_water([source], tmp_path / "water.geojson", WaterRequest(Water(min_area=500.0)))
+    bare_earth.water(source, tmp_path / "water.geojson", min_area=500.0)
     las = laspy.read(source)
     water = np.asarray(las.classification) == 9
     las.classification[water] = 2

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ...core.parameters import HasSets
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...crs.system import Crs
@@ -22,7 +21,6 @@ from ...survey.kept_classes import NOISE, is_one_of
 from ..declaration import CLOUD, CRS, FileTool, Input, Output
 from ..rasters.constraints import STATION, Constraints
 from ..rasters.fixed_terrain import PER_CELL, GivenTerrain
-from ..running import run
 from .bridges import decks_without_water
 from .finding import GRADES, Water, WaterBody, find_water
 from .grid import WaterGrid, cell_for
@@ -37,19 +35,6 @@ FIELDS: dict[str, type] = {
 }  # fmt: skip
 # Fields of the breaklines: ID is that of the polygon, or the number of a breakline of the user.
 LINE_FIELDS: dict[str, type] = {"ID": int, "KIND": str}
-
-
-@dataclass(frozen=True)
-class WaterRequest(HasSets):
-    """A request to find water."""
-
-    water: Water = field(default_factory=Water)  # which water is found
-    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
-    # The CRS of the points in place of the one that files state: an EPSG code, such as
-    # "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text
-    crs: str | None = None
-    # A file for the shores, islands and middles of rivers as lines with heights
-    breaklines: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -237,18 +222,6 @@ def _with_heights(line: np.ndarray, given: GivenTerrain) -> Iterator[np.ndarray]
 
 def _closed(ring: np.ndarray) -> np.ndarray:
     return ring if np.array_equal(ring[0], ring[-1]) else np.concatenate((ring, ring[:1]))
-
-
-def write_water(
-    sources: Iterable[Path],
-    target: Path,
-    request: WaterRequest = WaterRequest(),
-    progress: Progress = SILENT,
-) -> WaterSummary:
-    """Find the water of one classified file or many, and write it as polygons."""
-    inputs = {"sources": [Path(path) for path in sources], "crs": request.crs}
-    outputs = {"output": target, "breaklines": request.breaklines}
-    return run(TOOL, inputs, outputs, [request.water, request.ground], progress)
 
 
 def _write(
