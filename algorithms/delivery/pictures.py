@@ -28,7 +28,7 @@ def picture_of(raster: Path, name: str, units: Units = Units()) -> tuple[Picture
     values, cell = _small(raster)
     known = values[~np.isnan(values)]
     if not len(known):
-        return Picture(_filled(values, 255), cell), ""
+        return Picture(np.full((*values.shape, 3), 255, dtype=np.uint8), cell), ""
     if name in _OF_HEIGHTS:
         return _heights(values, known, cell, units)
     if name == "chm":
@@ -36,12 +36,8 @@ def picture_of(raster: Path, name: str, units: Units = Units()) -> tuple[Picture
         ends = (units.height(0.0), units.height(high * units.vertical))
         legend = keys((_CANOPY[0], _CANOPY[-1]), ends)
         return Picture(ramped(values, _CANOPY, 0.0, high), cell), legend
-    grey = np.where(np.isnan(values), 255.0, values)
-    return Picture(np.repeat(np.rint(grey).astype(np.uint8)[..., None], 3, axis=2), cell), ""
-
-
-def _filled(values: np.ndarray, grey: int) -> np.ndarray:
-    return np.full((*values.shape, 3), grey, dtype=np.uint8)
+    grey = np.rint(np.where(np.isnan(values), 255.0, values)).astype(np.uint8)
+    return Picture(np.repeat(grey[..., None], 3, axis=2), cell), ""
 
 
 def _small(raster: Path) -> tuple[np.ndarray, float]:

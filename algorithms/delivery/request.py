@@ -47,7 +47,7 @@ class DeliveryChoice(ParameterSet):
         optional=True,
         choices={
             NO_DELIVERY: "Own choice of outputs",
-            **{name: each.label for name, each in DELIVERIES.items()},
+            **{name: delivery.label for name, delivery in DELIVERIES.items()},
         },
         help="All outputs that a job hands over, in one folder, with a page that lists them. Only"
         " with your own choice of outputs are the fields of single outputs used.",
@@ -63,7 +63,7 @@ class DeliveryOptions(ParameterSet):
         label="Specification",
         choices={
             AS_DELIVERY: "The usual one of the delivery",
-            **{name: each.label for name, each in SPECIFICATIONS.items()},
+            **{name: asked.label for name, asked in SPECIFICATIONS.items()},
         },
         advanced=True,
         help="The specification with which a delivery is compared. It also sets the cell size of"
@@ -106,8 +106,8 @@ class DeliveryTerrain(MapTerrain):
 
     def with_cells(self, size: float) -> MapTerrain:
         """Return the parameters of maps, with a cell size in metres if it is left open."""
-        values = {each.name: getattr(self, each.name) for each in self.declarations()}
-        if values["dtm_cell_size"] is None:
+        values = dict(vars(self))
+        if self.dtm_cell_size is None:
             values |= {"dtm_cell_size": size, "dtm_cell_unit": "m"}
         return MapTerrain(**values)
 
@@ -228,11 +228,9 @@ class DeliveryRequest(Request):
     def _method(self) -> ParameterSet:
         """Return the parameters of the method, with values of the delivery for those left open."""
         content, given = self.content, self.parameters
-        presets = {each.name: each for each in given.declarations()}["preset"].choices
-        chosen: dict[str, Any] = vars(given)
-        if chosen["preset"] == "automatic" and content.preset in presets:
-            given = replace(given, preset=content.preset)  # type: ignore[call-arg]
-        return _or_else(given, content.values)
+        presets = {declared.name: declared.choices for declared in given.declarations()}["preset"]
+        preset = {"preset": content.preset} if content.preset in presets else {}
+        return _or_else(given, {**preset, **content.values})
 
     def terrain_with(self, cell_size: float) -> MapTerrain:
         """Return the parameters of the rasters, with a cell size in metres if none is given."""

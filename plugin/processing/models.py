@@ -33,7 +33,7 @@ from .output_checks import check_outputs
 from .outputs import do_not_load, places_of
 from .search_words import words_of
 
-_CHOICES = {each.name.upper(): each for each in TileMethod.declarations()}
+_CHOICES = {declared.name.upper(): declared for declared in TileMethod.declarations()}
 # Names of outputs in the models that make a classified cloud or contour lines.
 _CLASSIFIED, _LINES = "ground:OUTPUT", "contours:OUTPUT"
 _FOLDER = Path(__file__).parents[1] / "models"
@@ -60,19 +60,20 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         self.about = self.helpContent().get("ALG_DESC", "")
         needed = set()
         # All parameters are added again, to keep their order. Choices show labels, as elsewhere.
-        for each in [each.clone() for each in self.parameterDefinitions()]:
-            self.removeParameter(each.name())
+        for field in [field.clone() for field in self.parameterDefinitions()]:
+            name = field.name()
+            self.removeParameter(name)
             # The help of the step, or else of the model.
-            each.setHelp(tr(each.help() or self.helpContent().get(each.name(), "")))
-            each.setDescription(tr(each.description()))
-            if each.isDestination():
-                if not each.flags() & compat.OPTIONAL:
-                    needed.add(each.name())
-                each.setFlags(each.flags() | compat.OPTIONAL)
-                each.setCreateByDefault(True)
-            self.addParameter(_choice(each) if each.name() in _CHOICES else each)
-        for each in self.outputDefinitions():
-            each.setDescription(tr(each.description()))
+            field.setHelp(tr(field.help() or self.helpContent().get(name, "")))
+            field.setDescription(tr(field.description()))
+            if field.isDestination():
+                if not field.flags() & compat.OPTIONAL:
+                    needed.add(name)
+                field.setFlags(field.flags() | compat.OPTIONAL)
+                field.setCreateByDefault(True)
+            self.addParameter(_choice(field) if name in _CHOICES else field)
+        for output in self.outputDefinitions():
+            output.setDescription(tr(output.description()))
         # Outputs that steps cannot do without, although nobody needs to keep them.
         self._needed = needed
 
@@ -121,13 +122,10 @@ class ShippedModel(QgsProcessingModelAlgorithm):
     ) -> bool:
         """Name the layers and their group after the input."""
         self._subject = name_of(Path(self.parameterAsFile(parameters, "INPUT", context)))
-        group, places = (
-            f"{self._subject}: {self.displayName()}",
-            places_of(self, parameters, context),
-        )
         self._settings = settings_of(self, parameters, context)
+        group, places = self.displayName(), places_of(self, parameters, context)
         with errors_for_qgis():
-            self._stage = Stage(context, group, places, is_in_place=True)
+            self._stage = Stage(context, f"{self._subject}: {group}", places, is_in_place=True)
         return super().prepareAlgorithm(parameters, context, feedback)
 
     def processAlgorithm(
@@ -137,11 +135,12 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         feedback: QgsProcessingFeedback,
     ) -> dict[str, Any]:
         """Run the model, with defaults for missing inputs, which QGIS would leave empty."""
-        defaults = {each.name(): _default(each) for each in self.parameterDefinitions()}
+        defaults = {field.name(): _default(field) for field in self.parameterDefinitions()}
         tell_of_unknown(self, parameters, feedback)
         given = {**defaults, **parameters}
-        for each in self._needed:
-            given[each] = defaults[each] if compat.is_empty(given[each]) else given[each]
+        given.update(
+            {name: defaults[name] for name in self._needed if compat.is_empty(given[name])}
+        )
         results: dict[str, Any] = {}
         try:
             results = super().processAlgorithm(given, context, feedback)
@@ -153,7 +152,11 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         self, given: dict[str, Any], results: dict[str, Any], context: QgsProcessingContext
     ) -> None:
         """Set names, styles and places of the layers; QGIS names them OUTPUT, DTM and so on."""
-        results = {name: _shown(value) for name, value in results.items()}
+        # The paths by which QGIS loads them.
+        results = {
+            name: fresh_path(value) if isinstance(value, str) else value
+            for name, value in results.items()
+        }
         looks = layers.looks_of(context)
         # Rasters of classes, for clouds that QGIS cannot show. Those of inner steps are not wanted.
         extra = [path for path, look in looks.items() if look.title == layers.CLASSES]
@@ -188,20 +191,15 @@ def _default(field: QgsProcessingParameterDefinition) -> Any:
     return QgsProcessing.TEMPORARY_OUTPUT if field.isDestination() else field.defaultValue()
 
 
-def _shown(value: Any) -> Any:
-    """Return the path by which QGIS loads an output."""
-    return fresh_path(value) if isinstance(value, str) else value
-
-
 def _choice(drawn: QgsProcessingParameterEnum) -> ChoiceParameter:
     """Return a choice of a model as a choice with labels and help, as in other dialogs."""
     declared = _CHOICES[drawn.name()]
     values, default = drawn.options(), drawn.defaultValue()
     field = ChoiceParameter(drawn.name(), drawn.description(), values, False, default, False, True)
     field.setHelp(help_of(declared))
-    return with_labels(field, [tr(declared.choices[each]) for each in values])
+    return with_labels(field, [tr(declared.choices[value]) for value in values])
 
 
 def shipped_models() -> list[ShippedModel]:
     """Return all models of the plugin."""
-    return [ShippedModel(each) for each in sorted(_FOLDER.glob("*.model3"))]
+    return [ShippedModel(path) for path in sorted(_FOLDER.glob("*.model3"))]
