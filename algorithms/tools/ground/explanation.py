@@ -64,8 +64,8 @@ class ExplainedCells(NamedTuple):
         parts = []
         for offset in np.ndindex(*(end - first).max(axis=1)):
             places = first + np.reshape(offset, (2, 1))
-            held = (places < end).all(axis=0)
-            parts.append((*places[:, held], self.code[held]))
+            inside = (places < end).all(axis=0)
+            parts.append((*places[:, inside], self.code[inside]))
         row, column, code = (np.concatenate(values) for values in zip(*parts))
         return ExplainedCells(row, column, code, size, self.rules)
 
