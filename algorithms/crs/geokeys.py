@@ -69,7 +69,7 @@ def read_geokeys(directory: bytes, doubles: bytes = b"", texts: bytes = b"") -> 
     model = keys.get(_MODEL)
     if model not in (_PROJECTED, _GEOGRAPHIC, _GEOCENTRIC):
         stated = (_PROJECTED_CODE, _LINEAR_UNIT, _VERTICAL_CODE, _VERTICAL_UNIT)
-        if geographic is None and not any(each in keys for each in stated):
+        if geographic is None and not any(key in keys for key in stated):
             return None
         model = _GEOGRAPHIC if geographic and _PROJECTED_CODE not in keys else _PROJECTED
     is_geographic = model != _PROJECTED

@@ -28,7 +28,7 @@ def is_other_datum(one: VerticalDatum | None, other: VerticalDatum | None) -> bo
     # Programs also use names of their own, or one is not stated.
     if one is None or other is None:
         return None
-    names = {_bare(each.name) for each in (one, other)}
+    names = {_bare(datum.name) for datum in (one, other)}
     for codes in ((one.epsg, other.epsg), (one.crs_epsg, other.crs_epsg)):
         if all(codes) and codes[0] == codes[1]:
             return False
@@ -37,7 +37,7 @@ def is_other_datum(one: VerticalDatum | None, other: VerticalDatum | None) -> bo
     if one.is_ellipsoid != other.is_ellipsoid or (one.epsg and other.epsg):
         return True
     # Two vertical CRS can have one datum and different units, so their codes alone say nothing.
-    has_codes = all(each.epsg or each.crs_epsg for each in (one, other))
+    has_codes = all(datum.epsg or datum.crs_epsg for datum in (one, other))
     return True if has_codes and "" not in names else None
 
 

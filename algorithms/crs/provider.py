@@ -17,25 +17,22 @@ _CODE = re.compile(r"[A-Za-z]+:[A-Za-z0-9_]+$")
 
 def wkt_of_epsg(code: int) -> str | None:
     """Return the WKT 1 of an EPSG code, None if there is no library, or the code is not known."""
-    known = library()
-    return None if known is None else known.wkt_of_epsg(code)
+    return _answer("wkt_of_epsg", code)
 
 
 def wkt_of_text(text: str) -> str | None:
     """Return the WKT 1 of a CRS in any form that the library understands, None if there is no
     library, or it does not understand the text.
     """
-    known = library()
     # GDAL would read the address.
-    return None if known is None or "://" in text else known.wkt_of_text(text)
+    return None if "://" in text else _answer("wkt_of_text", text)
 
 
 def are_same(one: str, other: str) -> bool | None:
     """Return whether two well-known texts have the same horizontal CRS, None if there is no
     library, or it does not understand a text.
     """
-    known = library()
-    return None if known is None else known.are_same(one, other)
+    return _answer("are_same", one, other)
 
 
 def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
@@ -51,12 +48,11 @@ def transformed(source: str, target: str, places: np.ndarray) -> np.ndarray | No
     without a library that knows both, or if a place is outside their areas.
     """
     # Longitude comes first, whatever the definition of the CRS says. Heights do not matter.
-    known = library()
-    if known is None or not _are_within(places, (_FARTHEST, _FARTHEST)):
+    if library() is None or not _are_within(places, (_FARTHEST, _FARTHEST)):
         return None
     if not len(places):
         return places
-    moved = known.transformed(source, target, places)
+    moved = _answer("transformed", source, target, places)
     return None if moved is None or not np.isfinite(moved).all() else moved
 
 
@@ -73,6 +69,15 @@ def library() -> Any:
     return None
 
 
+def _answer(question: str, *arguments: Any) -> Any:
+    """Return what the library answers; None if there is none, or it cannot answer."""
+    known = library()
+    try:
+        return None if known is None else getattr(known, question)(*arguments)
+    except RuntimeError:  # of pyproj, and of GDAL if the application made it raise its errors
+        return None
+
+
 class _Gdal:
     """Uses osr of GDAL."""
 
@@ -81,11 +86,8 @@ class _Gdal:
         from osgeo import osr
 
         reference = osr.SpatialReference()
-        try:
-            with _quiet():
-                failed = reference.ImportFromEPSG(code)
-        except RuntimeError:  # the application made GDAL raise its errors
-            return None
+        with _quiet():
+            failed = reference.ImportFromEPSG(code)
         return None if failed else reference.ExportToWkt()
 
     @staticmethod
@@ -93,11 +95,8 @@ class _Gdal:
         from osgeo import osr
 
         reference = osr.SpatialReference()
-        try:
-            with _quiet():
-                failed = reference.SetFromUserInput(text)
-        except RuntimeError:  # the application made GDAL raise its errors
-            return None
+        with _quiet():
+            failed = reference.SetFromUserInput(text)
         return None if failed else reference.ExportToWkt()
 
     @staticmethod
@@ -105,38 +104,34 @@ class _Gdal:
         from osgeo import osr
 
         references = osr.SpatialReference(), osr.SpatialReference()
-        try:
-            with _quiet():
-                for reference, text in zip(references, (one, other)):
-                    if reference.ImportFromWkt(text):
-                        return None
-                    if reference.IsCompound():
-                        reference.DemoteTo2D()
-                return bool(references[0].IsSame(references[1]))
-        except RuntimeError:  # the application made GDAL raise its errors
-            return None
+        with _quiet():
+            for reference, text in zip(references, (one, other)):
+                if reference.ImportFromWkt(text):
+                    return None
+                if reference.IsCompound():
+                    reference.DemoteTo2D()
+            return bool(references[0].IsSame(references[1]))
 
     @staticmethod
     def transformed(source: str, target: str, places: np.ndarray) -> np.ndarray | None:
         from osgeo import osr
 
         references = []
-        try:
-            with _quiet():
-                for text in (source, target):
-                    reference = osr.SpatialReference()
-                    # Only codes, since this function reads files and addresses as well.
-                    read = reference.SetFromUserInput if _CODE.match(text) else None
-                    if (read or reference.ImportFromWkt)(text):
-                        return None
-                    reference.StripVertical()
-                    reference.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
-                    references.append(reference)
-                transformation = osr.CoordinateTransformation(*references)
+        with _quiet():
+            for text in (source, target):
+                reference = osr.SpatialReference()
+                # Only codes, since this function reads files and addresses as well.
+                read = reference.SetFromUserInput if _CODE.match(text) else None
+                if (read or reference.ImportFromWkt)(text):
+                    return None
+                reference.StripVertical()
+                reference.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
+                references.append(reference)
+            transformation = osr.CoordinateTransformation(*references)
+            try:
                 return np.array(transformation.TransformPoints(places.tolist()))[:, :2]
-        except (RuntimeError, TypeError, IndexError):
-            # GDAL raised an error, or made an invalid transformation.
-            return None
+            except (TypeError, IndexError):  # GDAL made an invalid transformation
+                return None
 
 
 @contextlib.contextmanager
@@ -157,45 +152,29 @@ class _Pyproj:
     @staticmethod
     def wkt_of_epsg(code: int) -> str | None:
         from pyproj import CRS
-        from pyproj.exceptions import CRSError
 
-        try:
-            return CRS.from_epsg(code).to_wkt("WKT1_GDAL")
-        except CRSError:
-            return None
+        return CRS.from_epsg(code).to_wkt("WKT1_GDAL")
 
     @staticmethod
     def wkt_of_text(text: str) -> str | None:
         from pyproj import CRS
-        from pyproj.exceptions import CRSError
 
-        try:
-            crs = CRS.from_user_input(text)
-            return crs.to_wkt("WKT1_GDAL") or crs.to_wkt()
-        except CRSError:
-            return None
+        crs = CRS.from_user_input(text)
+        return crs.to_wkt("WKT1_GDAL") or crs.to_wkt()
 
     @staticmethod
-    def are_same(one: str, other: str) -> bool | None:
+    def are_same(one: str, other: str) -> bool:
         from pyproj import CRS
-        from pyproj.exceptions import CRSError
 
-        try:
-            pair = [CRS.from_wkt(text) for text in (one, other)]
-        except CRSError:
-            return None
+        pair = [CRS.from_wkt(text) for text in (one, other)]
         flat = [crs.sub_crs_list[0] if crs.is_compound else crs for crs in pair]
         return bool(flat[0].equals(flat[1], ignore_axis_order=True))
 
     @staticmethod
-    def transformed(source: str, target: str, places: np.ndarray) -> np.ndarray | None:
+    def transformed(source: str, target: str, places: np.ndarray) -> np.ndarray:
         from pyproj import CRS, Transformer
-        from pyproj.exceptions import CRSError, ProjError
 
-        try:
-            references = [CRS.from_user_input(text) for text in (source, target)]
-            one, two = (each.sub_crs_list[0] if each.is_compound else each for each in references)
-            transformer = Transformer.from_crs(one, two, always_xy=True)
-            return np.column_stack(transformer.transform(*places.T))
-        except (CRSError, ProjError):
-            return None
+        references = [CRS.from_user_input(text) for text in (source, target)]
+        one, two = (crs.sub_crs_list[0] if crs.is_compound else crs for crs in references)
+        transformer = Transformer.from_crs(one, two, always_xy=True)
+        return np.column_stack(transformer.transform(*places.T))

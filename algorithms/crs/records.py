@@ -32,7 +32,7 @@ def crs_of_records(
     """
     # What the preferred record does not state, such as the unit of heights, comes from the others.
     found = [_Statement(_TEXT, text, facts) for text in texts if (facts := read_wkt(text))]
-    found[1:] = [each._replace(kind=f"other {_TEXT}") for each in found[1:]]
+    found[1:] = [statement._replace(kind=f"other {_TEXT}") for statement in found[1:]]
     if keys is not None:
         stated = _statement_of(keys, progress)
         found = [*found, stated] if prefers_text else [stated, *found]

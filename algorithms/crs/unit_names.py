@@ -52,9 +52,9 @@ def unit_in(text: str) -> float | None:
         for count in (3, 2, 1)
         if len(words) == count or (len(words) > count and not words[-count - 1][0].isdigit())
     ]
-    return next((UNITS[each] for each in (*starts, *ends) if each in UNITS), None)
+    return next((UNITS[word] for word in (*starts, *ends) if word in UNITS), None)
 
 
 def _words(text: str) -> list[str]:
     """Return the words of a text in small letters; "U.S." is one."""
-    return [each.lower() for each in _LETTERS.findall(text.replace(".S.", "S"))]
+    return [word.lower() for word in _LETTERS.findall(text.replace(".S.", "S"))]

@@ -47,7 +47,7 @@ class Node(NamedTuple):
 
     def children(self, keywords: set[str]) -> list[Node]:
         """Return the direct children that have one of the keywords."""
-        return [each for each in self.values if isinstance(each, Node) and each.keyword in keywords]
+        return [node for node in self.values if isinstance(node, Node) and node.keyword in keywords]
 
 
 class VerticalDatum(NamedTuple):
@@ -75,7 +75,7 @@ class WktFacts(NamedTuple):
 
 def read_wkt(text: str) -> WktFacts | None:
     """Return the CRS that `text` describes, or None if it describes none."""
-    roots = [each for each in _parse(text) if isinstance(each, Node)]
+    roots = [node for node in _parse(text) if isinstance(node, Node)]
     parts = [part for root in roots for part in _parts(root)]
     horizontal = next((p for p in parts if p.keyword in _PROJECTED | _LOCAL | _GEOGRAPHIC), None)
     if horizontal is None:
@@ -136,8 +136,8 @@ def _parse(text: str) -> list[str | Node]:
 def _parts(node: Node) -> Sequence[Node]:
     """Return the parts of a compound or bound CRS."""
     if node.keyword in _COMPOUND | _BOUND:
-        inside = [each for each in node.values if isinstance(each, Node)]
-        return [part for each in inside for part in _parts(each)]
+        inside = [value for value in node.values if isinstance(value, Node)]
+        return [part for value in inside for part in _parts(value)]
     return [node]
 
 

@@ -59,7 +59,7 @@ def install_hint(packages: Iterable[str]) -> str:
 
 def _command_of_the_build(packages: list[str]) -> str:
     """Return the command that adds packages to this build of QGIS."""
-    names, debs = " ".join(packages), " ".join(f"python3-{each}" for each in packages)
+    names, debs = " ".join(packages), " ".join(f"python3-{name}" for name in packages)
     if sys.platform == "win32":
         command = f"osgeo4w-setup -q -k -P {debs.replace(' ', ',')}"
         return (
@@ -70,13 +70,13 @@ def _command_of_the_build(packages: list[str]) -> str:
         program = Path(sys.executable).parent
         # The bundles of QGIS 3.44 and later, and those before.
         pythons = [program / "python", program / "bin" / "python3"]
-        python = next((each for each in pythons if each.is_file()), pythons[0])
+        python = next((path for path in pythons if path.is_file()), pythons[0])
         command = f"{_quoted(str(python))} -m pip install --user --no-deps {names}"
     elif _FLATPAK.exists():
         command = f"flatpak run --devel --command=pip3 org.qgis.qgis install {names} --user"
     else:
         managers = ("apt-get", "dnf", "zypper")
-        found = next((each for each in managers if shutil.which(each)), "apt-get")
+        found = next((name for name in managers if shutil.which(name)), "apt-get")
         command = f"sudo {found} install {debs}"
     return f"In a terminal, type '{command}' and restart QGIS."
 

@@ -89,7 +89,7 @@ class ClassLayers:
                 new = _new_layers(
                     *returns,
                     classes[first : group[-1].end],
-                    [slice(each.start - first, each.end - first) for each in group],
+                    [slice(chunk.start - first, chunk.end - first) for chunk in group],
                 )
                 for chunk, layer in zip(group, new):
                     start = file.tell()
@@ -97,7 +97,7 @@ class ClassLayers:
                     self.moved[chunk.place] = start, file.tell() - start
                 yield group[-1].end / layout.count
         end = file.tell()
-        sizes = [(each.end - each.start, self.moved[each.place][1]) for each in self.chunks]
+        sizes = [(chunk.end - chunk.start, self.moved[chunk.place][1]) for chunk in self.chunks]
         lazrs.write_chunk_table(file, sizes, lazrs.LazVlr(layout.laszip))
         file.seek(table)
         file.write(struct.pack("<q", end))

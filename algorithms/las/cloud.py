@@ -103,7 +103,7 @@ class PointCloud:
 
         def extremes(part: slice) -> list[tuple[int, int]]:
             # Coordinates among records are far apart in memory, so they are copied once.
-            x, y = (np.ascontiguousarray(each[part]) for each in (self.x, self.y))
+            x, y = (np.ascontiguousarray(axis[part]) for axis in (self.x, self.y))
             return [(int(x.min()), int(y.min())), (int(x.max()), int(y.max()))]
 
         found = np.array(in_threads(extremes, parts_of(self.count, _POINTS_A_PART)))
@@ -143,7 +143,9 @@ class PointCloud:
             which = np.flatnonzero(which)
         axes = self._axes(self.frame if frame is None else frame)[:count]
         is_slice = isinstance(which, slice)
-        columns = [each[which] if is_slice else each for each in (self.x, self.y, self.z)[:count]]
+        columns = [self.x, self.y, self.z][:count]
+        if is_slice:
+            columns = [column[which] for column in columns]
         length = len(columns[0]) if is_slice else len(which)
         metres = [np.empty(length) for _ in axes]
 
@@ -208,7 +210,7 @@ class _Axis(NamedTuple):
     @classmethod
     def of(cls, scale: float, offset: float, start: float, unit: float) -> _Axis:
         """Return the axis of a scale and an offset, relative to a start, in units of metres."""
-        (whole, rest), (before, beyond) = (_multiple(each, scale) for each in (offset, start))
+        (whole, rest), (before, beyond) = (_multiple(value, scale) for value in (offset, start))
         return cls(whole - before, scale * unit, (rest - beyond) * unit)
 
     def convert(self, integers: np.ndarray, metres: np.ndarray) -> None:
@@ -234,5 +236,5 @@ def _picked(columns: Sequence[np.ndarray], which: np.ndarray | slice) -> list[np
         # If indices are ordered and close together, all values between are read in one go.
         if last - first < _LOOSE * len(which):
             near, places = slice(first, last + 1), (which - first).astype(np.intp)
-            return [np.ascontiguousarray(each[near]).take(places) for each in columns]
-    return [each[which] for each in columns]
+            return [np.ascontiguousarray(column[near]).take(places) for column in columns]
+    return [column[which] for column in columns]

@@ -182,6 +182,6 @@ def _write_hierarchy(file: BinaryIO, entries: np.ndarray) -> None:
 
 def _info(cube: Cube, gps_time: tuple[float, float], evlr_start: int, size: int) -> Vlr:
     half = cube.side / 2
-    centre = (each + half for each in cube.corner)
+    centre = (value + half for value in cube.corner)
     data = struct.pack("<5d2Q2d88x", *centre, half, cube.spacing, evlr_start + 60, size, *gps_time)
     return new_vlr(COPC_INFO, data, "COPC info VLR")

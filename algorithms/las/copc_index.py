@@ -34,7 +34,7 @@ class CopcIndex:
 
     def fits(self, chunks: Sequence[Chunk]) -> bool:
         """Return whether each node is one of the chunks of the file."""
-        known = {(each.place, each.size, each.end - each.start) for each in chunks}
+        known = {(chunk.place, chunk.size, chunk.end - chunk.start) for chunk in chunks}
         nodes = np.concatenate(list(self._pages.values()))
         nodes = nodes[nodes["count"] > 0]
         columns = (nodes[name].tolist() for name in ("start", "size", "count"))

@@ -113,7 +113,7 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
     """
     every = _pages(hierarchy, lambda keys: np.ones(len(keys), dtype=bool))
     pages = {start: entries for start, entries, _ in every}
-    total = sum(int(np.maximum(each["count"], 0).sum(dtype=np.int64)) for each in pages.values())
+    total = sum(int(np.maximum(page["count"], 0).sum(dtype=np.int64)) for page in pages.values())
     if total != hierarchy.layout.count:
         raise _uncounted(hierarchy.layout)
     return pages
@@ -156,7 +156,7 @@ def _pages(
             entries = _read_page(layout, file, *page)
             which = wanted(entries["key"])
             branches = entries[which & (entries["count"] == -1)]
-            pages += [(int(each["start"]), int(each["size"])) for each in branches]
+            pages += [(int(branch["start"]), int(branch["size"])) for branch in branches]
             yield page[0], entries, which
 
 

@@ -27,7 +27,7 @@ def read_crs(file: LasFile, progress: Progress = SILENT) -> Crs:
     # the global encoding of the header says which one is valid. What that lacks comes from the
     # other.
     every: tuple[Vlr | Evlr, ...] = (*file.vlrs, *file.evlrs)
-    texts = (each.data or b"" for each in every if each.key == WKT_RECORD)
+    texts = (record.data or b"" for record in every if record.key == WKT_RECORD)
     records = (file.vlr(key) for key in GEOKEY_RECORDS)
     keys = tuple(record.data or b"" if record else b"" for record in records)
     prefers_text = bool(file.global_encoding & _WKT_BIT)

@@ -30,13 +30,13 @@ class Edits:
 
     def columns(self) -> list[np.ndarray]:
         """Return the arrays that are given."""
-        extra = [each.values for each in self.dimensions()]
+        extra = [dimension.values for dimension in self.dimensions()]
         columns = self.classification, self.key_points, self.z, self.kept, *extra
-        return [each for each in columns if each is not None]
+        return [column for column in columns if column is not None]
 
     def dimensions(self) -> list[ExtraDimension]:
         """Return the dimensions that are given."""
-        return [each for each in (self.extra, self.remembered) if each is not None]
+        return [dimension for dimension in (self.extra, self.remembered) if dimension is not None]
 
 
 class EditedFile:
@@ -54,10 +54,10 @@ class EditedFile:
         self._changes, self._places, self._records = changes, [], records
         if changes.kept is not None and not changes.kept.any():
             raise BareEarthError(f"None of the points of {source.path} is left to be written.")
-        for each in changes.dimensions():
+        for dimension in changes.dimensions():
             if changes.kept is not None:
-                each = replace(each, values=each.values[changes.kept])
-            self.target, place = place_dimension(self.target, each)
+                dimension = replace(dimension, values=dimension.values[changes.kept])
+            self.target, place = place_dimension(self.target, dimension)
             self._places.append(place)
         if changes.z is not None:
             if changes.z_offset is not None:

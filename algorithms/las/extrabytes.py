@@ -97,7 +97,7 @@ def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
 def dimension_names(layout: LasFile) -> list[str]:
     """Return the names of the dimensions in extra bytes, also of undescribed ones."""
     descriptors = _descriptors(layout) or []
-    names = [text_of(each[4:36]) for each in descriptors if _size(each)]
+    names = [text_of(described[4:36]) for described in descriptors if _size(described)]
     is_all = sum(map(_size, descriptors)) == layout.extra_bytes
     return names if is_all else [*names, _UNDOCUMENTED]
 
@@ -107,11 +107,11 @@ def runs_of_bytes(layout: LasFile) -> list[tuple[str, int]]:
     `REMEMBERED` as a separate one.
     """
     count, start = layout.extra_bytes, 0
-    for each in (_descriptors(layout) or ()) if count else ():
-        if text_of(each[4:36]) == REMEMBERED and each[2] == _BYTE:
+    for described in (_descriptors(layout) or ()) if count else ():
+        if text_of(described[4:36]) == REMEMBERED and described[2] == _BYTE:
             runs = ("before", start), (REMEMBERED, 1), ("behind", count - start - 1)
             return [run for run in runs if run[1]]
-        start += _size(each)
+        start += _size(described)
     return [("extra_bytes", count)] if count else []
 
 

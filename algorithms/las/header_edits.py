@@ -11,36 +11,36 @@ from .lasfile import LasFile
 _LEGACY_RETURN_COUNT, _LAST_LEGACY_FORMAT = 5, 5
 
 
+def _with(layout: LasFile, *changes: tuple[fields.Field, Sequence[float]]) -> LasFile:
+    """Return the layout with other values of fields of the header."""
+    header = bytearray(layout.header)
+    for field, values in changes:
+        field.put(header, *values)
+    return replace(layout, header=bytes(header))
+
+
 def with_record_length(layout: LasFile, length: int) -> LasFile:
     """Return the layout with another record length."""
-    header = bytearray(layout.header)
-    fields.RECORD_LENGTH.put(header, length)
-    return replace(layout, header=bytes(header))
+    return _with(layout, (fields.RECORD_LENGTH, [length]))
 
 
 def with_z_offset(layout: LasFile, offset: float) -> LasFile:
     """Return the layout with another offset of z."""
-    header = bytearray(layout.header)
-    fields.OFFSET.put(header, *layout.offset[:2], offset)
-    return replace(layout, header=bytes(header))
+    return _with(layout, (fields.OFFSET, [*layout.offset[:2], offset]))
 
 
 def with_z_range(layout: LasFile, lowest: int, highest: int) -> LasFile:
     """Return the layout with another range of heights, given as integers."""
-    header, scale, offset = bytearray(layout.header), layout.scale[2], layout.offset[2]
-    extent = highest * scale + offset, lowest * scale + offset
-    fields.Z_EXTENT.put(header, *extent)
-    return replace(layout, header=bytes(header))
+    scale, offset = layout.scale[2], layout.offset[2]
+    return _with(layout, (fields.Z_EXTENT, [end * scale + offset for end in (highest, lowest)]))
 
 
 def with_count(layout: LasFile, count: int) -> LasFile:
     """Return the layout with another number of points; see `with_statistics` for the rest."""
-    header = bytearray(layout.header)
-    legacy = layout.minor_version < 4 or layout.point_format <= _LAST_LEGACY_FORMAT
-    fields.LEGACY_COUNT.put(header, count if legacy and count < 1 << 32 else 0)
+    counts = [(fields.LEGACY_COUNT, _legacy(layout, [count]))]
     if layout.minor_version >= 4:
-        fields.COUNT.put(header, count)
-    return replace(layout, header=bytes(header))
+        counts.append((fields.COUNT, [count]))
+    return _with(layout, *counts)
 
 
 def with_statistics(
@@ -49,16 +49,19 @@ def with_statistics(
     """Return the layout with another extent (x, y and z as integers), and other numbers of first,
     second, ... returns, fifteen of them.
     """
-    header = bytearray(layout.header)
     extent = [
         end[axis] * layout.scale[axis] + layout.offset[axis]
         for axis in range(3)
         for end in (highest, lowest)
     ]
-    fields.EXTENT.put(header, *extent)
-    legacy = layout.minor_version < 4 or layout.point_format <= _LAST_LEGACY_FORMAT
-    old = [each if legacy and each < 1 << 32 else 0 for each in returns[:_LEGACY_RETURN_COUNT]]
-    fields.LEGACY_RETURNS.put(header, *old)
+    changes: list[tuple[fields.Field, Sequence[float]]] = [(fields.EXTENT, extent)]
+    changes.append((fields.LEGACY_RETURNS, _legacy(layout, returns[:_LEGACY_RETURN_COUNT])))
     if layout.minor_version >= 4:
-        fields.RETURNS.put(header, *returns)
-    return replace(layout, header=bytes(header))
+        changes.append((fields.RETURNS, returns))
+    return _with(layout, *changes)
+
+
+def _legacy(layout: LasFile, counts: Sequence[int]) -> list[int]:
+    """Return counts for the fields before LAS 1.4, 0 where these do not hold them."""
+    has_legacy = layout.minor_version < 4 or layout.point_format <= _LAST_LEGACY_FORMAT
+    return [count if has_legacy and count < 1 << 32 else 0 for count in counts]

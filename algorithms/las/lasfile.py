@@ -224,7 +224,7 @@ class LasFile:
     def vlr(self, *key: tuple[str, int]) -> Vlr | Evlr | None:
         """Return the first VLR or EVLR that has one of the keys."""
         records: tuple[Vlr | Evlr, ...] = (*self.vlrs, *self.evlrs)
-        return next((each for each in records if each.key in key), None)
+        return next((record for record in records if record.key in key), None)
 
     def check_unchanged(self) -> None:
         """Refuse a file whose size, time, place on the disk, or bytes before the points have

@@ -52,7 +52,9 @@ class Compression(NamedTuple):
         kind, *_, chunk_size, _, _, count = _HEAD.unpack_from(record)
         if len(record) < _HEAD.size + count * _ITEM.size or chunk_size == 0 or count == 0:
             return None
-        items = [_ITEM.unpack_from(record, _HEAD.size + _ITEM.size * each) for each in range(count)]
+        items = [
+            _ITEM.unpack_from(record, _HEAD.size + _ITEM.size * number) for number in range(count)
+        ]
         return cls(kind, None if chunk_size == _VARIABLE else chunk_size, tuple(items))
 
     @property
@@ -69,7 +71,7 @@ class Compression(NamedTuple):
         layers = [
             size if kind == _EXTRA_BYTES_14 else LAYERS.get(kind) for kind, size, _ in self.items
         ]
-        known = [each for each in layers if each is not None]
+        known = [layer for layer in layers if layer is not None]
         return sum(known) if len(known) == len(layers) else 0
 
     @property

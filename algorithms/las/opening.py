@@ -126,8 +126,8 @@ def _check_points(layout: LasFile) -> None:
         raise BareEarthError(
             f"{path} has point format {layout.point_format}; 0 to 10 can be read. Convert it first."
         )
-    is_sound = all(_SMALLEST_SCALE <= each <= _LARGEST_SCALE for each in layout.scale)
-    is_sound &= all(abs(each) <= _LARGEST_OFFSET for each in layout.offset)
+    is_sound = all(_SMALLEST_SCALE <= value <= _LARGEST_SCALE for value in layout.scale)
+    is_sound &= all(abs(value) <= _LARGEST_OFFSET for value in layout.offset)
     if layout.extra_bytes < 0 or not is_sound:
         raise BareEarthError(f"The header of {path} is damaged. Copy or download it again.")
     if layout.count == 0:

@@ -163,8 +163,8 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
     integers = (cloud.x, cloud.y, cloud.z)
     corners = [
         tuple(
-            float(int(pick(each)) * scale + offset)
-            for each, scale, offset in zip(integers, cloud.scale, cloud.offset)
+            float(int(pick(column)) * scale + offset)
+            for column, scale, offset in zip(integers, cloud.scale, cloud.offset)
         )
         for pick in (np.min, np.max)
     ]
@@ -192,8 +192,8 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
         withheld=int(np.count_nonzero(cloud.withheld)),
         extra_dimensions=dimension_names(layout),
         records=[
-            f"{each.key[0]} {each.key[1]} {each.description}".rstrip()
-            for each in (*layout.vlrs, *layout.evlrs)
+            f"{record.key[0]} {record.key[1]} {record.description}".rstrip()
+            for record in (*layout.vlrs, *layout.evlrs)
         ],
         system_identifier=layout.system_identifier,
         software=layout.software,
@@ -249,7 +249,8 @@ def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> P
 def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> None:
     """Copy points into a part of a cloud, except for coordinates that stay among its records."""
     there = () if cloud.records is None else _COORDINATES
-    names = {name: each for name, (each, _) in columns_of(cloud.file).items() if name not in there}
+    columns = columns_of(cloud.file).items()
+    names = {name: source for name, (source, _) in columns if name not in there}
 
     def copy(part: slice) -> None:
         for name, source in names.items():

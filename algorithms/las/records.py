@@ -151,8 +151,8 @@ class HeaderCounts:
             return
         points = named(self._layout, records)
         xyz = [points[name] for name in "XYZ"]
-        self.lowest = np.minimum(self.lowest, [each.min() for each in xyz])
-        self.highest = np.maximum(self.highest, [each.max() for each in xyz])
+        self.lowest = np.minimum(self.lowest, [axis.min() for axis in xyz])
+        self.highest = np.maximum(self.highest, [axis.max() for axis in xyz])
         numbers = np.bincount(np.asarray(points["return_number"]), minlength=16)
         self.returns += numbers[1:16]
 

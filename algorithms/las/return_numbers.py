@@ -39,11 +39,11 @@ def count_from_one(cloud: PointCloud) -> PointCloud:
 
 
 def _is_first_of_several(zero: np.ndarray, last: np.ndarray, several: np.ndarray) -> bool:
-    firsts, lasts = (int(np.count_nonzero(several & each)) for each in (zero, last))
+    firsts, lasts = (int(np.count_nonzero(several & which)) for which in (zero, last))
     return firsts > 0 and lasts <= _MOST_WRONG * firsts and bool(np.any(several & ~zero))
 
 
 def _are_both_from_zero(zero: np.ndarray, last: np.ndarray, total: np.ndarray) -> bool:
     several = total > 0
-    firsts, lasts = (int(np.count_nonzero(several & each)) for each in (zero, last))
+    firsts, lasts = (int(np.count_nonzero(several & which)) for which in (zero, last))
     return firsts > 0 and abs(firsts - lasts) <= _CUT_OFF * firsts and not several.all()

@@ -217,7 +217,7 @@ class _Nearest:
     def _in_triangles(self, part: slice) -> tuple[np.ndarray, np.ndarray]:
         """Return heights without a triangulation, and whether they are certain."""
         missing = ~np.isfinite(self._distance[part]).T
-        x, y, z = (np.ascontiguousarray(each[part].T) for each in self._points)
+        x, y, z = (np.ascontiguousarray(axis[part].T) for axis in self._points)
         if len(x) < 4:
             return np.full(x.shape[1], np.nan), np.zeros(x.shape[1], dtype=bool)
         x[missing] = y[missing] = NOWHERE
@@ -239,7 +239,7 @@ class _Nearest:
         (triangle,) = tin.locate(np.zeros(1), np.zeros(1))
         if triangle < 0:
             return float("nan")
-        x, y = (each[tin.triangles[triangle]][:, None] for each in (tin.x, tin.y))
+        x, y = (axis[tin.triangles[triangle]][:, None] for axis in (tin.x, tin.y))
         if longest_edge(x, y)[0] > self._reach:
             return float("nan")
         return float(tin.interpolate(np.zeros(1), np.zeros(1), np.array([triangle]))[0])
@@ -250,8 +250,8 @@ class _Nearest:
         there = np.isfinite(self._distance[:, :_OF_PLANE])
         weight, count = there.astype(np.float64), there.sum(axis=1)
         safe = np.maximum(count, 1)[:, None]
-        x, y, z = (np.where(there, each, 0.0) for each in (x, y, z))
-        x, y, z = ((each - each.sum(axis=1)[:, None] / safe) * weight for each in (x, y, z))
+        x, y, z = (np.where(there, values, 0.0) for values in (x, y, z))
+        x, y, z = ((values - values.sum(axis=1)[:, None] / safe) * weight for values in (x, y, z))
         xx, xy, yy = (x * x).sum(axis=1), (x * y).sum(axis=1), (y * y).sum(axis=1)
         xz, yz = (x * z).sum(axis=1), (y * z).sum(axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):

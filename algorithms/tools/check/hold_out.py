@@ -22,7 +22,7 @@ AGREEMENT = (
 _STEEP = 20.0
 # Numbers that mix the bits of the coordinates (Steele, Lea & Flood 2014, SplitMix64).
 _MIX = tuple(
-    np.uint64(each) for each in (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB)
+    np.uint64(number) for number in (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB)
 )
 
 
@@ -76,7 +76,7 @@ def hold_out(
         chosen = np.flatnonzero(code < limit)
         count += len(chosen)
         several = cloud.number_of_returns[which[chosen]] > 1
-        new = np.array([*(each[chosen] for each in points), several])
+        new = np.array([*(column[chosen] for column in points), several])
         kept, codes = np.concatenate((kept, new), axis=1), np.concatenate((codes, code[chosen]))
         # Sorted also by height, since points of one place have the same code.
         order = np.lexsort((*kept, codes))[:MOST]
@@ -90,14 +90,14 @@ def hold_out(
     errors, known = found.heights - kept[2], np.isfinite(found.heights)
     rises, several = found.slopes > _STEEP, kept[3] > 0.0
     lands = (known, known & ~rises & ~several, known & ~rises & several, known & rises)
-    every, level, trees, steep = (Figures.of(errors[each]) for each in lands)
+    every, level, trees, steep = (Figures.of(errors[land]) for land in lands)
     no_height, single = int(np.count_nonzero(~known)), not kept[3].any()
     return HoldOut(share, count, no_height, every, level, trees, steep, single)
 
 
 def _codes(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return a number for the cell of each place that looks random, but depends only on it."""
-    column, row = (np.rint(each / _CELL).astype(np.int64).view(np.uint64) for each in (x, y))
+    column, row = (np.rint(axis / _CELL).astype(np.int64).view(np.uint64) for axis in (x, y))
     first, second, third = _MIX
     with np.errstate(over="ignore"):
         code = column * first
