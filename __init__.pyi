@@ -171,15 +171,18 @@ def assess(
     crs: str | None = None,
     progress: Progress | Callable[[float], object] | None = None,
 ) -> Assessment:
-    """Compare the ground of a classified file with a reference that holds the same points, or a
-    part of them.
+    """Compare a classified file with a reference.
+
+    Compares the ground (class 2) of a classified file with a reference that holds the same
+    points, or a part of them: type I error (ground rejected), type II error (other accepted),
+    total error and kappa, in percent.
 
     Parameters
     ----------
     classified : path
         The file to check.
     reference : path
-        A file with the same points and their true classes.
+        A file with the same points and their true classes; one can be a part of the other.
     report : path, optional
         Write a report (.html).
     error_map : path, optional
@@ -1680,8 +1683,11 @@ def quality(
     crs: str | None = None,
     progress: Progress | Callable[[float], object] | None = None,
 ) -> Quality:
-    """Measure density, voids and overlap of a classified survey, and compare it with a
-    specification.
+    """Measure density, voids and overlap of a survey, and compare it with a specification.
+
+    Measures the quality of a classified survey: densities, voids, overlap of strips and
+    differences between them, classes and formats. Compares it with what a specification asks
+    for.
 
     Parameters
     ----------

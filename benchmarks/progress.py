@@ -25,7 +25,7 @@ from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.entry import write as write_with
 from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.runs.terrain_maps import MapFiles, MapRequest, make_maps
-from bare_earth.algorithms.tools.assess import AssessmentOptions, assess_files
+from bare_earth.algorithms.tools.assess import assess_files
 from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.heights import MeasureHeights
 from bare_earth.algorithms.tools.key_points import FindKeyPoints
@@ -142,7 +142,7 @@ def runs(source: Path, folder: Path, resources: Resources) -> dict[str, Callable
     found["Height above ground"] = lambda it: write_with(ground, folder / "h.laz", above, it)
     found["Model key points"] = lambda it: write_with(ground, folder / "k.laz", keys, it)
     pages = folder / "report.html", folder / "errors.tif"
-    found["Assess"] = lambda it: assess_files(ground, ground, AssessmentOptions(), *pages, it)
+    found["Assess"] = lambda it: assess_files(ground, ground, *pages, progress=it)
     request = MapRequest(resources=resources)
     found["Point cloud to terrain"] = lambda it: make_maps([source], maps, request, it)
     return found

@@ -64,7 +64,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print(f"Classified by {by} in {time.monotonic() - start:.1f} s")
 
     if truth is not None:
-        assessment = assess_files(results[0], truth, AssessmentOptions(ground_classes=classes))
+        assessment = assess_files(
+            results[0], truth, options=AssessmentOptions(ground_classes=classes)
+        )
         lines = assessment.lines()
         errors.write_text("\n".join(lines) + "\n", encoding="utf-8")
         print("\nAgainst the truth:", *lines, sep="\n  ")

@@ -10,14 +10,15 @@ from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..tools import FILE_TOOLS, POINT_TOOLS
-from . import checking, commands, comparing, odm
+from . import commands, odm
 from .command import FAILED, USAGE
 from .commands import tool_command
 from .options import UsageError
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (
-    commands.CLASSIFY, commands.TILES, commands.DELIVER, *comparing.COMMANDS, *checking.COMMANDS,
+    commands.CLASSIFY, commands.TILES, commands.DELIVER,
+    *map(tool_command, ("info", "assess", "check", "quality")),
     *map(tool_command, ("remove-off-terrain-objects", "height", "above-ground", "key-points")),
     commands.TERRAIN, *map(tool_command, ("contours", "relief", "water", "water-classes")),
     *odm.COMMANDS,

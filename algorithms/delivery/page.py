@@ -139,15 +139,15 @@ def _known(figures: Mapping[str, Figures | None]) -> Iterator[tuple[str, str]]:
 
 def _comparison(summary: DeliverySummary) -> list[Html]:
     quality = summary.quality
-    if quality is None or not quality.lines:
+    if quality is None or not quality.comparison:
         return []
-    passed = len(quality.lines) - len(quality.left)
+    passed = len(quality.comparison) - len(quality.left)
     words = {
         True: "No comparison fails.",
         None: "No comparison fails, but not all could be decided.",
         False: "The survey does not meet it.",
     }[quality.passes]
-    count = f"{words} {passed} of {len(quality.lines)} comparisons pass; "
+    count = f"{words} {passed} of {len(quality.comparison)} comparisons pass; "
     rows = [
         (line.name, line.found, line.asked, "fail" if line.state == FAIL else "look at it")
         for line in quality.left

@@ -25,7 +25,6 @@ from ..survey.shapes import Place
 from ..tools import file_tool, point_tool
 from ..tools.check.checking import CheckOptions
 from ..tools.contours import write_contours
-from ..tools.quality import QualityRequest, survey_quality
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
 from ..tools.rasters.fixed_terrain import parts_of
 from ..tools.rasters.parameters import SurfaceModel
@@ -105,17 +104,10 @@ class DeliverySteps:
     def _measure(self, progress: Progress) -> None:
         """Measure the quality, and choose the cell size by the density of the ground."""
         request, kept, folder = self.request, self.request.content.quality, self.work.path / QUALITY
-        quality = survey_quality(
-            [self.cloud],
-            QualityRequest(
-                request.quality,
-                request.ground,
-                self.work.path / "quality.html",
-                folder if kept else None,
-                request.crs,
-            ),
-            progress,
-        )
+        inputs = {"sources": [self.cloud], "crs": request.crs}
+        outputs = {"page": self.work.path / "quality.html", "folder": folder if kept else None}
+        sets = [request.quality, request.ground]
+        quality = run(file_tool("quality"), inputs, outputs, sets, progress)
         for path in folder.glob("*.tif"):
             if path.stem not in kept:
                 remove(path)

@@ -52,8 +52,8 @@ class DeliverySummary:
         if self.water is not None:
             rows.append(("water", self.water.text))
         rows += self.accuracy()
-        if self.quality is not None and self.quality.lines:
-            lines, left = self.quality.lines, self.quality.left
+        if self.quality is not None and self.quality.comparison:
+            lines, left = self.quality.comparison, self.quality.left
             names = ", ".join(f"{line.name} ({line.state})" for line in left)
             passed = f"{len(lines) - len(left)} of {len(lines)} pass"
             rows.append(("comparisons", f"{passed}; not: {names}" if left else passed))

@@ -5,9 +5,7 @@ from __future__ import annotations
 from ..tools import FILE_TOOLS, POINT_TOOLS
 
 # The functions that are not those of a tool.
-_OTHERS = (
-    "assess", "check", "classify", "compare_settings", "deliver", "quality", "terrain",
-)  # fmt: skip
+_OTHERS = ("classify", "deliver", "terrain")
 
 
 def tool_commands() -> dict[str, str]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 from functools import cache
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Callable, Iterator
 
@@ -16,7 +15,7 @@ from ..survey.selection import Selection
 from ..tools.contours import Contours
 from ..tools.rasters.parameters import SurfaceModel, TerrainModel
 from . import arguments, tool_commands
-from .arguments import KINDS, REQUIRED, Argument, path
+from .arguments import REQUIRED, Argument, path
 from .functions import Function
 from .given import (
     area_of,
@@ -166,147 +165,6 @@ def _with_found_water(
     return constraints.with_water(water.constraints, finding), rest
 
 
-def _check() -> Function:
-    from ..survey.feature_files import FORMATS
-    from ..tools.check.accuracy import Accuracy
-    from ..tools.check.checking import CheckOptions
-    from ..tools.check.results import Check
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools import running
-        from ..tools.check.checking import TOOL
-
-        inputs = {
-            "sources": paths_of(values.sources), "checkpoints": checkpoints_of(values),
-            "dtm": values.dtm, "crs": values.crs, "vegetated": tuple(values.vegetated or ()),
-            "confidence": values.confidence,
-        }  # fmt: skip
-        outputs = {output.name: path_of(getattr(values, output.name)) for output in TOOL.outputs}
-        return running.run(TOOL, inputs, outputs, sets, progress_of(values.progress))
-
-    return Function(
-        "check",
-        "Compare the ground, and a terrain model, with checkpoints, or with points that are held"
-        " out.",
-        (CLASSIFIED,),
-        (
-            *arguments.CHECKPOINTS,
-            Argument(
-                "vegetated", KINDS["words"],
-                "land covers with one of these words are vegetated, and no others; without it,"
-                " those with words such as forest, crops and brush in several languages",
-            ),
-            path("dtm", "check this terrain model as well, in the CRS of the points"),
-            path(
-                "confidence", "the confidence of the terrain model, 0 to 1, as `terrain` makes it;"
-                " checkpoints where it is low are not counted",
-            ),
-            path("report", "write a page (.html)"),
-            path("table", "write the checkpoints and their errors (.csv)"),
-            path(
-                "residuals",
-                f"write the checkpoints and their errors as points ({', '.join(FORMATS)}); all but"
-                " .geojson need pyogrio",
-            ),
-            arguments.CRS, arguments.PROGRESS,
-        ),
-        (Accuracy, CheckOptions, GroundClasses),
-        run,
-        Check,
-    )  # fmt: skip
-
-
-def _quality() -> Function:
-    from ..tools.quality import QualityOptions
-    from ..tools.quality.figures import Quality
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools.quality import QualityRequest, survey_quality
-
-        request = QualityRequest.of(
-            sets, page=path_of(values.page), folder=path_of(values.folder), crs=values.crs
-        )
-        return survey_quality(paths_of(values.sources), request, progress_of(values.progress))
-
-    return Function(
-        "quality",
-        "Measure density, voids and overlap of a classified survey, and compare it with a"
-        " specification.",
-        (CLASSIFIED,),
-        (
-            path("page", "write a page (.html)"),
-            path(
-                "folder",
-                "write rasters (.tif) into this folder, which is made if need be: densities, voids,"
-                " low vegetation, overlap of strips, differences between strips, maximum surface"
-                " height",
-            ),
-            arguments.CRS, arguments.PROGRESS,
-        ),
-        (QualityOptions, GroundClasses),
-        run,
-        Quality,
-    )  # fmt: skip
-
-
-def _assess() -> Function:
-    from ..tools.assess import Assessment, AssessmentOptions
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools.assess import assess_files
-
-        return assess_files(
-            Path(values.classified), Path(values.reference), sets[0], path_of(values.report),
-            path_of(values.error_map), progress_of(values.progress), values.crs,
-        )  # fmt: skip
-
-    return Function(
-        "assess",
-        "Compare the ground of a classified file with a reference that holds the same points, or a"
-        " part of them.",
-        (
-            path("classified", "the file to check", REQUIRED),
-            path("reference", "a file with the same points and their true classes", REQUIRED),
-        ),
-        (
-            path("report", "write a report (.html)"),
-            path("error_map", "write the share of wrong points in each cell, 0 to 1 (.tif)"),
-            arguments.CRS, arguments.PROGRESS,
-        ),
-        (AssessmentOptions,),
-        run,
-        Assessment,
-    )  # fmt: skip
-
-
-def _compare_settings() -> Function:
-    from ..tools.compare_settings import TrialSummary
-    from ..tools.compare_settings.settings import TrialOptions
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..tools.compare_settings import compare_settings
-
-        return compare_settings(
-            paths_of(values.sources), Path(values.page), values.extent, sets[0], sets[1],
-            progress_of(values.progress), values.crs,
-        )  # fmt: skip
-
-    window = "xmin, ymin, xmax, ymax: the window, in the CRS of the points; without it, 250 x 250"
-    return Function(
-        "compare_settings",
-        "Try methods and presets on a window, and show them side by side on a page. No point cloud"
-        " is written.",
-        (arguments.SOURCES, path("page", "the page to write (.html)", REQUIRED)),
-        (
-            Argument("extent", KINDS["extent"], f"{window} m in the middle of the points"),
-            arguments.CRS, arguments.PROGRESS,
-        ),
-        (TrialOptions, Resources),
-        run,
-        TrialSummary,
-    )  # fmt: skip
-
-
 def _deliver() -> Function:
     from ..delivery.deliveries import DEFAULT_DELIVERY, DELIVERIES
     from ..delivery.request import DeliveryOptions, DeliveryTerrain, DeliveryWater
@@ -352,12 +210,8 @@ def _deliver() -> Function:
 
 
 _DECLARED: dict[str, Callable[[], Function]] = {
-    "assess": _assess,
-    "check": _check,
     "classify": _classify,
-    "compare_settings": _compare_settings,
     "deliver": _deliver,
-    "quality": _quality,
     "terrain": _terrain,
 }
 

@@ -43,6 +43,11 @@ FILE_TOOLS = {
     "compare-settings": Listed(
         "compare_settings", "try methods and presets on a window, and show them side by side"
     ),
+    "quality": Listed(
+        "quality",
+        "measure density, voids and overlap of a survey, and compare it with a specification",
+    ),
+    "assess": Listed("assess", "compare a classified file with a reference"),
     "relief": Listed("relief", "make pictures of the relief of a terrain model"),
     "water": Listed("water.tool", "find lakes and rivers in classified points"),
 }

@@ -14,16 +14,14 @@ from typing import Any, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import Outputs
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..las.class_names import CLASSES
 from ..rasters.geotiff import NODATA, RasterGrid
-from ..rasters.writing import check_raster_output, write_geotiff
+from ..rasters.writing import write_geotiff
 from ..report.page import (
     Html,
-    check_page,
     element,
     keys,
     lines,
@@ -37,6 +35,7 @@ from ..report.pictures import LONGEST_SIDE, Picture, Relief
 from ..report.units import Units, percent
 from ..survey.common_points import match_files
 from ..survey.point_counts import by_class, count_classes
+from .declaration import CLOUD, CRS, FileTool, Input, Output
 
 GROUND = 2
 # Colours of both errors, which differ for colour-blind people and in print.
@@ -160,18 +159,16 @@ def _percent(part: int, whole: int) -> float:
 def assess_files(
     classified: Path,
     reference: Path,
-    options: AssessmentOptions = AssessmentOptions(),
     report: Path | None = None,
     error_map: Path | None = None,
-    progress: Progress = SILENT,
     crs: str | None = None,
+    options: AssessmentOptions = AssessmentOptions(),
+    progress: Progress = SILENT,
 ) -> Assessment:
-    """Compare the points that two files have in common, in any order."""
-    files = classified, reference
-    if report is not None:
-        check_page(report, files)
-    if error_map is not None:
-        check_raster_output(error_map, files)
+    """Compare the points that two files have in common, in any order; write a page (.html), and a
+    GeoTIFF with the share of wrong points in each cell.
+    """
+    # One file can be a part of the other. Points without a partner are counted, but not compared.
     matched = match_files(classified, reference, progress.part(0.0, 0.64), crs)
     (result, truth), (order, order_truth) = matched.clouds, matched.orders
     ground = result.classification[order] == GROUND
@@ -189,19 +186,17 @@ def assess_files(
     counted = ~np.isin(classes, options.ignored_classes or ())
     rejected, accepted = counted & is_ground & ~ground, counted & ~is_ground & ground
     progress(0.75)
-    with Outputs() as outputs:
-        if error_map is not None:
-            target, size = outputs.file(error_map), options.map_cell_size
-            wrong, some = (rejected | accepted)[counted], points.take(counted)
-            _write_error_map(target, some, wrong, result.frame, size, progress.part(0.75, 0.85))
-        if report is not None:
-            relief = Relief.of(points)
-            progress(0.92)
-            picture = relief.marked(rejected, accepted, (TYPE_1, TYPE_2), counted)
-            units = Units(result.crs.horizontal_unit, result.crs.vertical_unit)
-            html = _report(assessment, picture, options, files, units)
-            outputs.file(report).write_text(html, encoding="utf-8")
-        progress(1.0)
+    if error_map is not None:
+        wrong, some = (rejected | accepted)[counted], points.take(counted)
+        part, size = progress.part(0.75, 0.85), options.map_cell_size
+        _write_error_map(error_map, some, wrong, result.frame, size, part)
+    if report is not None:
+        relief = Relief.of(points)
+        progress(0.92)
+        picture = relief.marked(rejected, accepted, (TYPE_1, TYPE_2), counted)
+        units = Units(result.crs.horizontal_unit, result.crs.vertical_unit)
+        html = _report(assessment, picture, options, (classified, reference), units)
+        report.write_text(html, encoding="utf-8")
     return assessment
 
 
@@ -315,3 +310,72 @@ def _classes(assessment: Assessment, options: AssessmentOptions) -> Html:
         "Wrong",
     )  # fmt: skip
     return table(rows, head, "rllrrrr")
+
+
+TOOL = FileTool(
+    work=assess_files,
+    sets=(AssessmentOptions,),
+    inputs=(
+        Input(
+            "classified",
+            "cloud",
+            help="the file to check",
+            label="Classified point cloud",
+            field_help="The point cloud to check. Its class 2 counts as ground, all other classes"
+            " do not.",
+        ),
+        Input(
+            "reference",
+            "cloud",
+            help="a file with the same points and their true classes; one can be a part of the"
+            " other",
+            label="Reference",
+            field_help="The same points, or some of them, with their true classes.",
+        ),
+        CRS,
+    ),
+    outputs=(
+        Output(
+            "report",
+            "page",
+            help="write a report (.html)",
+            label="Report",
+            field_help="A web page with the figures, and a map of where the errors are.",
+        ),
+        Output(
+            "error_map",
+            "raster",
+            help="write the share of wrong points in each cell, 0 to 1 (.tif)",
+            label="Error map",
+            field_help="The share of wrong points in each cell of a raster, 0 to 1.",
+            by_default=False,
+        ),
+    ),
+    json="",
+    command="assess",
+    command_about="Compares the ground (class 2) of a classified file with a reference that holds"
+    " the same points, or a part of them: type I error (ground rejected), type II error (other"
+    " accepted), total error and kappa, in percent.",
+    identifier="assess",
+    title="Assess a ground classification",
+    section="Quality",
+    summary="Compares a classified point cloud with a reference: type I and II error, kappa.",
+    about="Compares the ground of a classified point cloud with a reference that holds the same"
+    " points, or a part of them. Type I error: the share of the reference's ground that was"
+    " rejected. Type II error: the share of all other points that was accepted as ground. The"
+    " report is a web page with a map.",
+    page="assess",
+    words=(
+        CLOUD,
+        "ground,accuracy,quality,error,validation,kappa,confusion matrix,reference",
+    ),
+    numbers=(
+        ("POINT_COUNT", "Points"),
+        ("TYPE_1_ERROR", "Type I error [%]"),
+        ("KAPPA", "Kappa [%]"),
+        ("TYPE_2_ERROR", "Type II error [%]"),
+        ("TOTAL_ERROR", "Total error [%]"),
+        ("CLASSIFIED_ONLY", "Classified points only"),
+        ("REFERENCE_ONLY", "Reference points only"),
+    ),
+)

@@ -3,11 +3,9 @@
 Those of tools are made of the declarations of `algorithms/tools/`.
 """
 
-from .assess import AssessAlgorithm
 from .classify_tiles import ClassifyTilesAlgorithm
 from .ground_filters import GROUND_FILTERS
 from .point_cloud_to_terrain import PointCloudToTerrainAlgorithm
-from .quality import QualityAlgorithm
 from .terrain_model import TerrainModelAlgorithm
 
 ALGORITHMS = (
@@ -15,6 +13,4 @@ ALGORITHMS = (
     *GROUND_FILTERS,
     ClassifyTilesAlgorithm,
     TerrainModelAlgorithm,
-    AssessAlgorithm,
-    QualityAlgorithm,
 )

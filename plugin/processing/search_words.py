@@ -27,17 +27,6 @@ _WORDS = {
     },
     "classifytiles": (_CLOUD, _GROUND, _TERRAIN, _TILES),
     "terrainmodel": (_CLOUD, _TERRAIN, _CANOPY, _TIN, _RASTER),
-    "quality": (
-        _CLOUD, _TERRAIN,
-        mark(
-            "quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,"
-            "specification,lasoverlap,lasgrid"
-        ),
-    ),
-    "assess": (
-        _CLOUD,
-        mark("ground,accuracy,quality,error,validation,kappa,confusion matrix,reference"),
-    ),
     "terraincontours": (_CLOUD, _GROUND, _TERRAIN, mark("contours,workflow")),
     "cloudheights": (_CLOUD, _GROUND, _CANOPY, mark("height,extra bytes")),
     "twomethods": (_CLOUD, _GROUND, mark("preview,try,test,preset,parameters,compare,profile")),

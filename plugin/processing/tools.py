@@ -215,7 +215,9 @@ class FileToolAlgorithm(ToolAlgorithm):
                 results[output.field_name] = path
                 results.update(self._shown(output, Path(path), chosen, found, context))
         results.update((name, getattr(found, name.lower())) for name, _ in self._tool.numbers)
-        return {name: value for name, value in results.items() if value is not None}
+        # Figures that could not be measured are None, or NaN, which differs from itself.
+        measured = (name for name, value in results.items() if value is not None and value == value)
+        return {name: results[name] for name in measured}
 
     def _shown(
         self,

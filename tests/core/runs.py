@@ -24,11 +24,13 @@ from bare_earth.algorithms.runs.options import RasterOutput, TileInput, TileOutp
 from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools import file_tool
 from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.heights import HeightOutput, MeasureHeights
 from bare_earth.algorithms.tools.key_points import FindKeyPoints, KeyPointMark
 from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
 from bare_earth.algorithms.tools.rasters.step import RasterFiles
+from bare_earth.algorithms.tools.running import run
 
 
 class CancelAt(Progress):
@@ -128,3 +130,9 @@ def memory_store(parts, frame, blocks):
         store.append(cloud, Marks(*marks))
     store.finish()
     return store
+
+
+def assess_files(classified, reference, *sets, progress=SILENT, **outputs):
+    """Assess a file; return the figures."""
+    inputs = {"classified": classified, "reference": reference}
+    return run(file_tool("assess"), inputs, outputs, sets, progress)

@@ -9,13 +9,14 @@ from html.parser import HTMLParser
 import laspy
 import numpy as np
 import pytest
+from runs import assess_files
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.report.pictures import Relief, png, rgb
 from bare_earth.algorithms.tools import assess
-from bare_earth.algorithms.tools.assess import AssessmentOptions, assess_files, compare
+from bare_earth.algorithms.tools.assess import AssessmentOptions, compare
 
 
 def test_the_four_figures_of_a_known_confusion():

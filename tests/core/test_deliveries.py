@@ -388,7 +388,7 @@ def test_a_survey_is_as_the_base_specification_asks(made):
 
     with rasterio.open(folder / "dtm.tif") as dtm:
         assert dtm.nodata == -999999.0 and dtm.res == (1.0, 1.0)
-    assert summary.quality.specification == "lbs-ql2" and summary.quality.lines
+    assert summary.quality.specification == "lbs-ql2" and summary.quality.comparison
     assert summary.check.hold_out.all.rmse < 0.06
 
 
@@ -695,7 +695,7 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     assert (f"{100 * share:.1f} % of the area is farther than 3 m" in page) == (share > 0)
     # The scene is sparse, and the specification asks for 2 points in a square metre.
     assert told["page"] == str(target / "index.html") and Path(told["page"]).exists()
-    states = {each.name: each.state for each in summary.quality.lines}
+    states = {each.name: each.state for each in summary.quality.comparison}
     passed = list(states.values()).count("pass")
     share, _, names = told["comparisons"].partition("; not: ")
     assert share == f"{passed} of {len(states)} pass" and states["Density"] == "fail"

@@ -6,13 +6,12 @@ import laspy
 import numpy as np
 import pytest
 from conftest import Heard
-from runs import CancelAt
+from runs import CancelAt, assess_files
 
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.survey import common_points
-from bare_earth.algorithms.tools.assess import assess_files
 
 COUNT = 5000
 

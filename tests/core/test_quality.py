@@ -12,12 +12,12 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.las.reading import read_parts
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.tools.quality import (
+    TOOL,
     QualityOptions,
-    QualityRequest,
     cells,
-    survey_quality,
 )
 from bare_earth.algorithms.tools.quality.rasters import QUALITY_RASTERS
+from bare_earth.algorithms.tools.running import run
 
 pyproj = pytest.importorskip("pyproj")
 EAST, NORTH, SIZE = 500_000.0, 5_600_000.0, 100.0
@@ -50,14 +50,12 @@ def write(path, x, y, z, crs=True, version="1.4", point_format=6, **columns):
 
 
 def measured(*paths, **options):
-    page, folder = (options.pop(each, None) for each in ("page", "folder"))
-    return survey_quality(
-        paths, QualityRequest(QualityOptions(**options), page=page, folder=folder)
-    )
+    outputs = {name: options.pop(name, None) for name in ("page", "folder")}
+    return run(TOOL, {"sources": paths}, outputs, [QualityOptions(**options)])
 
 
 def states(found):
-    return {each.name: each.state for each in found.lines}
+    return {each.name: each.state for each in found.comparison}
 
 
 def test_the_density_of_a_regular_grid(tmp_path):
@@ -67,7 +65,7 @@ def test_the_density_of_a_regular_grid(tmp_path):
     assert found.pulse_density == found.ground_density == found.point_density == 4.0
     assert found.ground_void_share == 0.0
     assert found.classes == {2: len(x)}
-    assert found.lines == []
+    assert found.comparison == []
 
 
 @pytest.mark.parametrize(
@@ -239,7 +237,7 @@ def test_points_that_files_share_duplicates_and_points_that_were_not_measured_ar
     synthetic = measured(part("s.laz", west | east, synthetic=made))
     assert synthetic.synthetic == made.sum()
     assert synthetic.pulse_density == pytest.approx(whole.pulse_density * 2 / 3, rel=0.02)
-    assert f"synthetic: {made.sum():,}" in "\n".join(synthetic.text())
+    assert f"synthetic: {made.sum():,}" in "\n".join(synthetic.lines())
 
 
 def test_points_that_are_all_synthetic_count_unless_a_specification_asks_for_pulses(tmp_path):
@@ -283,7 +281,7 @@ def test_what_could_not_be_measured_is_no_pass(tmp_path):
     lines = states(found)
     assert lines["Density"] == lines["Cells with a first return"] == "look"
     assert lines["Voids of first returns"] == "look" and found.passes is None
-    assert "not measured" in "\n".join(found.text())
+    assert "not measured" in "\n".join(found.lines())
 
 
 def test_low_vegetation_is_counted_on_a_slope(tmp_path):
@@ -415,15 +413,15 @@ def test_feet_are_converted(tmp_path):
 @pytest.mark.parametrize("share", [0.5, 0.85, 0.9, 0.97, 1.0])
 def test_a_cancel_leaves_no_output_and_old_ones_as_they_were(one_and_many, tmp_path, share):
     page, folder = tmp_path / "page.html", tmp_path / "rasters"
-    request = QualityRequest(QualityOptions(), page=page, folder=folder)
+    given = TOOL, {"sources": [one_and_many[0]]}, {"page": page, "folder": folder}, ()
     with pytest.raises(Cancelled):
-        survey_quality([one_and_many[0]], request, CancelAt(share))
+        run(*given, CancelAt(share))
     assert not list(tmp_path.iterdir())
     folder.mkdir()
     old = [page, *(folder / f"{name}.tif" for name in QUALITY_RASTERS)]
     for each in old:
         each.write_bytes(b"old")
     with pytest.raises(Cancelled):
-        survey_quality([one_and_many[0]], request, CancelAt(share))
+        run(*given, CancelAt(share))
     assert {each.read_bytes() for each in old} == {b"old"}
     assert sorted(folder.iterdir()) == sorted(old[1:])

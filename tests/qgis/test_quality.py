@@ -121,7 +121,7 @@ def test_limits_of_strips_are_in_the_unit_of_the_heights(tmp_path):
     raster.GetRasterBand(1).WriteArray(np.array([[0.3, 0.6]], np.float32))
     del raster
     layer = QgsRasterLayer(path)
-    layers.of_quality("strip_differences").dress(layer)
+    layers.look_of("strip_differences").dress(layer)
     block = layer.renderer().block(1, layer.extent(), 2, 1)
     assert [QColor.fromRgba(block.color(0, each)).name() for each in (0, 1)] == [
         "#f0c93a",

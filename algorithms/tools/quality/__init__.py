@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-import contextlib
 import tempfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterable
+from typing import Iterable, Mapping
 
 from ...core.errors import BareEarthError
-from ...core.files import Outputs, new_folder
-from ...core.parameters import HasSets, ParameterSet, parameter
+from ...core.parameters import ParameterSet, parameter
+from ...core.points import Frame
 from ...core.progress import SILENT, Progress
 from ...las.cloud import survey_frame
 from ...las.reading import read_parts
-from ...rasters.writing import check_raster_output
-from ...report.page import check_page
 from ...survey.files import Survey, open_survey
 from ...survey.ground_classes import GroundClasses
 from ...survey.repeated_points import RepeatedPoints
+from ..declaration import CLOUD, CRS, TERRAIN, FileTool, Input, Output
 from .cells import Grids, QualityCells, Store
 from .figures import Quality
 from .measuring import quality_of
 from .page import quality_html
-from .rasters import raster_paths, write_rasters
+from .rasters import QUALITY_RASTERS, write_rasters
 from .specifications import SPECIFICATIONS
 
 # Side of the cells in which first returns are looked for, if no specification says it.
@@ -60,44 +58,43 @@ class QualityOptions(ParameterSet):
     )
 
 
-@dataclass(frozen=True)
-class QualityRequest(HasSets):
-    """A request to measure the quality of a survey."""
-
-    options: QualityOptions = field(default_factory=QualityOptions)  # specification and cell size
-    ground: GroundClasses = field(default_factory=GroundClasses)  # which points are ground
-    page: Path | None = None  # the page to write (.html)
-    folder: Path | None = None  # A folder for the rasters; it is made if its parent exists
-    # The CRS of the points in place of the one that files state: an EPSG code, such as
-    # "EPSG:25832", or "EPSG:2230+6360" with that of the heights, or well-known text
-    crs: str | None = None
-
-
-def survey_quality(
+def measure_quality(
     sources: Iterable[Path],
-    request: QualityRequest = QualityRequest(),
+    page: Path | None = None,
+    folder: Mapping[str, Path] | None = None,
+    crs: str | None = None,
+    options: QualityOptions = QualityOptions(),
+    ground: GroundClasses = GroundClasses(),
     progress: Progress = SILENT,
 ) -> Quality:
-    """Measure the quality of one classified file, or of many as one survey."""
-    paths = [Path(source) for source in sources]
-    with contextlib.ExitStack() as opened:
-        if request.page:
-            check_page(request.page, tuple(paths))
-        if request.folder:
-            opened.enter_context(new_folder(request.folder))
-            for raster in raster_paths(request.folder).values():
-                check_raster_output(raster, tuple(paths))
-        survey = open_survey(paths, progress=progress.part(0.0, 0.02), stated=request.crs)
-        if survey.broken:
-            raise BareEarthError(survey.broken[0].reason)
-        work = opened.enter_context(tempfile.TemporaryDirectory())
-        return _measured(survey, request, Path(work), progress)
-
-
-def _measured(survey: Survey, request: QualityRequest, work: Path, progress: Progress) -> Quality:
-    """Measure an opened survey, and write what is asked for."""
-    options, asked = request.options, SPECIFICATIONS[request.options.specification]
+    """Measure the quality of one classified file, or of many as one survey, and write a page and
+    rasters, given by their names.
+    """
+    # The files are read twice, part by part. Cells are in memory, or on disk if there are many.
+    survey = open_survey(list(sources), progress=progress.part(0.0, 0.02), stated=crs)
+    if survey.broken:
+        raise BareEarthError(survey.broken[0].reason)
     frame = survey_frame(survey.crs)
+    with tempfile.TemporaryDirectory() as work:
+        cells = _filled_cells(survey, frame, options, ground, Path(work), progress)
+        found = quality_of(cells, survey, options.specification)
+        if folder:
+            write_rasters(folder, cells, frame, progress.part(0.8, 0.98))
+        if page:
+            page.write_text(quality_html(found, cells, survey), encoding="utf-8")
+    return found
+
+
+def _filled_cells(
+    survey: Survey,
+    frame: Frame,
+    options: QualityOptions,
+    ground: GroundClasses,
+    work: Path,
+    progress: Progress,
+) -> QualityCells:
+    """Return the cells of a survey with all of its points; `work` is a folder for them."""
+    asked = SPECIFICATIONS[options.specification]
     west, south, east, north = (side * frame.horizontal_unit for side in survey.box)
     spacing = 2 * asked.spacing if asked.spacing else _SPACING
     grids = Grids.over((west, south, east, north), options.cell_size, spacing)
@@ -107,8 +104,7 @@ def _measured(survey: Survey, request: QualityRequest, work: Path, progress: Pro
     from_images = not asked.source and _all_synthetic(survey)
     if from_images:
         progress.info("All points have the flag synthetic, as those of images do: all are counted.")
-    void = options.void_distance
-    cells = QualityCells(grids, void, store, request.ground, repeated, from_images)
+    cells = QualityCells(grids, options.void_distance, store, ground, repeated, from_images)
     for add, share in ((cells.add, (0.02, 0.4)), (cells.compare, (0.45, 0.8))):
         if add == cells.compare:
             cells.make_planes(progress.part(0.4, 0.45))
@@ -117,18 +113,76 @@ def _measured(survey: Survey, request: QualityRequest, work: Path, progress: Pro
             for points in read_parts(tile, part.quiet(), strips=True, times=repeated.has_times):
                 points.require_projected()
                 add(points, frame)
-    found = quality_of(cells, survey, options.specification)
-    with Outputs() as outputs:
-        if request.folder:
-            write_rasters(request.folder, cells, frame, outputs, progress.part(0.8, 0.98))
-        if request.page:
-            html = quality_html(found, cells, survey)
-            outputs.file(request.page).write_text(html, encoding="utf-8")
-        progress(1.0)  # the last moment to cancel
-    return found
+    return cells
 
 
 def _all_synthetic(survey: Survey) -> bool:
     """Return whether all points have the flag synthetic; mostly the first part of them tells."""
     parts = (part for tile in survey.tiles for part in read_parts(tile, strips=True))
     return all(part.synthetic is not None and part.synthetic.all() for part in parts)
+
+
+TOOL = FileTool(
+    work=measure_quality,
+    sets=(QualityOptions, GroundClasses),
+    titles=("What is measured", "Ground points"),
+    inputs=(
+        Input(
+            "sources",
+            "clouds",
+            help="a classified file, or ",
+            label="Classified point cloud",
+            named="INPUT",
+        ),
+        CRS,
+    ),
+    outputs=(
+        Output(
+            "page",
+            "page",
+            help="write a page (.html)",
+            label="Page about the quality",
+            field_help="A web page, which the Results Viewer opens.",
+            optional=False,
+        ),
+        Output(
+            "folder",
+            "folder",
+            help="write rasters (.tif) into this folder, which is made if need be: densities,"
+            " voids, low vegetation, overlap of strips, differences between strips, maximum surface"
+            " height",
+            label="Folder of the rasters",
+            field_help="The folder for the rasters of densities, voids and strips, which are shown"
+            " as layers.",
+            by_default=False,
+            files=lambda folder, sets: {name: folder / f"{name}.tif" for name in QUALITY_RASTERS},
+        ),
+    ),
+    json="the figures",
+    command="quality",
+    command_about="Measures the quality of a classified survey: densities, voids, overlap of strips"
+    " and differences between them, classes and formats. Compares it with what a specification asks"
+    " for.",
+    identifier="quality",
+    title="Quality of a survey",
+    section="Quality",
+    summary="Measures densities, voids and strips, and compares them with a specification.",
+    about="Measures a classified survey, of one file or many: densities of first returns and of"
+    " ground points, voids, low vegetation, overlap of flight strips and differences between them,"
+    " classes and file formats. It compares the figures with a specification, and makes a web page,"
+    " which opens from the Results Viewer, and rasters.",
+    page="quality",
+    run_name="quality",
+    words=(
+        CLOUD,
+        TERRAIN,
+        "quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,"
+        "specification,lasoverlap,lasgrid",
+    ),
+    shown=("specification", "cell_size"),
+    numbers=(
+        ("PULSE_DENSITY", "First returns per m²"),
+        ("GROUND_DENSITY", "Ground points per m²"),
+        ("STRIP_RMS", "Differences between strips [m]"),
+    ),
+)

@@ -265,14 +265,14 @@ class QualityCells:
                 )
                 number = self._number[tile].astype(np.float64)
                 sums = (self._x, self._y, self._z)
-                means = (values[tile] / np.maximum(number, 1.0) for values in sums)
+                x, y, z = (values[tile] / np.maximum(number, 1.0) for values in sums)
                 wanted = np.zeros(number.shape, dtype=bool)
                 own = wanted[south - low :, west - left :][:_TILE, :_TILE]
                 own[:] = twice(self.highest > -np.inf, slice(south, south + own.shape[0]))[
                     :, west : west + _TILE
                 ]
                 row, column = np.nonzero(wanted)
-                found = planes(number, *means, size, wanted)
+                found = planes(number, x, y, z, size, wanted)
                 for values, array in zip(found, (self._height, self._rise_x, self._rise_y)):
                     array[row + low, column + left] = values
             progress(min(south + _TILE, rows) / rows)
@@ -332,7 +332,8 @@ class QualityCells:
         def in_squares(values: np.ndarray) -> np.ndarray:
             """Return whether any value in squares of cells is true."""
             padded = np.pad(values, ((0, -rows % side), (0, -columns % side)))
-            return padded.reshape(-(-rows // side), side, -1, side).any(axis=(1, 3))
+            squares = padded.reshape(-(-rows // side), side, -1, side)
+            return np.logical_or.reduce(squares, axis=(1, 3))
 
         inside = ndimage.binary_fill_holes(in_squares(self.highest > -np.inf))
         wet, flagged, pulses = (in_squares(self.marks & bit > 0) for bit in (WET, FLAGGED, PULSE))

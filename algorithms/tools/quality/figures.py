@@ -60,19 +60,19 @@ class Quality:
     strip_shares: list[float] | None = None
     # name, points, version, format, CRS, extent
     files: list[dict[str, Any]] = field(default_factory=list)
-    lines: list[Line] = field(default_factory=list)
+    comparison: list[Line] = field(default_factory=list)  # with the specification
 
     @property
     def passes(self) -> bool | None:
-        """Whether all lines pass; None if none fails, but some could not be decided."""
-        if any(line.state == FAIL for line in self.lines):
+        """Whether all comparisons pass; None if none fails, but some could not be decided."""
+        if any(line.state == FAIL for line in self.comparison):
             return False
         return None if self.left else True
 
     @property
     def left(self) -> list[Line]:
-        """The lines that do not pass: those that fail, and those that a person must look at."""
-        return [line for line in self.lines if line.state != PASS]
+        """The comparisons that fail, and those that a person must look at."""
+        return [line for line in self.comparison if line.state != PASS]
 
     @property
     def strip_count(self) -> int:
@@ -96,13 +96,15 @@ class Quality:
 
     def as_dict(self) -> dict[str, Any]:
         """Return the figures as plain values."""
-        lines = [line._asdict() for line in self.lines]
-        return {**asdict(self), "lines": lines, "passes": self.passes}
+        plain = asdict(self)
+        del plain["comparison"]
+        lines = [line._asdict() for line in self.comparison]
+        return {**plain, "lines": lines, "passes": self.passes}
 
-    def text(self) -> list[str]:
+    def lines(self) -> list[str]:
         """Return the figures and the comparison as lines of text."""
         lines = [f"{figure.name:<13} {figure.text(self)}" for figure in FIGURES]
-        for line in self.lines:
+        for line in self.comparison:
             lines.append(f"{line.state:<5} {line.name}: {line.found}; asked: {line.asked}")
         return lines
 

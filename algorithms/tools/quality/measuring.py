@@ -38,7 +38,7 @@ def quality_of(cells: QualityCells, survey: Survey, specification: str) -> Quali
     }  # fmt: skip
     of_cells = {**_densities(cells, asked), **_filled(cells, asked), **_strips(cells)}
     found = Quality(specification=specification, files=files, **of_points, **of_cells)
-    return replace(found, lines=lines_of(found, asked))
+    return replace(found, comparison=lines_of(found, asked))
 
 
 def _share(part: float, whole: float) -> float | None:
@@ -53,24 +53,24 @@ def _densities(cells: QualityCells, asked: Specification) -> dict[str, Any]:
         inner, pulses, dry = (
             twice(where, rows) for where in (extent.inner, extent.pulses, extent.dry)
         )
-        first = cells.first[rows].astype(np.int64)
-        of_four = first.reshape(len(first) // 2, 2, -1, 2).sum(axis=(1, 3))
+        returns = cells.first[rows].astype(np.int64)
+        of_four = returns.reshape(len(returns) // 2, 2, -1, 2).sum(axis=(1, 3))
         is_dense = of_four >= (asked.pulses or 0) * square
         sums += (
-            first[pulses].sum(), cells.points[rows][pulses].sum(dtype=np.int64),
+            returns[pulses].sum(), cells.points[rows][pulses].sum(dtype=np.int64),
             cells.ground_points[rows][inner].sum(dtype=np.int64),
             np.count_nonzero(is_dense & pulses[::2, ::2]),
             np.count_nonzero(voids(cells, rows) & dry), np.count_nonzero(dry),
         )  # fmt: skip
-    first, points, ground, dense, far, dry = sums.tolist()
-    inner, pulses = (int(np.count_nonzero(where)) for where in (extent.inner, extent.pulses))
+    first, points, ground, dense, far, land = sums.tolist()
+    every, counted = (int(np.count_nonzero(where)) for where in (extent.inner, extent.pulses))
     return {
-        "area": inner * square, "flagged_area": (inner - pulses) * square,
-        "pulse_density": _share(first, pulses * square),
-        "point_density": _share(points, pulses * square),
-        "ground_density": _share(ground, inner * square),
-        "dense_share": _share(dense, pulses) if asked.pulses else None,
-        "ground_void_share": _share(far, dry),
+        "area": every * square, "flagged_area": (every - counted) * square,
+        "pulse_density": _share(first, counted * square),
+        "point_density": _share(points, counted * square),
+        "ground_density": _share(ground, every * square),
+        "dense_share": _share(dense, counted) if asked.pulses else None,
+        "ground_void_share": _share(far, land),
     }  # fmt: skip
 
 

@@ -47,10 +47,11 @@ def quality_html(found: Quality, cells: QualityCells, survey: Survey) -> str:
 
 
 def _comparison(found: Quality) -> list[Html]:
-    if not found.lines:
+    if not found.comparison:
         return [paragraph("The survey is not compared with a specification.")]
     rows = [
-        (line.name, line.found, line.asked, _state(line.state), line.source) for line in found.lines
+        (line.name, line.found, line.asked, _state(line.state), line.source)
+        for line in found.comparison
     ]
     said = paragraph(
         "This compares what can be counted. It does not replace the reading of the specification,"

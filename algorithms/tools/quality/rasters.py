@@ -5,18 +5,17 @@ from __future__ import annotations
 import itertools
 import math
 from pathlib import Path
-from typing import Callable, Iterator, NamedTuple
+from typing import Callable, Iterator, Mapping, NamedTuple
 
 import numpy as np
 
-from ...core.files import Outputs
 from ...core.points import Frame
 from ...core.progress import Progress
 from ...grids.cells import are_inside
 from ...rasters import looks
 from ...rasters.geotiff import NODATA, RasterGrid
 from ...rasters.looks import Categories, Look, Ramp, Steps
-from ...rasters.writing import Rows, raster_file, write_geotiff
+from ...rasters.writing import Rows, write_geotiff
 from ...report.pictures import HEIGHTS
 from .cells import STRIPS, Grid, QualityCells, twice
 from .planes import moments, plane_of
@@ -196,16 +195,10 @@ QUALITY_RASTERS = {
 }  # fmt: skip
 
 
-def raster_paths(folder: Path) -> dict[str, Path]:
-    """Return the paths of the rasters in a folder, by their names."""
-    return {name: folder / f"{name}.tif" for name in QUALITY_RASTERS}
-
-
 def write_rasters(
-    folder: Path, cells: QualityCells, frame: Frame, outputs: Outputs, progress: Progress
+    paths: Mapping[str, Path], cells: QualityCells, frame: Frame, progress: Progress
 ) -> None:
-    """Write all rasters into a folder, with names when `outputs` is closed."""
-    paths = raster_paths(folder)
+    """Write rasters, given by their names."""
     for number, (name, path) in enumerate(paths.items(), start=1):
         raster = QUALITY_RASTERS[name]
         window, metres = raster.grid(cells)
@@ -214,7 +207,7 @@ def write_rasters(
         grid = RasterGrid(window.column * size, north, size, window.columns, window.rows, frame)
         nodata = _NO_BYTE if raster.kind == "uint8" else NODATA
         rows = Rows(window.shape, raster.kind, _rows_of(raster, cells, frame, nodata))
-        write_geotiff(raster_file(outputs, path), rows, grid, nodata, progress, raster.shows)
+        write_geotiff(path, rows, grid, nodata, progress, raster.shows)
         progress(number / len(paths))
 
 
