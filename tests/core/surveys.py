@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import laspy
 import numpy as np
+import pytest
 
 from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.crs.system import Crs
@@ -36,7 +37,7 @@ def strip(count=12_000, width=300.0, depth=130.0, seed=3):
 
 def cloud_of(x, y, z, offset=(0.0, 0.0, 0.0), scale=0.01, classes=1, point_format=6):
     """Return a cloud of integers, each the only return of its pulse."""
-    integers = [np.asarray(each).astype(np.int32) for each in (x, y, z)]
+    integers = [np.asarray(values).astype(np.int32) for values in (x, y, z)]
     ones = np.ones(len(integers[0]), np.uint8)
     return PointCloud(
         Path("in.las"), *integers, (scale,) * 3, offset, classes * ones, ones, ones,
@@ -57,6 +58,33 @@ def write(path, integers, shift=(0, 0, 0), classes=1):
     return path
 
 
+def write_points(path, x, y, z, classes=1, *, offset=ORIGIN, crs=None, **columns):
+    """Write points, in metres from the offset; each is the only return of its pulse."""
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = (0.001,) * 3, offset
+    if crs:
+        header.add_crs(pytest.importorskip("pyproj").CRS(crs))
+    las = laspy.LasData(header)
+    las.x, las.y, las.z = (values + start for values, start in zip((x, y, z), offset))
+    las.classification[:] = classes
+    las.return_number[:] = las.number_of_returns[:] = 1
+    for name, values in columns.items():
+        las[name][:] = values
+    las.write(str(path))
+    return path
+
+
+def classes_of(path):
+    """Return the classes of the points of a file."""
+    return np.asarray(laspy.read(path).classification)
+
+
+def heights_of(path):
+    """Return the values of a raster, NaN where it has none."""
+    with pytest.importorskip("rasterio").open(path) as raster:
+        return raster.read(1, masked=True).filled(np.nan)
+
+
 def cut(folder, integers, files=6, seed=5, suffix=".laz"):
     """Write points into files of irregular extents, in any order and with any offsets."""
     folder.mkdir(exist_ok=True)
@@ -65,9 +93,9 @@ def cut(folder, integers, files=6, seed=5, suffix=".laz"):
     shares = np.arange(1, columns) + random.uniform(-0.3, 0.3, columns - 1)
     column = np.digitize(x, np.quantile(x, shares / columns))
     number = 2 * column + (y > np.quantile(y, random.uniform(0.3, 0.7, columns))[column])
-    for each in range(files):
-        part = random.permutation(integers[number == each])
-        write(folder / f"{each}{suffix}", part, random.integers(-9000, 9000, 3))
+    for file in range(files):
+        part = random.permutation(integers[number == file])
+        write(folder / f"{file}{suffix}", part, random.integers(-9000, 9000, 3))
     return folder
 
 
@@ -92,7 +120,7 @@ def states_of(folder):
     """Return what tells that files were written anew, of a folder that a run works in meanwhile."""
     found = {}
     names = os.listdir(folder) if folder.exists() else ()
-    for name in (each for each in names if each[0] != "."):  # those are being written
+    for name in (name for name in names if name[0] != "."):  # those are being written
         with contextlib.suppress(FileNotFoundError):  # removed or renamed since
             state = os.stat(folder / name)
             found[name] = state.st_ino, state.st_mtime_ns

@@ -1,34 +1,24 @@
 """An area: of one file and of many, all points written or those of the area alone."""
 
 import json
-from dataclasses import replace
 
 import laspy
 import numpy as np
 import pytest
 from surveys import bytes_of, cut, finished, points_of, strip, write
 
-from bare_earth import BareEarthError
+from bare_earth import BareEarthError, classify
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.runs.entry import classify
-from bare_earth.algorithms.runs.options import TileOutput
-from bare_earth.algorithms.runs.requests import ClassifyRequest
 from bare_earth.algorithms.survey.area import Area
-from bare_earth.algorithms.survey.corrections import Corrections
-from bare_earth.algorithms.survey.vpc import read_vpc
-from bare_earth.algorithms.tools.ground.output import Output
-from bare_earth.algorithms.tools.heights import HEIGHT_DIMENSION
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 EAST, NORTH = 500_000.0, 5_700_000.0
 # It crosses several of the files, and leaves out the last ones.
 TRIANGLE = np.add([(20.0, 10.0), (170.0, 20.0), (60.0, 120.0)], (EAST, NORTH))
 AREA = Area(polygons=((TRIANGLE,),))
-ELSEWHERE = Area((EAST + 5000.0, NORTH, EAST + 5100.0, NORTH + 100.0))
 # `test_classification.py` has an area with what each method sees of the points round it.
-ALL = ClassifyRequest(parameters=SlopeFilter(preset="whitebox"), area=AREA)
-ONLY = replace(ALL, output=Output(area_only=True))
+SLOPE = {"method": "slope", "preset": "whitebox"}
+ALL = {**SLOPE, "boundary": [(TRIANGLE,)]}
+ONLY = {**ALL, "area_only": True}
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +27,7 @@ def inputs(tmp_path_factory):
     folder, points = tmp_path_factory.mktemp("area"), strip(12_000, 300.0, 150.0)
     cut(folder / "in", points, 6)
     write(folder / "one.laz", points)
-    classify(folder / "one.laz", folder / "all.laz", ALL)
+    classify(folder / "one.laz", folder / "all.laz", **ALL)
     return folder
 
 
@@ -48,7 +38,7 @@ def in_area(las):
 @pytest.mark.parametrize("suffix", [".las", ".laz", ".copc.laz"])
 def test_of_one_file_the_points_of_the_area_are_written_as_they_would_be(inputs, tmp_path, suffix):
     target = tmp_path / f"out{suffix}"
-    summary = classify(inputs / "one.laz", target, ONLY)
+    summary = classify(inputs / "one.laz", target, **ONLY)
     whole, part = laspy.read(inputs / "all.laz"), laspy.read(target)
     inside = in_area(whole)
     assert 1000 < inside.sum() < 0.5 * len(inside)
@@ -59,37 +49,39 @@ def test_of_one_file_the_points_of_the_area_are_written_as_they_would_be(inputs,
         assert np.array_equal(part.X, whole.X[inside])
     header = part.header
     assert header.point_count == header.number_of_points_by_return[0] == inside.sum()
-    for at, name in enumerate("xyz"):
-        assert header.mins[at] == pytest.approx(part[name].min(), abs=1e-9)
-        assert header.maxs[at] == pytest.approx(part[name].max(), abs=1e-9)
+    for axis, name in enumerate("xyz"):
+        assert header.mins[axis] == pytest.approx(part[name].min(), abs=1e-9)
+        assert header.maxs[axis] == pytest.approx(part[name].max(), abs=1e-9)
     assert (summary.point_count, summary.area_count) == (len(inside), inside.sum())
     assert summary.ground_count == summary.area_ground_count == (part.classification == 2).sum()
     assert sum(summary.class_counts.values()) == inside.sum()
 
 
 def test_copc_of_an_area_is_read_by_window(inputs, tmp_path):
-    classify(inputs / "one.laz", tmp_path / "out.copc.laz", ONLY)
+    classify(inputs / "one.laz", tmp_path / "out.copc.laz", **ONLY)
     with laspy.CopcReader.open(tmp_path / "out.copc.laz") as reader:
         assert len(reader.query(None)) == in_area(laspy.read(inputs / "all.laz")).sum()
 
 
 def test_many_files_are_classified_in_the_area_as_one(inputs, tmp_path):
-    summary = classify([inputs / "in"], tmp_path, ALL)
+    summary = classify([inputs / "in"], tmp_path, **ALL)
     assert np.array_equal(points_of(finished(tmp_path)), points_of([inputs / "all.laz"]))
     assert summary.done_count == summary.tile_count == 6 and not summary.failures
 
 
 def test_of_many_files_those_outside_are_not_written(inputs, tmp_path, las):
-    one, many, heard = tmp_path / "one.laz", tmp_path / "many", las.Heard()
-    classify(inputs / "one.laz", one, ONLY)
-    summary = classify([inputs / "in"], many, ONLY, heard)
+    one, many, progress = tmp_path / "one.laz", tmp_path / "many", las.Heard()
+    classify(inputs / "one.laz", one, **ONLY)
+    summary = classify([inputs / "in"], many, **ONLY, progress=progress)
     assert np.array_equal(points_of(finished(many)), points_of([one]))
     assert sorted(bytes_of(many)) == ["0.laz", "1.laz", "2.laz", "3.laz"]
-    assert [each.name for each in read_vpc(many / "classified.vpc")] == sorted(bytes_of(many))
+    listed = json.loads((many / "classified.vpc").read_text())["features"]
+    names = [feature["assets"]["data"]["href"].rpartition("/")[2] for feature in listed]
+    assert names == sorted(bytes_of(many))
     assert (summary.done_count, summary.tile_count) == (4, 4) and not summary.failures
     assert summary.point_count == in_area(laspy.read(inputs / "all.laz")).sum()
     assert summary.ground_count == (laspy.read(one).classification == 2).sum()
-    assert "2 files are not written: they have no points to write in the area." in heard.infos
+    assert "2 files are not written: they have no points to write in the area." in progress.infos
 
 
 def test_a_file_within_the_bounds_but_without_a_point_is_not_written(inputs, tmp_path):
@@ -100,27 +92,25 @@ def test_a_file_within_the_bounds_but_without_a_point_is_not_written(inputs, tmp
     corner = np.array([[14_000, 11_000, 6800], [14_100, 11_100, 6800], [14_200, 11_000, 6800]])
     write(tmp_path / "in" / "corner.laz", corner)
     assert AREA.may_touch((EAST + 140, NORTH + 110, EAST + 142, NORTH + 111))
-    summary = classify([tmp_path / "in"], tmp_path / "out", ONLY)
+    summary = classify([tmp_path / "in"], tmp_path / "out", **ONLY)
     assert sorted(bytes_of(tmp_path / "out")) == ["0.laz", "1.laz", "2.laz", "3.laz"]
     assert not summary.failures
 
 
 def test_heights_and_rasters_are_those_of_the_area(inputs, tmp_path):
-    output, found = Output(area_only=True, height_above_ground=True), []
+    found = []
     for source, target, name in (("one.laz", "one.laz", "a"), ("in", "many", "b")):
-        rasters = RasterFiles(dtm=tmp_path / f"{name}.tif", dsm=tmp_path / f"{name}-dsm.tif")
-        request = replace(ONLY, output=output, rasters=rasters)
-        given = [inputs / source] if source == "in" else inputs / source
-        classify(given, tmp_path / target, request)
+        rasters = {"dtm": tmp_path / f"{name}.tif", "dsm": tmp_path / f"{name}-dsm.tif"}
+        classify(inputs / source, tmp_path / target, **ONLY, height_above_ground=True, **rasters)
         files = finished(tmp_path / target) if source == "in" else [tmp_path / target]
-        clouds = [laspy.read(each) for each in files]
-        rows = [np.column_stack((c.x, c.y, c.z, c[HEIGHT_DIMENSION])) for c in clouds]
+        clouds = [laspy.read(path) for path in files]
+        rows = [np.column_stack((c.x, c.y, c.z, c["HeightAboveGround"])) for c in clouds]
         rows = np.concatenate(rows).round(3)
         found.append(rows[np.lexsort(rows[:, :3].T)])
     assert np.allclose(found[0], found[1], atol=1e-3)
     assert np.ptp(found[0][:, 3]) > 5.0
     for name in ("", "-dsm"):
-        one, many = (tmp_path / f"{each}{name}.tif" for each in "ab")
+        one, many = (tmp_path / f"{run}{name}.tif" for run in "ab")
         assert one.read_bytes() == many.read_bytes()
     with pytest.importorskip("rasterio").open(tmp_path / "a.tif") as raster:
         bounds = raster.bounds
@@ -130,9 +120,8 @@ def test_heights_and_rasters_are_those_of_the_area(inputs, tmp_path):
 
 
 def test_ground_of_the_area_alone(inputs, tmp_path):
-    request = replace(ALL, output=Output(area_only=True, ground_only=True))
-    classify(inputs / "one.laz", tmp_path / "one.laz", request)
-    classify([inputs / "in"], tmp_path / "many", request)
+    classify(inputs / "one.laz", tmp_path / "one.laz", **ONLY, ground_only=True)
+    classify([inputs / "in"], tmp_path / "many", **ONLY, ground_only=True)
     ground = points_of([tmp_path / "one.laz"])
     whole = laspy.read(inputs / "all.laz")
     assert len(ground) == (in_area(whole) & (whole.classification == 2)).sum()
@@ -140,32 +129,32 @@ def test_ground_of_the_area_alone(inputs, tmp_path):
 
 
 def test_a_run_goes_on_in_the_same_area_only(inputs, tmp_path):
-    classify([inputs / "in"], tmp_path, ONLY)
+    classify([inputs / "in"], tmp_path, **ONLY)
     before = bytes_of(tmp_path)
     (tmp_path / "1.laz").unlink()
-    again = replace(ONLY, tiles=TileOutput(resume=True))
-    summary = classify([inputs / "in"], tmp_path, again)
+    summary = classify([inputs / "in"], tmp_path, **ONLY, resume=True)
     assert (summary.kept_count, summary.done_count) == (3, 4)
     assert bytes_of(tmp_path) == before
-    larger = Area(AREA.bounds)
-    assert classify([inputs / "in"], tmp_path, replace(again, area=larger)).kept_count == 0
+    larger = {**SLOPE, "extent": AREA.bounds, "area_only": True, "resume": True}
+    assert classify([inputs / "in"], tmp_path, **larger).kept_count == 0
     assert np.any(points_of(finished(tmp_path))[:, 0] > 15_000)
-    assert classify([inputs / "in"], tmp_path, replace(again, output=Output())).kept_count == 0
+    assert classify([inputs / "in"], tmp_path, **ALL, resume=True).kept_count == 0
 
 
 def test_an_area_that_meets_no_point_is_told(inputs, tmp_path, las):
+    elsewhere = EAST + 5000.0, NORTH, EAST + 5100.0, NORTH + 100.0
     for source in (inputs / "one.laz", [inputs / "in"]):
-        for request in (ALL, ONLY):
+        for only in (True, False):
             with pytest.raises(BareEarthError, match="Give the area in the CRS of the points"):
-                classify(source, tmp_path / "out.laz", replace(request, area=ELSEWHERE))
+                classify(source, tmp_path / "out.laz", extent=elsewhere, area_only=only, **SLOPE)
     # Between the files' points, though within their bounds.
     x, y, _ = strip(12_000, 300.0, 150.0)[0] / 100
-    gap = Area((EAST + x + 0.002, NORTH + y + 0.002, EAST + x + 0.008, NORTH + y + 0.008))
+    gap = EAST + x + 0.002, NORTH + y + 0.002, EAST + x + 0.008, NORTH + y + 0.008
     with pytest.raises(BareEarthError, match="None of the files has points to write"):
-        classify([inputs / "in"], tmp_path / "many", replace(ONLY, area=gap))
-    heard = las.Heard()
-    classify([inputs / "in"], tmp_path / "all", replace(ALL, area=gap), heard)
-    assert [text for text in heard.warnings if "No point lies in the area" in text]
+        classify([inputs / "in"], tmp_path / "many", extent=gap, area_only=True, **SLOPE)
+    progress = las.Heard()
+    classify([inputs / "in"], tmp_path / "all", extent=gap, progress=progress, **SLOPE)
+    assert [text for text in progress.warnings if "No point lies in the area" in text]
 
 
 def test_the_area_alone_needs_an_area(inputs, tmp_path, capsys):
@@ -190,14 +179,17 @@ def test_the_command_writes_the_area_alone(inputs, tmp_path, capsys, threads_for
 
 
 def test_corrections_that_meet_no_point_are_told_once(inputs, tmp_path, las):
-    request = ClassifyRequest(parameters=SlopeFilter())
     between = EAST + 50.001, NORTH + 50.001, EAST + 50.002, NORTH + 50.002
     for box, count in ((between, 1), ((EAST, NORTH, EAST + 9.0, NORTH + 9.0), 0)):
         west, south, east, north = box
-        ring = np.array([(west, south), (east, south), (east, north), (west, north)])
-        known = replace(request, corrections=Corrections(((ring,),), (6,)))
+        ring = [(west, south), (east, south), (east, north), (west, north), (west, south)]
+        polygon = {"type": "Polygon", "coordinates": [ring]}
+        known = tmp_path / "known.geojson"
+        known.write_text(
+            json.dumps({"type": "Feature", "properties": {"class": 6}, "geometry": polygon})
+        )
         for number, source in enumerate((inputs / "one.laz", [inputs / "in"])):
-            heard = las.Heard()
-            classify(source, tmp_path / f"{count}-{number}.laz", known, heard)
-            told = [each for each in heard.warnings if "polygons of the corrections" in each]
+            progress, out = las.Heard(), tmp_path / f"{count}-{number}.laz"
+            classify(source, out, method="slope", corrections=known, progress=progress)
+            told = [text for text in progress.warnings if "polygons of the corrections" in text]
             assert len(told) == count

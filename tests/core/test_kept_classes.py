@@ -6,16 +6,9 @@ import pytest
 from conftest import Heard
 from realdata import real
 from runs import said
+from surveys import heights_of, write_points
 
-from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.rasters.geotiff import read_raster
-from bare_earth.algorithms.runs.entry import classify, terrain
-from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
-from bare_earth.algorithms.survey.ground_classes import GroundClasses
-from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.tools.ground.output import Output
-from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
+from bare_earth import classify, terrain
 
 SIDE, ROAD, BRIDGE = 120, 11, 5.0
 # The border of two blocks, at 500,000 m, runs through the scenes.
@@ -23,25 +16,17 @@ EAST, NORTH = 499_940.0, 5_700_000.0
 
 
 def write(path, x, y, z, classes, overlap=0):
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
-    las = laspy.LasData(header)
-    las.x, las.y, las.z = x + EAST, y + NORTH, z
-    las.classification[:] = classes
-    las.overlap[:] = overlap
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(path))
-    return path
+    return write_points(path, x, y, z, classes, offset=(EAST, NORTH, 0.0), overlap=overlap)
 
 
 @pytest.fixture(scope="module")
 def town(tmp_path_factory):
     """A plane with a cambered road of class 11, and a flyover of the same class across it."""
-    x, y = (each.ravel() * 1.0 + 0.5 for each in np.meshgrid(np.arange(SIDE), np.arange(SIDE)))
+    x, y = (axis.ravel() * 1.0 + 0.5 for axis in np.meshgrid(np.arange(SIDE), np.arange(SIDE)))
     across = np.abs(y - 60.0)
     z = 50.0 + 0.02 * x + np.where(across < 12, 0.6 * (1 - across / 12), 0.0)
     fly_x, fly_y = (
-        each.ravel() + 0.25 for each in np.meshgrid(np.arange(80.0, 90.0), np.arange(SIDE))
+        axis.ravel() + 0.25 for axis in np.meshgrid(np.arange(80.0, 90.0), np.arange(SIDE))
     )
     x, y = np.append(x, fly_x), np.append(y, fly_y)
     z = np.append(z, 50.0 + 0.02 * fly_x + BRIDGE)
@@ -54,18 +39,19 @@ def town(tmp_path_factory):
     return folder
 
 
-def request(folder, **more):
-    rasters = RasterFiles(dtm=folder / "dtm.tif", confidence=folder / "confidence.tif")
-    return ClassifyRequest(rasters=rasters, output=Output(height_above_ground=True), **more)
+def outputs(folder):
+    """Return the outputs of a run beside points."""
+    rasters = {name: folder / f"{name}.tif" for name in ("dtm", "confidence")}
+    return {**rasters, "height_above_ground": True}
 
 
 def test_roads_on_the_ground_are_terrain_and_those_above_it_are_not(town, tmp_path):
-    classify(town / "one.las", tmp_path / "out.las", request(tmp_path))
+    classify(town / "one.las", tmp_path / "out.las", **outputs(tmp_path))
     before, after = laspy.read(town / "one.las"), laspy.read(tmp_path / "out.las")
     roads = np.asarray(before.classification) == ROAD
     assert (np.asarray(after.classification)[roads] == ROAD).all()
     assert (np.asarray(after.classification)[~roads] == 2).all()
-    dtm = read_raster(tmp_path / "dtm.tif").heights
+    dtm = heights_of(tmp_path / "dtm.tif")
     assert dtm.shape == (SIDE, SIDE)
     # The crown of the road, which no point of class 2 shows.
     crown = dtm[SIDE - 61, :70] - (50.0 + 0.02 * (np.arange(70) + 0.5))
@@ -80,39 +66,35 @@ def test_roads_on_the_ground_are_terrain_and_those_above_it_are_not(town, tmp_pa
 def test_many_files_give_the_roads_of_one(town, tmp_path, threads_for_processes):
     for name in ("one", "many"):
         (tmp_path / name).mkdir()
-    classify(town / "one.las", tmp_path / "one" / "out.las", request(tmp_path / "one"))
-    classify(town / "many", tmp_path / "many" / "out", request(tmp_path / "many"))
+    classify(town / "one.las", tmp_path / "one" / "out.las", **outputs(tmp_path / "one"))
+    classify(town / "many", tmp_path / "many" / "out", **outputs(tmp_path / "many"))
     for name in ("dtm", "confidence"):
-        one, many = (
-            read_raster(tmp_path / each / f"{name}.tif").heights for each in ("one", "many")
-        )
-        np.testing.assert_array_equal(one, many)
+        one, many = (tmp_path / run / f"{name}.tif" for run in ("one", "many"))
+        np.testing.assert_array_equal(heights_of(one), heights_of(many))
     whole = laspy.read(tmp_path / "one" / "out.las")
     for name in ("west", "east"):
         part = laspy.read(tmp_path / "many" / "out" / f"{name}.las")
-        same = (
-            np.asarray(whole.x) < 500_000.0 if name == "west" else np.asarray(whole.x) >= 500_000.0
-        )
-        for each in ("classification", "HeightAboveGround"):
-            np.testing.assert_array_equal(np.asarray(whole[each])[same], np.asarray(part[each]))
+        same = (np.asarray(whole.x) < 500_000.0) == (name == "west")
+        for column in ("classification", "HeightAboveGround"):
+            np.testing.assert_array_equal(np.asarray(whole[column])[same], np.asarray(part[column]))
 
 
 def test_roads_that_wait_on_disk_are_the_same(town, tmp_path):
     for name, memory in (("memory", 4.0), ("disk", 0.001)):
         (tmp_path / name).mkdir()
-        how, heard = request(tmp_path / name, resources=Resources(memory=memory)), Heard()
-        classify(town / "one.las", tmp_path / name / "out.las", how, heard)
-        waits = any("wait in a temporary file" in text for text in heard.infos)
+        progress, how = Heard(), outputs(tmp_path / name)
+        out = tmp_path / name / "out.las"
+        classify(town / "one.las", out, memory=memory, progress=progress, **how)
+        waits = any("wait in a temporary file" in text for text in progress.infos)
         assert waits == (name == "disk")
     for name in ("out.las", "dtm.tif", "confidence.tif"):
-        one, other = ((tmp_path / each / name).read_bytes() for each in ("memory", "disk"))
-        assert one == other, name
+        memory, disk = ((tmp_path / run / name).read_bytes() for run in ("memory", "disk"))
+        assert memory == disk, name
 
 
 def test_known_ground_that_keeps_its_class_is_ground_for_the_rasters(town, tmp_path):
-    selection = Selection(seed_classes=(ROAD,))
-    classify(town / "one.las", tmp_path / "out.las", request(tmp_path, selection=selection))
-    dtm = read_raster(tmp_path / "dtm.tif").heights
+    classify(town / "one.las", tmp_path / "out.las", seed_classes=(ROAD,), **outputs(tmp_path))
+    dtm = heights_of(tmp_path / "dtm.tif")
     # The user says that all of it is ground, also the flyover.
     assert dtm[5, 85] > 50.0 + BRIDGE
 
@@ -138,7 +120,7 @@ def test_water_stays_and_the_log_says_so(tmp_path, source, threads_for_processes
 
 
 def test_overlap_that_is_left_out_is_in_no_raster(tmp_path):
-    x, y = (each.ravel() + 0.5 for each in np.meshgrid(np.arange(40.0), np.arange(40.0)))
+    x, y = (axis.ravel() + 0.5 for axis in np.meshgrid(np.arange(40.0), np.arange(40.0)))
     both = np.concatenate([x, x[x > 20] + 0.2]), np.concatenate([y, y[x > 20]])
     strip = np.arange(len(both[0])) >= len(x)
     # The second strip is 0.1 m too high.
@@ -146,31 +128,27 @@ def test_overlap_that_is_left_out_is_in_no_raster(tmp_path):
     for overlap, highest in (("use", 100.1), ("leave-out", 100.0)):
         folder = tmp_path / overlap
         folder.mkdir()
-        rasters = RasterFiles(dtm=folder / "dtm.tif", dsm=folder / "dsm.tif")
-        selection = Selection(overlap=overlap)
-        run = ClassifyRequest(rasters=rasters, selection=selection)
-        classify(source, folder / "out.las", run)
+        dsm = folder / "dsm.tif"
+        classify(source, folder / "out.las", dtm=folder / "dtm.tif", dsm=dsm, overlap=overlap)
         classes = np.asarray(laspy.read(folder / "out.las").classification)
         assert (classes[strip] == (2 if overlap == "use" else 1)).any()
         assert overlap == "use" or (classes[strip] == 1).all()
-        assert read_raster(folder / "dsm.tif").heights.max() == pytest.approx(highest)
+        assert heights_of(dsm).max() == pytest.approx(highest)
         # The same of a file in which both strips are ground.
-        ground = GroundClasses(overlap=overlap)
-        again = RasterFiles(dtm=folder / "dtm2.tif", dsm=folder / "dsm2.tif")
-        terrain(tmp_path / "use" / "out.las", TerrainRequest(rasters=again, ground=ground))
-        for name in ("dtm2", "dsm2"):
-            assert read_raster(folder / f"{name}.tif").heights.max() == pytest.approx(highest)
+        again = {name: folder / f"{name}2.tif" for name in ("dtm", "dsm")}
+        terrain(tmp_path / "use" / "out.las", overlap=overlap, **again)
+        for path in again.values():
+            assert heights_of(path).max() == pytest.approx(highest)
 
 
 def test_the_classes_of_the_surface_can_be_chosen(tmp_path):
-    x, y = (each.ravel() + 0.5 for each in np.meshgrid(np.arange(20.0), np.arange(20.0)))
+    x, y = (axis.ravel() + 0.5 for axis in np.meshgrid(np.arange(20.0), np.arange(20.0)))
     places = np.tile(x, 3), np.tile(y, 3)
     classes = np.repeat([2, 6, 5], len(x))
     source = write(tmp_path / "in.las", *places, np.repeat([100.0, 104.0, 109.0], len(x)), classes)
     for chosen, height in ((None, 109.0), ((2, 6), 104.0), ((2,), 100.0)):
-        files = RasterFiles(dsm=tmp_path / f"{height}.tif")
-        terrain(source, TerrainRequest(rasters=files, surface=SurfaceModel(surface_classes=chosen)))
-        assert (read_raster(files.wanted["dsm"]).heights == height).all()
+        terrain(source, dsm=(dsm := tmp_path / f"{height}.tif"), surface_classes=chosen)
+        assert (heights_of(dsm) == height).all()
     code, _, told = said("terrain", source, "--dsm", tmp_path / "no.tif", "--surface-classes", "41")
     assert code and "Choose other classes for the surface" in told
 
@@ -178,11 +156,9 @@ def test_the_classes_of_the_surface_can_be_chosen(tmp_path):
 @pytest.mark.parametrize(("classes", "lowest"), [((2, 40), 6.0), ((2,), 9.8)])
 def test_water_above_its_bottom_is_no_canopy(tmp_path, classes, lowest):
     source = real("field2/topobathy.laz")
-    files = RasterFiles(dsm=tmp_path / "dsm.tif", chm=tmp_path / "chm.tif")
-    request = TerrainRequest(rasters=files, ground=GroundClasses(ground_classes=classes))
-    heard = Heard()
-    terrain(source, request, heard)
-    assert np.nanmax(read_raster(files.wanted["chm"]).heights) < 0.3
-    assert np.nanmin(read_raster(files.wanted["dsm"]).heights) == pytest.approx(lowest, abs=0.1)
-    told = [text for text in heard.infos if "left out of the surface model" in text]
+    dsm, chm, progress = tmp_path / "dsm.tif", tmp_path / "chm.tif", Heard()
+    terrain(source, dsm=dsm, chm=chm, ground_classes=classes, progress=progress)
+    assert np.nanmax(heights_of(chm)) < 0.3
+    assert np.nanmin(heights_of(dsm)) == pytest.approx(lowest, abs=0.1)
+    told = [text for text in progress.infos if "left out of the surface model" in text]
     assert told[0].startswith("9,060 points" if 40 in classes else "1,569 points")
