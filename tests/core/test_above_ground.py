@@ -1,37 +1,23 @@
 """Classes above the ground: vegetation by height, buildings, bridges; one file and many."""
 
+import json
+
 import laspy
 import numpy as np
 import pytest
 from conftest import Heard
 from runs import said
+from surveys import ORIGIN, classes_of, points_of, write_points
 
-import bare_earth
-from bare_earth import BareEarthError
+from bare_earth import BareEarthError, above_ground, classify
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.runs.entry import classify
-from bare_earth.algorithms.runs.entry import write as write_with
-from bare_earth.algorithms.runs.options import TileOutput
-from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest
-from bare_earth.algorithms.survey.area import Area
-from bare_earth.algorithms.survey.corrections import Corrections
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.above_ground import ClassifyAboveGround
 from bare_earth.algorithms.tools.above_ground.buildings import Buildings, planes_through
-from bare_earth.algorithms.tools.above_ground.classes import (
-    AboveGround,
-    ThenAboveGround,
-    classes_above_ground,
-)
-from bare_earth.algorithms.tools.ground.output import Output
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
+from bare_earth.algorithms.tools.above_ground.classes import AboveGround, classes_above_ground
 from benchmarks import scenes
 from benchmarks.scenes.simple import scatter
-
-ORIGIN = (500_000.0, 5_700_000.0, 0.0)
 
 
 @pytest.fixture(scope="module")
@@ -39,22 +25,21 @@ def village():
     return scenes.make("village", 0, size=110.0)
 
 
+# Classes above the ground by the limits of IGN, also in the run that finds the ground.
+IGN = {"above_ground": "ign"}
+
+
 def _iou(found, true):
     return np.count_nonzero(found & true) / np.count_nonzero(found | true)
 
 
-def _write(path, points, classes, returns=None, which=slice(None)):
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, ORIGIN
-    las = laspy.LasData(header)
-    las.x, las.y = points.x[which] + ORIGIN[0], points.y[which] + ORIGIN[1]
-    las.z = points.z[which]
-    las.classification[:] = classes[which]
-    one = np.ones(points.count, dtype=np.uint8)
-    number, count = returns or (one, one)
-    las.return_number[:], las.number_of_returns[:] = number[which], count[which]
-    las.write(str(path))
-    return path
+def _write(path, scene, classes, which=slice(None)):
+    points = scene.points
+    return write_points(
+        path, points.x[which], points.y[which], points.z[which], classes[which],
+        return_number=scene.return_number[which],
+        number_of_returns=scene.number_of_returns[which],
+    )  # fmt: skip
 
 
 def _only_ground(scene):
@@ -65,14 +50,13 @@ def _only_ground(scene):
 @pytest.fixture(scope="module")
 def file(village, tmp_path_factory):
     path = tmp_path_factory.mktemp("village") / "village.laz"
-    returns = village.return_number, village.number_of_returns
-    return _write(path, village.points, _only_ground(village), returns)
+    return _write(path, village, _only_ground(village))
 
 
 @pytest.fixture(scope="module")
 def finished(file):
     """Return the file with its classes above the known ground."""
-    bare_earth.above_ground(file, path := file.with_name("finished.laz"))
+    above_ground(file, path := file.with_name("finished.laz"))
     return path
 
 
@@ -80,20 +64,7 @@ def finished(file):
 def classified(file):
     """Return the file after the run that finds the ground and what is above, and its summary."""
     path = file.with_name("classified.laz")
-    return path, classify(file, path, _run())
-
-
-def _classes(path):
-    return np.asarray(laspy.read(path).classification)
-
-
-def _rows(paths):
-    """Return the points of some files with their classes, sorted."""
-    files = [laspy.read(each) for each in paths]
-    rows = np.concatenate(
-        [np.column_stack([las.X, las.Y, las.Z, las.classification]) for las in files]
-    )
-    return rows[np.lexsort(rows.T[::-1])]
+    return path, classify(file, path, **IGN)
 
 
 # Roofs
@@ -279,8 +250,8 @@ def test_the_order_of_the_points_and_threads_do_not_matter(village):
 
 def test_one_file(file, village, tmp_path):
     out = tmp_path / "out.laz"
-    summary = bare_earth.above_ground(file, out)
-    classes = _classes(out)
+    summary = above_ground(file, out)
+    classes = classes_of(out)
     assert _iou(classes == 6, village.classes == 6) > 0.94
     assert summary.point_count == len(classes) and summary.ground_count == village.ground.sum()
     assert summary.class_counts == dict(zip(*np.unique(classes, return_counts=True)))
@@ -291,44 +262,41 @@ def test_one_file(file, village, tmp_path):
         if name != "classification":
             assert np.array_equal(before[name], after[name])
     # All that can get a class has one now, so that a second run changes nothing.
-    again = bare_earth.above_ground(out, tmp_path / "again.laz")
-    changed = np.flatnonzero(_classes(tmp_path / "again.laz") != classes)
+    again = above_ground(out, tmp_path / "again.laz")
+    changed = np.flatnonzero(classes_of(tmp_path / "again.laz") != classes)
     assert again.changed_count == len(changed) and len(changed) < 1e-3 * len(classes)
 
 
 def test_the_files_of_a_survey_do_not_matter(finished, village, tmp_path):
-    points, classes, folder = village.points, _only_ground(village), tmp_path / "in"
+    points, folder = village.points, tmp_path / "in"
     folder.mkdir()
-    returns = village.return_number, village.number_of_returns
     random = np.random.default_rng(5)
     west = np.median(points.x) + 3.0 * np.sin(points.y / 7.0) < points.x
     number = 2 * west + (points.y > np.quantile(points.y, 0.37))
-    for each in range(4):
-        which = random.permutation(np.flatnonzero(number == each))
-        _write(folder / f"{each}.laz", points, classes, returns, which)
-    summary = bare_earth.above_ground([folder], tmp_path / "out")
+    for file in range(4):
+        which = random.permutation(np.flatnonzero(number == file))
+        _write(folder / f"{file}.laz", village, _only_ground(village), which)
+    summary = above_ground([folder], tmp_path / "out")
     assert summary.done_count == 4 and summary.class_counts[6] > 2000
     made = sorted((tmp_path / "out").glob("*.laz"))
-    assert np.array_equal(_rows(made), _rows([finished]))
+    assert np.array_equal(points_of(made), points_of([finished]))
     # Finished files are kept.
-    resumed = PointRequest(ClassifyAboveGround(), tiles=TileOutput(resume=True))
-    assert write_with([folder], tmp_path / "out", resumed).kept_count == 4
-    anew = PointRequest(ClassifyAboveGround(AboveGround("ign")), tiles=resumed.tiles)
-    assert write_with([folder], tmp_path / "out", anew).kept_count == 0
+    assert above_ground([folder], tmp_path / "out", resume=True).kept_count == 4
+    assert above_ground([folder], tmp_path / "out", resume=True, **IGN).kept_count == 0
 
 
 def test_there_are_no_seams_between_blocks(file, finished, tmp_path, monkeypatch):
     monkeypatch.setattr(ClassifyAboveGround, "blocks", Blocks(70.0, 60.0, start=-0.00005))
-    bare_earth.above_ground(file, tmp_path / "blocks.laz")
-    one, blocks = _classes(finished), _classes(tmp_path / "blocks.laz")
+    above_ground(file, tmp_path / "blocks.laz")
+    one, blocks = classes_of(finished), classes_of(tmp_path / "blocks.laz")
     assert np.mean(one != blocks) < 1e-4
 
 
 def test_points_on_disk_get_the_same_classes(file, finished, tmp_path):
-    few, heard = PointRequest(ClassifyAboveGround(), resources=Resources(1, 0.001)), Heard()
-    write_with(file, tmp_path / "disk.laz", few, heard)
-    assert any("wait in a temporary file" in text for text in heard.infos)
-    assert np.array_equal(_classes(finished), _classes(tmp_path / "disk.laz"))
+    progress = Heard()
+    above_ground(file, tmp_path / "disk.laz", threads=1, memory=0.001, progress=progress)
+    assert any("wait in a temporary file" in text for text in progress.infos)
+    assert np.array_equal(classes_of(finished), classes_of(tmp_path / "disk.laz"))
 
 
 def test_classes_with_a_meaning_stay(village, tmp_path):
@@ -336,16 +304,12 @@ def test_classes_with_a_meaning_stay(village, tmp_path):
     classes[village.classes == 6] = 1
     water = np.flatnonzero(classes == 1)[::7]
     classes[water] = 9
-    source = _write(
-        tmp_path / "in.laz", village.points, classes,
-        (village.return_number, village.number_of_returns),
-    )  # fmt: skip
-    bare_earth.above_ground(source, tmp_path / "kept.laz")
-    found = _classes(tmp_path / "kept.laz")
+    source = _write(tmp_path / "in.laz", village, classes)
+    above_ground(source, tmp_path / "kept.laz")
+    found = classes_of(tmp_path / "kept.laz")
     assert np.array_equal(found[classes > 1], classes[classes > 1])
-    request = PointRequest(ClassifyAboveGround(AboveGround(reclassify=True)))
-    write_with(source, tmp_path / "anew.laz", request)
-    anew = _classes(tmp_path / "anew.laz")
+    above_ground(source, tmp_path / "anew.laz", reclassify=True)
+    anew = classes_of(tmp_path / "anew.laz")
     fixed = np.isin(classes, (2, 7, 9))
     assert np.array_equal(anew[fixed], classes[fixed])
     assert np.any(anew[~fixed] != classes[~fixed])
@@ -354,9 +318,8 @@ def test_classes_with_a_meaning_stay(village, tmp_path):
 def test_only_points_of_the_area_change(file, finished, village, tmp_path):
     x, y = village.points.x + ORIGIN[0], village.points.y + ORIGIN[1]
     west, south, east, north = (*map(np.median, (x, y)), x.max(), y.max())
-    area = Area(box=(west, south, east, north))
-    write_with(file, tmp_path / "out.laz", PointRequest(ClassifyAboveGround(area=area)))
-    before, after, whole = map(_classes, (file, tmp_path / "out.laz", finished))
+    above_ground(file, tmp_path / "out.laz", extent=(west, south, east, north))
+    before, after, whole = map(classes_of, (file, tmp_path / "out.laz", finished))
     inside = (x >= west) & (y >= south)
     assert np.array_equal(after[inside], whole[inside])
     assert np.array_equal(after[~inside], before[~inside])
@@ -364,29 +327,28 @@ def test_only_points_of_the_area_change(file, finished, village, tmp_path):
 
 def test_a_class_that_was_set_by_hand_stays(file, tmp_path):
     marked = tmp_path / "marked.laz"
-    classify(file, marked, ClassifyRequest(selection=Selection(remember_classes=True)))
+    classify(file, marked, remember_classes=True)
     las = laspy.read(marked)
     mine = np.flatnonzero(np.asarray(las.classification) == 2)[::50]
     las.classification[mine] = 1
     las.write(str(marked))
-    bare_earth.above_ground(marked, tmp_path / "out.laz")
-    found = _classes(tmp_path / "out.laz")
+    above_ground(marked, tmp_path / "out.laz")
+    found = classes_of(tmp_path / "out.laz")
     assert set(found[mine]) == {1} and set(np.unique(found)) > {2, 5, 6}
 
 
 def test_a_file_without_ground_is_refused(village, tmp_path):
-    source = _write(tmp_path / "in.laz", village.points, np.ones(village.points.count, np.uint8))
+    source = _write(tmp_path / "in.laz", village, np.ones(village.points.count, np.uint8))
     with pytest.raises(BareEarthError, match="no ground points"):
-        bare_earth.above_ground(source, tmp_path / "out.laz")
+        above_ground(source, tmp_path / "out.laz")
     assert not (tmp_path / "out.laz").exists()
 
 
 def test_a_file_with_nothing_to_change_is_told(village, tmp_path, las):
     classes = np.where(village.ground, 2, 6).astype(np.uint8)
-    source = _write(tmp_path / "in.laz", village.points, classes)
-    heard = las.Heard()
-    assert bare_earth.above_ground(source, tmp_path / "out.laz", progress=heard).changed_count == 0
-    assert any("decided anew" in each for each in heard.warnings)
+    source, progress = _write(tmp_path / "in.laz", village, classes), las.Heard()
+    assert above_ground(source, tmp_path / "out.laz", progress=progress).changed_count == 0
+    assert any("decided anew" in text for text in progress.warnings)
 
 
 def test_the_command(file, tmp_path):
@@ -394,8 +356,8 @@ def test_the_command(file, tmp_path):
     code, text, errors = said("above-ground", file, out, "--above-ground", "ign", "--verbose")
     assert code == 0, errors
     assert "are buildings and" in text
-    write_with(file, tmp_path / "same.laz", PointRequest(ClassifyAboveGround(AboveGround("ign"))))
-    assert np.array_equal(_classes(out), _classes(tmp_path / "same.laz"))
+    above_ground(file, tmp_path / "same.laz", **IGN)
+    assert np.array_equal(classes_of(out), classes_of(tmp_path / "same.laz"))
     code, _, errors = said(
         "above-ground", file, out, "--above-ground", "own", "--medium-height", 3, "--high-height", 1
     )
@@ -405,70 +367,60 @@ def test_the_command(file, tmp_path):
 # In the run that finds the ground
 
 
-def _run(**options):
-    return ClassifyRequest(above_ground=ThenAboveGround("ign"), **options)
-
-
 def test_one_run_finds_the_ground_and_what_is_above(file, classified, village, tmp_path):
     (one, summary), ground, two = classified, tmp_path / "ground.laz", tmp_path / "two.laz"
     classify(file, ground)
-    write_with(ground, two, PointRequest(ClassifyAboveGround(AboveGround("ign"))))
-    assert np.array_equal(_classes(one), _classes(two))
-    assert summary.class_counts == dict(zip(*np.unique(_classes(one), return_counts=True)))
-    assert _iou(_classes(one) == 6, village.classes == 6) > 0.93
+    above_ground(ground, two, **IGN)
+    assert np.array_equal(classes_of(one), classes_of(two))
+    assert summary.class_counts == dict(zip(*np.unique(classes_of(one), return_counts=True)))
+    assert _iou(classes_of(one) == 6, village.classes == 6) > 0.93
 
 
 def test_one_run_on_many_files_does_the_same(classified, village, tmp_path):
-    points, folder = village.points, tmp_path / "in"
+    x, folder = village.points.x, tmp_path / "in"
     folder.mkdir()
-    returns = village.return_number, village.number_of_returns
     for number in range(2):
-        which = np.flatnonzero((points.x > np.median(points.x)) == number)
-        _write(folder / f"{number}.laz", points, _only_ground(village), returns, which)
-    summary = classify([folder], tmp_path / "out", _run())
+        which = np.flatnonzero((x > np.median(x)) == number)
+        _write(folder / f"{number}.laz", village, _only_ground(village), which)
+    summary = classify([folder], tmp_path / "out", **IGN)
     assert summary.class_counts[6] > 2000
     made = sorted((tmp_path / "out").glob("*.laz"))
-    assert np.array_equal(_rows(made), _rows([classified[0]]))
-    again = _run(tiles=TileOutput(resume=True))
-    assert classify([folder], tmp_path / "out", again).kept_count == 2
+    assert np.array_equal(points_of(made), points_of([classified[0]]))
+    assert classify([folder], tmp_path / "out", resume=True, **IGN).kept_count == 2
 
 
 def test_one_run_on_many_files_also_makes_heights_and_goes_on(file, village, tmp_path):
-    heights = Output(height_above_ground=True)
-    classify(file, tmp_path / "one.laz", _run(output=heights))
-    points, folder, out = village.points, tmp_path / "in", tmp_path / "out"
+    how = {**IGN, "height_above_ground": True}
+    classify(file, tmp_path / "one.laz", **how)
+    x, folder, out = village.points.x, tmp_path / "in", tmp_path / "out"
     folder.mkdir()
-    returns = village.return_number, village.number_of_returns
     # So far apart that the first file does not affect the last one.
-    cuts = np.quantile(points.x, (0.2, 0.8))
+    cuts = np.quantile(x, (0.2, 0.8))
     for number in range(3):
-        which = np.flatnonzero(np.searchsorted(cuts, points.x) == number)
-        _write(folder / f"{number}.laz", points, _only_ground(village), returns, which)
-    summary = classify([folder], out, _run(output=heights))
+        which = np.flatnonzero(np.searchsorted(cuts, x) == number)
+        _write(folder / f"{number}.laz", village, _only_ground(village), which)
+    summary = classify([folder], out, **how)
     made = sorted(out.glob("*.laz"))
     assert summary.done_count == 3 and len(made) == 3 and not list(tmp_path.glob("out/.*/waiting*"))
 
     def all_of(paths):
         clouds = [laspy.read(path) for path in paths]
         names = "X", "Y", "Z", "classification", "HeightAboveGround"
-        columns = [np.concatenate([np.asarray(each[name]) for each in clouds]) for name in names]
+        columns = [np.concatenate([np.asarray(las[name]) for las in clouds]) for name in names]
         return np.column_stack(columns)[np.lexsort(columns)]
 
     np.testing.assert_array_equal(all_of(made), all_of([tmp_path / "one.laz"]))
-    again = _run(output=heights, tiles=TileOutput(resume=True))
-    assert classify([folder], out, again).kept_count == 3
+    assert classify([folder], out, resume=True, **how).kept_count == 3
     before = [path.read_bytes() for path in made]
     made[0].unlink()
-    assert classify([folder], out, again).kept_count == 2
+    assert classify([folder], out, resume=True, **how).kept_count == 2
     assert [path.read_bytes() for path in made] == before
 
 
 def test_one_run_also_makes_heights_and_rasters(file, classified, tmp_path):
-    rasters = RasterFiles(dtm=tmp_path / "dtm.tif")
-    classify(
-        file, tmp_path / "all.laz", _run(output=Output(height_above_ground=True), rasters=rasters)
-    )
-    assert np.array_equal(_classes(tmp_path / "all.laz"), _classes(classified[0]))
+    dtm, out = tmp_path / "dtm.tif", tmp_path / "all.laz"
+    classify(file, out, height_above_ground=True, dtm=dtm, **IGN)
+    assert np.array_equal(classes_of(tmp_path / "all.laz"), classes_of(classified[0]))
     las = laspy.read(tmp_path / "all.laz")
     high = np.asarray(las["HeightAboveGround"])
     for value, low, most in ((3, 0.0, 0.5), (4, 0.5, 1.5), (5, 1.5, np.inf)):
@@ -480,32 +432,32 @@ def test_one_run_also_makes_heights_and_rasters(file, classified, tmp_path):
 def test_polygons_of_corrections_hold_above_the_ground(file, village, tmp_path):
     x, y = village.points.x + ORIGIN[0], village.points.y + ORIGIN[1]
     west, south = np.median(x), np.median(y)
-    ring = np.array(
-        [(west, south), (west + 40, south), (west + 40, south + 40), (west, south + 40)]
-    )
-    for name, value in (("other", 1), ("water", 9)):
-        known = Corrections(polygons=((ring,),), classes=(value,))
-        out = tmp_path / f"{name}.laz"
-        classify(file, out, _run(corrections=known))
-        inside = (x > west) & (x < west + 40) & (y > south) & (y < south + 40)
-        found = _classes(out)
+    east, north = west + 40, south + 40
+    ring = [(west, south), (east, south), (east, north), (west, north), (west, south)]
+    polygon = {"type": "Polygon", "coordinates": [ring]}
+    known, out = tmp_path / "known.geojson", tmp_path / "out.laz"
+    for value in (1, 9):
+        feature = {"type": "Feature", "properties": {"class": value}, "geometry": polygon}
+        known.write_text(json.dumps(feature))
+        classify(file, out, corrections=known, **IGN)
+        inside = (x > west) & (x < east) & (y > south) & (y < north)
+        found = classes_of(out)
         assert set(found[inside & (village.classes != 7)]) == {value}
         assert {3, 4, 5, 6} <= set(found[~inside])
 
 
 def test_remembered_classes_are_those_of_the_whole_run(file, tmp_path):
     out, again = tmp_path / "out.laz", tmp_path / "again.laz"
-    selection = Selection(remember_classes=True)
-    classify(file, out, _run(selection=selection))
+    classify(file, out, remember_classes=True, **IGN)
     las = laspy.read(out)
     assert np.array_equal(las["BareEarthClass"], las.classification)
     roofs = np.flatnonzero(np.asarray(las.classification) == 6)[::9]
     las.classification[roofs] = 1
     las.write(str(out))
-    classify(out, again, _run(selection=selection))
-    assert set(_classes(again)[roofs]) == {1}
+    classify(out, again, remember_classes=True, **IGN)
+    assert set(classes_of(again)[roofs]) == {1}
 
 
-def test_the_ground_alone_cannot_have_classes_above_it():
+def test_the_ground_alone_cannot_have_classes_above_it(file, tmp_path):
     with pytest.raises(BareEarthError, match="need all points"):
-        _run(output=Output(ground_only=True))
+        classify(file, tmp_path / "out.laz", ground_only=True, **IGN)
