@@ -36,7 +36,8 @@ def water() -> None:
     keep = ~inside | (random.random(len(x)) < 0.04)
     points, ground = Points(x[keep], y[keep], z[keep]), ~(wood | inside)[keep]
     grid = WaterGrid((0.0, 0.0, _WIDE - 0.01, _HIGH - 0.01), 1.0)
-    grid.add(points, ground, np.zeros(points.count, bool), np.ones(points.count, bool))
+    none = np.zeros(points.count, bool)
+    grid.add(points, ground, none, ~none, none)
     figure, panels = pyplot.subplots(1, 2, figsize=(8.6, 3.0), layout="constrained")
     extent = (0, _WIDE, 0, _HIGH)
     panels[0].imshow(grid.counts, cmap="Greys", vmax=8, origin="lower", extent=extent)
