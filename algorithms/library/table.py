@@ -9,11 +9,11 @@ from typing import Any, Callable, Iterator
 
 from ..core.progress import Progress
 from ..engine.memory import Resources
-from ..runs.options import RasterOutput, TileInput, TileOutput
+from ..engine.options import TileInput, TileOutput
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from ..tools.contours import Contours
-from ..tools.rasters.parameters import SurfaceModel, TerrainModel
+from ..tools.rasters.parameters import RasterOutput, SurfaceModel, TerrainModel
 from . import arguments, tool_commands
 from .arguments import REQUIRED, Argument, path
 from .functions import Function
@@ -64,8 +64,7 @@ def _contours_after(
 
 def _classify() -> Function:
     from ..runs.one_file import Summary
-    from ..tools.above_ground.classes import ThenAboveGround
-    from ..tools.ground.output import Output
+    from ..tools.ground.tool import TOOL
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         from ..runs.entry import classify
@@ -100,10 +99,7 @@ def _classify() -> Function:
             arguments.CRS_OF_OUTPUT, *arguments.rasters(), arguments.CONTOURS, *arguments.TARGET,
             *arguments.CONSTRAINTS, *area, arguments.CORRECTIONS, explain, arguments.VPC, *_REACHES,
         ),
-        (
-            Selection, ThenAboveGround, TerrainModel, SurfaceModel, Contours, Output, TileInput,
-            TileOutput, RasterOutput, Resources,
-        ),
+        TOOL.sets,
         run,
         Summary,
         is_survey_if_many=True,

@@ -11,7 +11,7 @@ from typing import Any
 
 from ..core.progress import Progress
 from ..engine.memory import Resources
-from ..runs.options import TileInput, TileOutput
+from ..engine.options import TileInput, TileOutput
 from ..survey.ground_classes import GroundClasses
 from ..survey.vector_files import FORMATS
 from ..tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool

@@ -23,6 +23,7 @@ from ..engine.blocks import Blocks
 from ..engine.job_queue import JobQueue
 from ..engine.jobs import JobCost
 from ..engine.manifest import folders_of, remove_record
+from ..engine.options import RunOptions
 from ..engine.plan import Plan
 from ..engine.step import PointStep, located
 from ..engine.unpacking import Unpacking
@@ -35,7 +36,7 @@ from ..survey.vpc import write_vpc
 from ..tools.rasters.jobs import make_rasters
 from ..tools.rasters.output import RasterSize
 from ..tools.rasters.step import MakeRasters
-from .requests import ClassifyRequest, RunOptions, TerrainRequest
+from .requests import ClassifyRequest, TerrainRequest
 from .survey_checks import check_rasters, check_stems, check_survey, targets_of
 
 

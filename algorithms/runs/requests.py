@@ -8,8 +8,7 @@ from typing import Any, Iterable, Mapping, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.parameters import HasSets, ParameterSet
-from ..crs.stated import stated_wkt
-from ..engine.memory import Resources
+from ..engine.options import RunOptions
 from ..engine.step import PointStep
 from ..filters import DEFAULT_METHOD, METHODS
 from ..rasters.cell_grid import ANYWHERE, RasterTarget
@@ -23,32 +22,14 @@ from ..tools.declaration import PointTool
 from ..tools.ground.explanation import Explanation
 from ..tools.ground.output import Output
 from ..tools.ground.step import LabelGround
+from ..tools.ground.tool import TileMethod
 from ..tools.heights import MeasureHeights
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
-from ..tools.rasters.parameters import Gaps, SurfaceModel, TerrainModel
+from ..tools.rasters.parameters import Gaps, RasterOutput, SurfaceModel, TerrainModel
 from ..tools.rasters.rows import RasterFiles
 from ..tools.rasters.step import MakeRasters
-from .options import RasterOutput, TileInput, TileMethod, TileOutput
 
 _Request = TypeVar("_Request", bound="Request")
-
-
-@dataclass(frozen=True)
-class RunOptions:
-    """Which files a run reads, how it writes them, and what it may use."""
-
-    files: TileInput = field(default_factory=TileInput)  # of folders
-    # of many files: their format, and whether finished ones are kept
-    tiles: TileOutput = field(default_factory=TileOutput)
-    resources: Resources = field(default_factory=Resources)
-    # The CRS of the points in place of that of files: an EPSG code such as "EPSG:2230", or WKT.
-    # Written point clouds keep their records.
-    crs: str | None = None
-
-    @property
-    def stated(self) -> str | None:
-        """The well-known text of `crs`, or an error if it is not known."""
-        return stated_wkt(self.crs)
 
 
 @dataclass(frozen=True)

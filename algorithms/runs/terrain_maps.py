@@ -9,6 +9,7 @@ from typing import NamedTuple, Sequence
 
 from ..core.files import Outputs, temporary_folder
 from ..core.progress import SILENT, Progress
+from ..engine.options import TileOutput
 from ..survey.files import is_one_file
 from ..survey.outputs import check_outputs, place
 from ..tools.contours import Contours, Interval, draw_contours
@@ -17,7 +18,6 @@ from ..tools.rasters.parameters import MapTerrain
 from ..tools.rasters.rows import RasterFiles
 from .entry import classify
 from .one_file import Summary
-from .options import TileOutput
 from .requests import ClassifyRequest
 
 # The longest first, since it ends as the second does.

@@ -1,11 +1,6 @@
 """Ground classification of many files as one survey, in the toolbox."""
 
-from ...algorithms.engine import memory
-from ...algorithms.runs import options
-from ...algorithms.survey.selection import Selection
-from ...algorithms.tools.above_ground.classes import ThenAboveGround
-from ...algorithms.tools.ground import output
-from ...algorithms.tools.rasters.parameters import Gaps, TerrainModel
+from ...algorithms.tools.ground.tool import TOOL, as_command
 from ..i18n import mark
 from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
@@ -13,26 +8,17 @@ from .classified import show_classified
 from .inputs import add_clouds, clouds_of, names_of
 from .outputs import TILES_STAY, add_rasters, add_tiles, raster_files, raster_paths, shown_rasters
 
-_TILES = {"TILE_COUNT": "Tiles", "DONE_COUNT": "Classified tiles", "KEPT_COUNT": "Tiles kept"}
-_NUMBERS = {**_TILES, "POINT_COUNT": "Points", "GROUND_COUNT": "Ground points"}
-
 
 class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     """Classify ground (many files)."""
 
-    identifier, page, section = "classifytiles", "classify-tiles", "Ground classification"
-    title, run_name = "Classify ground (many files)", mark("classified files")
-    cancelled, shown, unused = TILES_STAY, ("method", "preset"), ("relief_radius",)
-    summary = "Finds the ground points of the many files of a survey, without seams between them."
-    about = (
-        "Classifies the ground points of many files as if they were one file, and writes each file"
-        " under its name into the output folder. A virtual point cloud (.vpc) lists the results."
-    )
+    identifier, page, section, shown = TOOL.identifier, TOOL.page, TOOL.section, TOOL.shown
+    title, summary, about = TOOL.title, TOOL.summary, TOOL.about
+    run_name, cancelled, unused = mark("classified files"), TILES_STAY, ("relief_radius",)
 
     def parameter_sets(self):
         """Return method, points and classes, files, outputs, and resources."""
-        first = options.TileMethod, Selection, options.TileInput, options.ShownTiles, output.Output
-        return *first, ThenAboveGround, TerrainModel, Gaps, options.RasterOutput, memory.Resources
+        return TOOL.dialog_sets
 
     def initAlgorithm(self, configuration=None):
         """Declare the fields of the dialog and the results."""
@@ -42,7 +28,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         add_limits(self)
         add_tiles(self)
         add_rasters(self, ("dtm", "hillshade"))
-        self.add_numbers(_NUMBERS)
+        self.add_numbers(dict(TOOL.numbers))
 
     def find_inputs(self, parameters, context):
         """Find the input files."""
@@ -61,7 +47,7 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         from ...algorithms.runs.entry import classify
         from ...algorithms.runs.requests import ClassifyRequest
 
-        chosen = options.as_command(self.chosen(parameters, context))
+        chosen = as_command(self.chosen(parameters, context))
         folder = self.parameterAsFileOutput(parameters, "OUTPUT_FOLDER", context)
         vpc = self.parameterAsFileOutput(parameters, "OUTPUT_VPC", context)
         paths = raster_paths(self, parameters, context)
@@ -74,5 +60,5 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
         self.class_counts = summary.class_counts
         paths = shown_rasters(paths, request.raster_output, context)
         show_classified(self, summary.vpc, self.class_counts, request, context, progress)
-        counts = {name: getattr(summary, name.lower()) for name in _NUMBERS}
+        counts = {name: getattr(summary, name.lower()) for name, _ in TOOL.numbers}
         return {"OUTPUT_FOLDER": folder, "OUTPUT_VPC": summary.vpc, **paths, **counts}

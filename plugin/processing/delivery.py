@@ -21,7 +21,7 @@ from ...algorithms.delivery.request import (
     DeliveryTerrain,
     DeliveryWater,
 )
-from ...algorithms.runs.options import TileOutput
+from ...algorithms.engine.options import TileOutput
 from ...algorithms.tools.check.accuracy import Accuracy
 from .. import compat
 from ..i18n import mark

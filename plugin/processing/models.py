@@ -16,8 +16,8 @@ from qgis.core import (
 
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import ParameterSet
-from ...algorithms.runs.options import TileMethod
 from ...algorithms.tools.contours import Interval
+from ...algorithms.tools.ground.tool import TileMethod
 from .. import compat
 from ..i18n import tr
 from ..styles import layers, rasters

@@ -21,8 +21,8 @@ from qgis.core import (
 from ...algorithms.core.files import split_name
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from ...algorithms.rasters.virtual import virtual_of
-from ...algorithms.runs.options import RasterOutput
 from ...algorithms.survey.files import is_one_file
+from ...algorithms.tools.rasters.parameters import RasterOutput
 from ...algorithms.tools.rasters.rows import RASTERS, RasterFiles
 from .. import compat
 from ..i18n import tr

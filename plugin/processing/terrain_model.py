@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from ...algorithms.engine.memory import Resources
-from ...algorithms.runs.options import RasterOutput
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
-from ...algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
+from ...algorithms.tools.rasters.parameters import RasterOutput, SurfaceModel, TerrainModel
 from ..i18n import mark
 from .area import OF_RASTERS, add_area, area_of, area_options, given_options
 from .base import command_line

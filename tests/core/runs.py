@@ -15,12 +15,12 @@ from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.core.temporary import is_temporary
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_store import MemoryStore
+from bare_earth.algorithms.engine.options import TileInput, TileOutput
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.runs import many_files
 from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.entry import write as write_with
-from bare_earth.algorithms.runs.options import RasterOutput, TileInput, TileOutput
 from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
@@ -28,7 +28,7 @@ from bare_earth.algorithms.tools import file_tool
 from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.heights import HeightOutput, MeasureHeights
 from bare_earth.algorithms.tools.key_points import FindKeyPoints, KeyPointMark
-from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
+from bare_earth.algorithms.tools.rasters.parameters import RasterOutput, SurfaceModel, TerrainModel
 from bare_earth.algorithms.tools.rasters.step import RasterFiles
 from bare_earth.algorithms.tools.running import run
 

@@ -19,10 +19,10 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core import version
 from bare_earth.algorithms.engine import cluster as cluster_module
 from bare_earth.algorithms.engine.cluster import Cluster
+from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.runs import many_files as many_files_module
-from bare_earth.algorithms.runs.options import TileOutput
 
 FAST = SlopeFilter(preset="whitebox")
 KILLS = int(os.environ.get("BARE_EARTH_KILLS", "10"))

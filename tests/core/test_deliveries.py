@@ -25,11 +25,11 @@ from bare_earth.algorithms.delivery.request import (
     DeliveryTerrain,
     DeliveryWater,
 )
+from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.grids.lines import along
 from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.runs.entry import classify, terrain
-from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.selection import Selection

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from bare_earth import BareEarthError
+from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.runs import many_files
-from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.runs.requests import ClassifyRequest
 from bare_earth.algorithms.survey import overview
 from bare_earth.algorithms.survey.files import find_files

@@ -15,11 +15,11 @@ from bare_earth.algorithms.core.files import Outputs
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.engine.workers import Processes, Threads
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.tin import Tin, hull_corners
 from bare_earth.algorithms.las.cloud import survey_frame
-from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.tools.rasters.block import LAYERS
 from bare_earth.algorithms.tools.rasters.jobs import RasterJob
 from bare_earth.algorithms.tools.rasters.output import write_rasters

@@ -13,11 +13,11 @@ import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.runs import entry as runs_module
 from bare_earth.algorithms.runs.many_files import write_files
-from bare_earth.algorithms.runs.options import TileOutput
 from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection

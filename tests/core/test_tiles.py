@@ -35,6 +35,7 @@ from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, group
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.jobs import PointJob
 from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.options import TileInput, TileOutput
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
@@ -45,7 +46,6 @@ from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.las import reading as reading_module
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.runs.options import TileInput, TileMethod, TileOutput
 from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
@@ -53,6 +53,7 @@ from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from bare_earth.algorithms.tools.ground.labelling import Label, label_ground
 from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.ground.step import LabelGround
+from bare_earth.algorithms.tools.ground.tool import TileMethod
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())

@@ -12,8 +12,8 @@ from ...core.files import split_name
 from ...core.parameters import ParameterSet, parameter
 from ...filters import METHODS
 from ...filters.method import Method
-from ...runs.options import TileMethod
 from ...survey.files import is_one_file
+from ..ground.tool import TileMethod
 
 # By default at most so many metres are read round the window.
 USUAL_CONTEXT = 50.0

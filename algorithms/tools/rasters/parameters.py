@@ -169,3 +169,17 @@ class SurfaceModel(ParameterSet):
         " cells that lie over 2 m below the mean of their neighbours to the median of them, as"
         " crowns and trees are easier to find without pits. The surface model keeps them.",
     )
+
+
+@dataclass(frozen=True)
+class RasterOutput(ParameterSet):
+    """How the rasters of many files are cut."""
+
+    raster_per_file: bool = parameter(
+        False,
+        label="One raster for each file",
+        advanced=True,
+        help="Cuts each raster of many files into one GeoTIFF for each file. They get the names of"
+        " the files, in a folder with the name of the raster. A virtual raster (.vrt) beside this"
+        " folder shows them as one.",
+    )
