@@ -7,9 +7,9 @@ from typing import Any, Mapping, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
+from ..engine.options import TileInput
 from ..filters import DEFAULT_METHOD, METHODS
 from ..rasters.cell_grid import ANYWHERE, RasterTarget
-from ..runs.options import TileInput
 from ..runs.requests import ClassifyRequest, PointRequest, Request
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections

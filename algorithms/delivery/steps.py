@@ -13,7 +13,6 @@ from ..core.files import make_work_folder, split_name
 from ..core.progress import Progress
 from ..core.temporary import patiently, remove
 from ..engine.manifest import folders_of
-from ..engine.options import TileInput
 from ..engine.workers import Workers
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..report.units import Units
