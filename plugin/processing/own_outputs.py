@@ -9,10 +9,10 @@ from qgis.core import QgsProcessingContext
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
-from ...algorithms.runs.options import TileMethod
 from ...algorithms.survey.kept_classes import GROUND
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.contours import Contours
+from ...algorithms.tools.ground.tool import TileMethod
 from ...algorithms.tools.rasters.parameters import MapTerrain, SurfaceModel, TerrainModel
 from ..styles.layers import BELOW_TERRAIN, contours
 from . import outputs
