@@ -12,7 +12,7 @@ from typing import Any, Callable, Collection, Iterable, Mapping
 
 from ..core.parameters import Declaration, ParameterSet
 from ..filters import METHODS
-from ..tools.ground.tool import TileMethod
+from ..tools.ground.method import TileMethod
 from .arguments import REQUIRED, Argument, Kind
 
 _WIDTH = 92

@@ -20,9 +20,9 @@ from ..tools.above_ground import ClassifyAboveGround
 from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.declaration import PointTool
 from ..tools.ground.explanation import Explanation
+from ..tools.ground.method import TileMethod
 from ..tools.ground.output import Output
 from ..tools.ground.step import LabelGround
-from ..tools.ground.tool import TileMethod
 from ..tools.heights import MeasureHeights
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
 from ..tools.rasters.parameters import Gaps, RasterOutput, SurfaceModel, TerrainModel

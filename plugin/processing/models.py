@@ -17,7 +17,7 @@ from qgis.core import (
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.tools.contours import Interval
-from ...algorithms.tools.ground.tool import TileMethod
+from ...algorithms.tools.ground.method import TileMethod
 from .. import compat
 from ..i18n import tr
 from ..styles import layers, rasters

@@ -12,7 +12,7 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.survey.kept_classes import GROUND
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.contours import Contours
-from ...algorithms.tools.ground.tool import TileMethod
+from ...algorithms.tools.ground.method import TileMethod
 from ...algorithms.tools.rasters.parameters import MapTerrain, SurfaceModel, TerrainModel
 from ..styles.layers import BELOW_TERRAIN, contours
 from . import outputs

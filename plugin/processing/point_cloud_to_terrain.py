@@ -6,7 +6,7 @@ from ...algorithms.delivery.request import DeliveryChoice, DeliveryTerrain
 from ...algorithms.engine.memory import Resources
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.contours import Contours
-from ...algorithms.tools.ground.tool import TileMethod
+from ...algorithms.tools.ground.method import TileMethod
 from ...algorithms.tools.rasters.parameters import SurfaceModel
 from . import delivery, outputs
 from .area import MAPPED, add_area, add_limits, limits_of

@@ -8,7 +8,7 @@ from typing import Any, Collection, Sequence
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.filters import METHODS
 from ...algorithms.filters.method import Method
-from ...algorithms.tools.ground.tool import TileMethod
+from ...algorithms.tools.ground.method import TileMethod
 from ..i18n import number, tr
 from .fields import title_of
 

@@ -51,9 +51,9 @@ from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from bare_earth.algorithms.tools.ground.labelling import Label, label_ground
+from bare_earth.algorithms.tools.ground.method import TileMethod
 from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.ground.step import LabelGround
-from bare_earth.algorithms.tools.ground.tool import TileMethod
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())

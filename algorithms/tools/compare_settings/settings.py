@@ -13,7 +13,7 @@ from ...core.parameters import ParameterSet, parameter
 from ...filters import METHODS
 from ...filters.method import Method
 from ...survey.files import is_one_file
-from ..ground.tool import TileMethod
+from ..ground.method import TileMethod
 
 # By default at most so many metres are read round the window.
 USUAL_CONTEXT = 50.0

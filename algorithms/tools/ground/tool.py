@@ -5,41 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Iterable
 
-from ...core.parameters import ParameterSet, parameter, parameter_of
+from ...core.parameters import ParameterSet, parameter_of
 from ...engine.memory import Resources
 from ...engine.options import TileInput, TileOutput
-from ...filters import DEFAULT_METHOD, METHODS
-from ...filters.method import TERRAINS
 from ...survey.selection import Selection
 from ..above_ground.classes import ThenAboveGround
 from ..contours import Contours
 from ..declaration import Tool
 from ..rasters.parameters import Gaps, RasterOutput, SurfaceModel, TerrainModel
+from .method import TileMethod
 from .output import Output
-
-
-@dataclass(frozen=True)
-class TileMethod(ParameterSet):
-    """The ground filter, by its name and a preset."""
-
-    method: str = parameter(
-        DEFAULT_METHOD,
-        label="Method",
-        choices={name: method.label for name, method in METHODS.items()},
-        help="The ground filter. TIN densification is the most accurate.",
-    )
-    preset: str = parameter(
-        "automatic",
-        label="Preset",
-        choices=TERRAINS,
-        help="The values of the method for a kind of terrain. For other values, use the command"
-        " line or the algorithm of the method.",
-    )
-
-    @property
-    def parameters(self) -> ParameterSet:
-        """The parameters of the method."""
-        return METHODS[self.method].parameters(preset=self.preset)
 
 
 @dataclass(frozen=True)
