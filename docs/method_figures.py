@@ -112,7 +112,7 @@ def tin_densification_steps() -> None:
         candidates=OTHER, seeds=GROUND, joined=ADDED,
     )  # fmt: skip
     x, y = strip.line()
-    below, above = (cells.at(limits[..., side], x, y) for side in (0, 1))
+    below, above = (cells.interpolated(limits[..., side], x, y) for side in (0, 1))
     axes[3].fill_between(x - strip.west, below, above, color="#f0d9a8", linewidth=0)
     strip.draw(axes[3], np.flatnonzero(~ground), OTHER)
     strip.draw(axes[3], np.flatnonzero(ground), GROUND, 6)

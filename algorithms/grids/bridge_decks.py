@@ -102,7 +102,7 @@ def _joins_ground(relief: Relief) -> np.ndarray:
     """Return the cells of smooth surfaces that are partly ground, unlike most roofs."""
     from scipy import ndimage
 
-    lowest, highest = (within_square(each, relief.heights, 1) for each in (np.fmin, np.fmax))
+    lowest, highest = (within_square(extreme, relief.heights, 1) for extreme in (np.fmin, np.fmax))
     label, _ = ndimage.label(highest - lowest <= 2.0 * relief.step)
     has_ground = np.bincount(label.ravel(), weights=relief.is_ground.ravel()) > 0
     has_ground[0] = False

@@ -66,11 +66,11 @@ class Sections(NamedTuple):
 
     def take(self, which: np.ndarray | slice) -> Sections:
         """Return the cross-sections that a mask, an index array or a slice selects."""
-        return Sections(*(each[which] for each in self))
+        return Sections(*(column[which] for column in self))
 
     def middles(self, relief: Relief) -> np.ndarray:
         """Return the cells halfway, in the flattened grid."""
-        return _Compass.of(relief).at(self, self.steps // 2)
+        return _Compass.of(relief).cells(self, self.steps // 2)
 
     def cells_of(self, relief: Relief) -> np.ndarray:
         """Return which cells of the grid they cross; boolean, shape (rows, columns)."""
@@ -102,7 +102,7 @@ def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule
     steps = _lengths(relief, compass, lines)
     found = steps >= 0
     lines, foot, off = lines._replace(steps=steps).take(found), foot[found], off[found]
-    heights, end = relief.heights.ravel(), compass.at(lines, lines.steps)
+    heights, end = relief.heights.ravel(), compass.cells(lines, lines.steps)
     length = compass.length[lines.direction] * (lines.steps + 1)
     found = np.abs(heights[end] - heights[lines.start]) <= _TILT + _TILT_SLOPE * length
     lines, foot, off, end = lines.take(found), foot[found], off[found], end[found]
@@ -136,12 +136,12 @@ class _Compass(NamedTuple):
         longest = np.maximum(np.abs(up), np.abs(right))
         step = np.arange(int((_LONGEST + _GAP) / relief.cell) + 3)
         rows, columns = (
-            np.rint(np.outer(each / longest, step)).astype(np.intp) for each in (up, right)
+            np.rint(np.outer(steps / longest, step)).astype(np.intp) for steps in (up, right)
         )
         length = relief.cell / longest
         return cls(rows, columns, rows * relief.heights.shape[1] + columns, length)
 
-    def at(self, lines: Sections, step: int | np.ndarray) -> np.ndarray:
+    def cells(self, lines: Sections, step: int | np.ndarray) -> np.ndarray:
         """Return the cells of some lines after so many steps."""
         return lines.start + self.offsets[lines.direction, step]
 
@@ -192,7 +192,7 @@ def _feet(
         found &= is_ground[cell]
         foot[left[found]], off[left[found]] = there[found], step
         left = left[~found]
-    left = np.flatnonzero((off == 0) & np.isnan(heights[compass.at(lines, 1)]))
+    left = np.flatnonzero((off == 0) & np.isnan(heights[compass.cells(lines, 1)]))
     row, column = np.divmod(lines.start, relief.heights.shape[1])
     for step in range(2, int(_VOID_FOOT / relief.cell) + 1):
         if not len(left):
@@ -201,7 +201,7 @@ def _feet(
         there_row = row[left] + compass.rows[some.direction, step]
         there_column = column[left] + compass.columns[some.direction, step]
         inside = are_inside(there_row, there_column, relief.heights.shape)
-        left, cell = left[inside], compass.at(some, step)[inside]
+        left, cell = left[inside], compass.cells(some, step)[inside]
         there = heights[cell]
         drop = _VOID_DROP + _VOID_SLOPE * step * length[left]
         found = is_ground[cell] & (there <= edge[left] - drop)
@@ -218,7 +218,7 @@ def _lengths(relief: Relief, compass: _Compass, lines: Sections) -> np.ndarray:
     step = 0
     while len(left):
         step += 1
-        there = heights[compass.at(lines.take(left), step)]
+        there = heights[compass.cells(lines.take(left), step)]
         gap = (step - steps[left]) * length[left]
         rise = np.abs(there - last[left])
         on = rise <= STEP + STEP_SLOPE * np.maximum(gap, relief.spacing)
@@ -241,12 +241,12 @@ def _is_clear(
     clear = np.ones(len(edge), dtype=bool)
     apart, columns = relief.apart, relief.heights.shape[1]
     for share in (0.25, 0.5, 0.75):
-        middle = compass.at(lines, np.rint(share * off).astype(np.intp))
+        middle = compass.cells(lines, np.rint(share * off).astype(np.intp))
         for up, right in itertools.product((-apart, 0, apart), repeat=2):
             cell = middle + (up * columns + right)
             there = heights[cell]
             clear &= ~(is_ground[cell] & (there > low) & (there < high))
     for step in range(1, round(_BEYOND / relief.cell) + 1):
-        cell = compass.at(lines, off + step)
+        cell = compass.cells(lines, off + step)
         clear &= ~(is_ground[cell] & (heights[cell] > edge - _PIT * drop))
     return clear

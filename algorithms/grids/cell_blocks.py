@@ -24,7 +24,7 @@ class CellBlocks(NamedTuple):
     def over(cls, cells: Cells, size: float, least: int = 2) -> CellBlocks:
         """Return blocks of about `size` metres that are at least `least` cells wide."""
         side = max(round(size / cells.size), least)
-        blocks, within = zip(*(divmod(each, side) for each in cells.first))
+        blocks, within = zip(*(divmod(first, side) for first in cells.first))
         return cls(side * cells.size, side, within, blocks)
 
     def grid(self, heights: HeightGrid) -> HeightGrid:
@@ -60,8 +60,12 @@ class CellBlocks(NamedTuple):
         padded = np.full(shape, neutral, dtype=grid.dtype)
         padded[self._cells(grid.shape)] = grid
         # By slices, because NumPy is slow at reducing short axes.
-        rows = functools.reduce(function, (padded[at :: self.side] for at in range(self.side)))
-        return functools.reduce(function, (rows[:, at :: self.side] for at in range(self.side)))
+        rows = functools.reduce(
+            function, (padded[start :: self.side] for start in range(self.side))
+        )
+        return functools.reduce(
+            function, (rows[:, start :: self.side] for start in range(self.side))
+        )
 
     def _cells(self, shape: tuple[int, int]) -> tuple[slice, ...]:
         return tuple(slice(first, first + count) for first, count in zip(self.first, shape))

@@ -22,14 +22,14 @@ class CellWindow(NamedTuple):
     @classmethod
     def with_centres_in(cls, box: tuple[float, float, float, float], cell: float) -> CellWindow:
         """Return the cells whose centres lie in a box, without its largest x and y."""
-        west, south, east, north = (math.ceil(each / cell - 0.5) for each in box)
+        west, south, east, north = (math.ceil(side / cell - 0.5) for side in box)
         return cls(south, west, max(north - south, 0), max(east - west, 0))
 
     @classmethod
     def around(cls, box: tuple[float, float, float, float], cell: float) -> CellWindow:
         """Return the cells that cover a box."""
-        west, south = (math.floor(each / cell + _ROUNDING) for each in box[:2])
-        east, north = (math.ceil(each / cell - _ROUNDING) for each in box[2:])
+        west, south = (math.floor(side / cell + _ROUNDING) for side in box[:2])
+        east, north = (math.ceil(side / cell - _ROUNDING) for side in box[2:])
         return cls(south, west, max(north - south, 1), max(east - west, 1))
 
     @property
@@ -67,11 +67,11 @@ class CellWindow(NamedTuple):
         """Return the cells of some rows, which are counted from the north."""
         return self._replace(row=self.row + self.rows - end, rows=end - start)
 
-    def within(self, other: CellWindow) -> CellWindow:
+    def within(self, window: CellWindow) -> CellWindow:
         """Return the cells that both windows share; it is empty if they are apart."""
-        row, column = max(self.row, other.row), max(self.column, other.column)
-        north = min(self.row + self.rows, other.row + other.rows)
-        east = min(self.column + self.columns, other.column + other.columns)
+        row, column = max(self.row, window.row), max(self.column, window.column)
+        north = min(self.row + self.rows, window.row + window.rows)
+        east = min(self.column + self.columns, window.column + window.columns)
         return CellWindow(row, column, north - row, east - column)
 
     def places(
@@ -80,6 +80,6 @@ class CellWindow(NamedTuple):
         """Return row and column, int64 (n,), in the window of the cells that hold places in metres
         from a corner in metres; negative or too large outside the window.
         """
-        start_x, start_y = (at - by for at, by in zip(self.corner(cell), corner))
+        start_x, start_y = (place - start for place, start in zip(self.corner(cell), corner))
         rows = np.floor((y - start_y) / cell + _ROUNDING).astype(np.int64)
         return rows, np.floor((x - start_x) / cell + _ROUNDING).astype(np.int64)

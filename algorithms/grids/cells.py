@@ -197,13 +197,13 @@ class Cells:
         column = x / self.size - (self.first_column + 0.5)
         return ndimage.map_coordinates(grid, (row, column), order=1, mode="nearest")
 
-    def resampled(self, grid: np.ndarray, other: Cells) -> np.ndarray:
+    def resampled(self, grid: np.ndarray, cells: Cells) -> np.ndarray:
         """Return a grid on the cells of `other`, with the value of the cell that holds the centre,
         or beyond this grid the value of the border.
         """
-        row = np.floor((other.first_row + np.arange(other.rows) + 0.5) * other.size / self.size)
+        row = np.floor((cells.first_row + np.arange(cells.rows) + 0.5) * cells.size / self.size)
         column = np.floor(
-            (other.first_column + np.arange(other.columns) + 0.5) * other.size / self.size
+            (cells.first_column + np.arange(cells.columns) + 0.5) * cells.size / self.size
         )
         row = np.clip(row.astype(int) - self.first_row, 0, self.rows - 1)
         column = np.clip(column.astype(int) - self.first_column, 0, self.columns - 1)

@@ -42,7 +42,9 @@ def enclosing_triangles(
     nearest, are_there = _nearest_of_quarters(x, y, distance, quarters)
     active = np.flatnonzero(are_there)
     if len(active) < count:
-        x, y, distance, nearest = (each.take(active, axis=1) for each in (x, y, distance, nearest))
+        x, y, distance, nearest = (
+            values.take(active, axis=1) for values in (x, y, distance, nearest)
+        )
     triangle = _first_triangle(x, y, nearest)
     for _ in range(_MOST_STEPS):
         a, b = picked(x, triangle), picked(y, triangle)
@@ -62,7 +64,7 @@ def enclosing_triangles(
         if len(ended):
             active, worst = active[left], worst[left]
             x, y, distance, triangle, a, b = (
-                each.take(left, axis=1) for each in (x, y, distance, triangle, a, b)
+                values.take(left, axis=1) for values in (x, y, distance, triangle, a, b)
             )
         leaving = leaving_corner(a, b, picked(x, worst), picked(y, worst))
         triangle[leaving, np.arange(len(left))] = worst
@@ -85,7 +87,7 @@ def heights_of_four(
     # the same, and the others differ by some millimetres. A height is found where all four are
     # there and one of their triangles holds the query. x, y and z are (4, q), relative to the
     # query.
-    ahead_x, ahead_y = (np.roll(each, -1, axis=0) - each for each in (x, y))
+    ahead_x, ahead_y = (np.roll(axis, -1, axis=0) - axis for axis in (x, y))
     behind_x, behind_y = -np.roll(ahead_x, 1, axis=0), -np.roll(ahead_y, 1, axis=0)
     dot = ahead_x * behind_x + ahead_y * behind_y
     cross = ahead_x * behind_y - ahead_y * behind_x
@@ -93,11 +95,13 @@ def heights_of_four(
     # at most 180 degrees.
     is_first = cross[1] * dot[3] + dot[1] * cross[3] >= 0.0
     start = np.where(is_first, 0, 1)
-    one, other = start, start + 2
+    one, opposite = start, start + 2
     one_x, one_y = picked(x, one), picked(y, one)
-    is_left = (picked(y, other) - one_y) * one_x - (picked(x, other) - one_x) * one_y > 0.0
+    is_left = (picked(y, opposite) - one_y) * one_x - (picked(x, opposite) - one_x) * one_y > 0.0
     third = np.where(is_left, start + 3, start + 1) % 4
-    corners = np.stack((one, np.where(is_left, other, third), np.where(is_left, third, other)))
+    corners = np.stack(
+        (one, np.where(is_left, opposite, third), np.where(is_left, third, opposite))
+    )
     a, b = picked(x, corners), picked(y, corners)
     weights = _opposite_areas(a, b)
     total = weights.sum(axis=0)
@@ -115,7 +119,7 @@ def _nearest_of_quarters(
     corners, are_there = np.empty((4, x.shape[1]), dtype=np.intp), np.ones(x.shape[1], dtype=bool)
     if quarters is None:
         # To add a large distance is ten times as fast as to select the vertices of a quarter.
-        west, south = (np.multiply(each >= 0.0, _FAR) for each in (x, y))
+        west, south = (np.multiply(axis >= 0.0, _FAR) for axis in (x, y))
         east, north = _FAR - west, _FAR - south
         beyond = ((west, south), (east, south), (east, north), (west, north))
     for number in range(4):

@@ -62,10 +62,10 @@ class DenseSurface:
         places = itertools.product(*(range(-(-count // side)) for count in shape))
 
         def fill(place: tuple[int, int]) -> None:
-            cells = tuple(slice(each * side, (each + 1) * side) for each in place)
+            cells = tuple(slice(number * side, (number + 1) * side) for number in place)
             row, column = (
-                np.arange(min(count - each * side, side)) * VERTICES_A_SIDE + 1
-                for each, count in zip(place, shape)
+                np.arange(min(count - number * side, side)) * VERTICES_A_SIDE + 1
+                for number, count in zip(place, shape)
             )
             row, column = np.repeat(row, len(column)), np.tile(column, len(row))
             queries = Queries(column.astype(float), row.astype(float), column, row)
@@ -78,8 +78,8 @@ class DenseSurface:
         if len(left):
             row, column = np.divmod(left, shape[1])
             x, y = (
-                (each + 0.5) * self._cell + start
-                for each, start in zip((column, row), self._thinned.anchor)
+                (cell + 0.5) * self._cell + start
+                for cell, start in zip((column, row), self._thinned.anchor)
             )
             cells, part = CellLattice(self._thinned.anchor, self._cell), progress.part(0.5, 1.0)
             heights.ravel()[left] = self._rest(x, y, max_edge, part, cells)
@@ -101,10 +101,10 @@ class DenseSurface:
         def fill(group: tuple[tuple[int, int], np.ndarray]) -> None:
             place, which = group
             at_x, at_y = (
-                self._thinned.cells(each[which], axis) - place[1 - axis] * TILE
-                for axis, each in enumerate((x, y))
+                self._thinned.cells(places[which], axis) - place[1 - axis] * TILE
+                for axis, places in enumerate((x, y))
             )
-            corners = (np.rint(each).astype(np.intp) for each in (at_x, at_y))
+            corners = (np.rint(places).astype(np.intp) for places in (at_x, at_y))
             queries = Queries(at_x, at_y, *corners)
             heights[which], sure[which] = self._in_tile(place, queries, False, max_edge)
 
@@ -132,8 +132,8 @@ class DenseSurface:
         near = [self.hull]
         for place, tile in thinned.tiles.items():
             beyond = (
-                np.maximum(np.abs(at - (number + 0.5) * TILE) - 0.5 * TILE, 0.0)
-                for at, number in zip((row, column), place)
+                np.maximum(np.abs(places - (number + 0.5) * TILE) - 0.5 * TILE, 0.0)
+                for places, number in zip((row, column), place)
             )
             if (np.hypot(*beyond) <= farthest).any():
                 near.append(tile.which)
@@ -195,9 +195,9 @@ def _by_tile(
     if not len(x):
         return []
     row, column = (
-        (thinned.cells(each, axis) // TILE).astype(np.int32) for axis, each in ((1, y), (0, x))
+        (thinned.cells(places, axis) // TILE).astype(np.int32) for axis, places in ((1, y), (0, x))
     )
-    (south, north), (west, east) = ((int(each.min()), int(each.max())) for each in (row, column))
+    (south, north), (west, east) = ((int(tiles.min()), int(tiles.max())) for tiles in (row, column))
     width = east - west + 1
     # Small integers, since there are many queries; two bytes are sorted fastest.
     codes = (row - south).astype(np.min_scalar_type((north - south + 1) * width))
@@ -206,7 +206,7 @@ def _by_tile(
     order = np.argsort(codes, kind="stable")
     codes = codes[order]
     groups = np.split(order, np.flatnonzero(codes[1:] != codes[:-1]) + 1)
-    return [((int(row[each[0]]), int(column[each[0]])), each) for each in groups]
+    return [((int(row[which[0]]), int(column[which[0]])), which) for which in groups]
 
 
 def _marked(
@@ -216,8 +216,8 @@ def _marked(
     marked: dict[tuple[int, int], np.ndarray] = {}
     for place, which in _by_tile(thinned, x, y):
         row, column = (
-            np.floor(thinned.cells(each[which], axis)).astype(np.intp) - at * TILE + rim
-            for axis, each, at in ((1, y, place[0]), (0, x, place[1]))
+            np.floor(thinned.cells(places[which], axis)).astype(np.intp) - number * TILE + rim
+            for axis, places, number in ((1, y, place[0]), (0, x, place[1]))
         )
         near = np.zeros((TILE + 2 * rim,) * 2, dtype=np.uint8)
         near[row, column] = 1
@@ -228,7 +228,7 @@ def _marked(
             for k in (-1, 0, 1):
                 part = padded[(1 + i) * TILE : (2 + i) * TILE, (1 + k) * TILE : (2 + k) * TILE]
                 if part.any():
-                    other = place[0] + i, place[1] + k
+                    beside = place[0] + i, place[1] + k
                     flat = part.ravel()
-                    marked[other] = marked[other] | flat if other in marked else flat.copy()
+                    marked[beside] = marked[beside] | flat if beside in marked else flat.copy()
     return marked

@@ -31,9 +31,9 @@ class Network(NamedTuple):
     def chains(self) -> list[np.ndarray]:
         """Return the ways between stations that have not two neighbours."""
         beside: list[list[int]] = [[] for _ in range(self.size)]
-        for one, other in self.edges.tolist():
-            beside[one].append(other)
-            beside[other].append(one)
+        for one, two in self.edges.tolist():
+            beside[one].append(two)
+            beside[two].append(one)
         found, passed = [], np.zeros(self.size, dtype=bool)
         ends = [station for station in range(self.size) if len(beside[station]) != 2]
         used: set[tuple[int, int]] = set()
@@ -55,10 +55,10 @@ class Network(NamedTuple):
         """Return the symmetric matrix of neighbours, sparse."""
         from scipy.sparse import coo_matrix
 
-        one, other = self.edges.reshape(-1, 2).T
+        one, two = self.edges.reshape(-1, 2).T
         values = np.broadcast_to(np.asarray(weights, dtype=np.float64), one.shape)
         shape = self.size, self.size
-        half = coo_matrix((values, (one, other)), shape=shape)
+        half = coo_matrix((values, (one, two)), shape=shape)
         return (half + half.T).tocsr()
 
 
@@ -66,8 +66,8 @@ def _way_on(beside: list[list[int]], start: int, second: int) -> list[int]:
     """Return the way from a station over its neighbour to the next end or junction."""
     way = [start, second]
     while len(beside[way[-1]]) == 2 and way[-1] != start:
-        one, other = beside[way[-1]]
-        way.append(other if one == way[-2] else one)
+        one, two = beside[way[-1]]
+        way.append(two if one == way[-2] else one)
     return way
 
 
@@ -146,13 +146,13 @@ def _directed(chains: list[np.ndarray], smooth: np.ndarray) -> list[np.ndarray]:
             cut = 0
         parts = [chain[: cut + 1], chain[cut:]] if 0 < cut < len(chain) - 1 else [chain]
         found += [part if smooth[part[0]] >= smooth[part[-1]] else part[::-1] for part in parts]
-    return sorted(found, key=lambda each: -float(smooth[each[0]]))
+    return sorted(found, key=lambda chain: -float(smooth[chain[0]]))
 
 
 def _ordered(values: np.ndarray, weights: np.ndarray, chains: list[np.ndarray]) -> np.ndarray:
     """Return the values with the least squared distance that rise in no chain (Dykstra 1983)."""
     levels = values.copy()
-    moved = [np.zeros(len(each)) for each in chains]
+    moved = [np.zeros(len(chain)) for chain in chains]
     for _ in range(_PROJECTIONS if len(chains) > 1 else 1):
         before = levels.copy()
         for number, chain in enumerate(chains):
@@ -206,9 +206,9 @@ def isotonic(values: np.ndarray, weights: np.ndarray | None = None) -> np.ndarra
     for value, share in zip(values.tolist(), shares.tolist()):
         mean, weight, count = value, share, 1
         while pools and pools[-1][0] > mean:
-            before, other, more = pools.pop()
-            mean = (mean * weight + before * other) / (weight + other)
-            weight, count = weight + other, count + more
+            before, share_before, more = pools.pop()
+            mean = (mean * weight + before * share_before) / (weight + share_before)
+            weight, count = weight + share_before, count + more
         pools.append((mean, weight, count))
     means, _, counts = zip(*pools) if pools else ((), (), ())
     return np.repeat(np.array(means, dtype=np.float64), np.array(counts, dtype=np.int64))

@@ -97,7 +97,7 @@ class GrowingTin:
             lowest = np.minimum(np.minimum(areas[0], areas[1]), areas[2])
             is_outside = lowest < -_OUTSIDE
             go = np.flatnonzero(is_outside)
-            into = self._next_triangle(here[go], [each[go] for each in areas])
+            into = self._next_triangle(here[go], [values[go] for values in areas])
             is_outside[go[into < 0]] = False
             stay = np.flatnonzero(~is_outside)
             found = self._interpolated([e[stay] for e in corners], [e[stay] for e in areas])
@@ -137,13 +137,17 @@ class GrowingTin:
         self, x: np.ndarray, y: np.ndarray, corners: list[np.ndarray]
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the `opposite_areas` of places in triangles with some corners."""
-        to_x, to_y = ([of.take(k) - at for k in corners] for of, at in zip(self.vertices, (x, y)))
+        to_x, to_y = (
+            [of.take(k) - place for k in corners] for of, place in zip(self.vertices, (x, y))
+        )
         return opposite_areas(to_x, to_y)
 
     def _interpolated(self, corners: list[np.ndarray], areas: list[np.ndarray]) -> np.ndarray:
         # Places may lie outside by rounding. Heights must not be extrapolated.
-        weights = [np.maximum(each, 0.0) for each in areas]
-        height = sum(each * self.vertices.z.take(at) for each, at in zip(weights, corners))
+        weights = [np.maximum(area, 0.0) for area in areas]
+        height = sum(
+            weight * self.vertices.z.take(corner) for weight, corner in zip(weights, corners)
+        )
         with np.errstate(divide="ignore", invalid="ignore"):
             return height / (weights[0] + weights[1] + weights[2])
 
@@ -166,7 +170,7 @@ class GrowingTin:
         """Return the nearest half-edge of each point's triangle, and if the point lies on it."""
         corners = [self.corners[3 * triangle + k] for k in range(3)]
         areas = np.stack(self._opposite_areas(points.x, points.y, corners))
-        x, y = (np.stack([values[each] for each in corners]) for values in self.vertices[:2])
+        x, y = (np.stack([values[corner] for corner in corners]) for values in self.vertices[:2])
         squared = (x - np.roll(x, -1, axis=0)) ** 2 + (y - np.roll(y, -1, axis=0)) ** 2
         # Row k is for the edge from corner k + 1 to k + 2, which is opposite to corner k.
         share = areas / np.roll(squared, -1, axis=0)
@@ -230,9 +234,9 @@ class GrowingTin:
         self.twins[after] = twins
         self.twins[twins[twins >= 0]] = after[twins >= 0]
 
-    def _join(self, one: np.ndarray, other: np.ndarray) -> None:
+    def _join(self, one: np.ndarray, two: np.ndarray) -> None:
         """Make half-edges twins."""
-        self.twins[one], self.twins[other] = other, one
+        self.twins[one], self.twins[two] = two, one
 
     def _flip(self, edges: np.ndarray, changed: np.ndarray) -> None:
         """Flip half-edges, and those round them, until no circumcircle holds a vertex; set
@@ -242,7 +246,7 @@ class GrowingTin:
         for _ in range(_MOST_STEPS):
             parts = [edges[part] for part in parts_of(len(edges), _EDGES_A_PART)]
             wrong = in_threads(self._are_wrong, parts)
-            edges = np.concatenate([each[some] for each, some in zip(parts, wrong)] or [edges])
+            edges = np.concatenate([part[some] for part, some in zip(parts, wrong)] or [edges])
             if not len(edges):
                 return
             # A triangle takes part in one flip at a time: the last one that is written.
@@ -260,15 +264,15 @@ class GrowingTin:
         t, k = np.divmod(edges, 3)
         u, j = np.divmod(self.twins[edges], 3)
         p, q = self.corners[edges], self.corners[3 * u + j]
-        at = [3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3, 3 * u + (j + 1) % 3, 3 * u + (j + 2) % 3]
-        b, c = self.corners[at[0]], self.corners[at[1]]
-        before = np.concatenate(at)
+        sides = [3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3, 3 * u + (j + 1) % 3, 3 * u + (j + 2) % 3]
+        b, c = self.corners[sides[0]], self.corners[sides[1]]
+        before = np.concatenate(sides)
         after = np.concatenate((3 * u, 3 * t + 2, 3 * t, 3 * u + 2))
         self._moved[before] = after
         later = self._moved[later]
         self._move(before, after)
-        for k, (one, other) in enumerate(((p, q), (b, c), (q, p))):
-            self.corners[3 * t + k], self.corners[3 * u + k] = one, other
+        for k, (one, two) in enumerate(((p, q), (b, c), (q, p))):
+            self.corners[3 * t + k], self.corners[3 * u + k] = one, two
         self._join(3 * t + 1, 3 * u + 1)
         return np.concatenate((after, later))
 
@@ -277,7 +281,7 @@ class GrowingTin:
         wrong = self.twins[edges] >= 0
         corners = self._quadrangles(edges[wrong])
         inside, equal, is_convex = self._circles(corners)
-        x, y = (np.rint(each[corners[:, equal]] * _STEPS_A_METRE) for each in self.vertices[:2])
+        x, y = (np.rint(axis[corners[:, equal]] * _STEPS_A_METRE) for axis in self.vertices[:2])
         westernmost = np.lexsort((y, x), axis=0)[0]
         inside[equal] = (westernmost == 0) | (westernmost == 3)
         wrong[wrong] = inside & is_convex
@@ -288,7 +292,7 @@ class GrowingTin:
         four lie on one circle, and whether the other diagonal lies inside.
         """
         x, y = (values.take(corners) for values in self.vertices[:2])
-        bx, by, cx, cy, qx, qy = (each[k] - each[0] for k in (1, 2, 3) for each in (x, y))
+        bx, by, cx, cy, qx, qy = (axis[k] - axis[0] for k in (1, 2, 3) for axis in (x, y))
         p_b_q, p_q_c = bx * qy - by * qx, qx * cy - qy * cx
         one = (qx * qx + qy * qy) * (bx * cy - by * cx)
         two, three = (cx * cx + cy * cy) * -p_b_q, (bx * bx + by * by) * -p_q_c
@@ -302,14 +306,14 @@ class GrowingTin:
         second to the third; the first lies to their left, the fourth to their right.
         """
         t, k = np.divmod(edges, 3)
-        at = np.stack((edges, 3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3, self.twins[edges]))
-        return self.corners.take(at)
+        sides = np.stack((edges, 3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3, self.twins[edges]))
+        return self.corners.take(sides)
 
 
 def _without_flat(tin: Tin) -> tuple[np.ndarray, np.ndarray]:
     """Return triangles and neighbours without the triangles on the hull that have no area."""
     x, y = tin.x[tin.triangles], tin.y[tin.triangles]
-    ux, uy, vx, vy = (each[:, k] - each[:, 0] for k in (1, 2) for each in (x, y))
+    ux, uy, vx, vy = (axis[:, k] - axis[:, 0] for k in (1, 2) for axis in (x, y))
     longest = np.maximum(np.maximum(ux**2 + uy**2, vx**2 + vy**2), (ux - vx) ** 2 + (uy - vy) ** 2)
     flat = ux * vy - uy * vx <= _ON_EDGE * longest
     kept, neighbours = np.ones(len(flat), dtype=bool), tin.neighbours.copy()

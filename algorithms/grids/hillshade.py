@@ -22,7 +22,7 @@ def hillshade(
     """
     # Horn, B. K. P. (1981): Hill shading and the reflectance map. Proceedings of the IEEE 69.
     dx, dy = _gradient(heights, cell_size)
-    return _as_bytes(heights, _lit(dx, dy, azimuth, altitude))
+    return as_bytes(heights, _lit(dx, dy, azimuth, altitude))
 
 
 def multidirectional_hillshade(
@@ -46,7 +46,7 @@ def multidirectional_hillshade(
         np.cos(aspect - np.radians(azimuth)) ** 2 * _lit(dx, dy, azimuth, altitude) / 2.0
         for azimuth in _LIGHTS
     )
-    return _as_bytes(heights, lit)
+    return as_bytes(heights, lit)
 
 
 def slope(heights: np.ndarray, cell_size: CellSize) -> np.ndarray:
@@ -71,9 +71,10 @@ def _lit(dx: np.ndarray, dy: np.ndarray, azimuth: float, altitude: float) -> np.
     return np.clip(lit / np.sqrt(1.0 + dx**2 + dy**2), 0.0, 1.0)
 
 
-def _as_bytes(heights: np.ndarray, lit: np.ndarray) -> np.ndarray:
-    lit = np.where(np.isnan(heights), 0.0, 1.0 + 254.0 * np.nan_to_num(lit))
-    return np.rint(lit).astype(np.uint8)
+def as_bytes(heights: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return values from 0 to 1 as bytes from 1 to 255; 0 where there is no height or value."""
+    known = ~np.isnan(heights) & ~np.isnan(values)
+    return np.where(known, np.rint(1 + 254 * np.nan_to_num(values)), 0).astype(np.uint8)
 
 
 def _gradient(heights: np.ndarray, cell_size: CellSize) -> tuple[np.ndarray, np.ndarray]:
@@ -85,7 +86,7 @@ def _gradient(heights: np.ndarray, cell_size: CellSize) -> tuple[np.ndarray, np.
     padded = np.pad(heights, 1, constant_values=np.nan)
     rows, columns = heights.shape
 
-    def at(row: int, column: int) -> np.ndarray:
+    def beside(row: int, column: int) -> np.ndarray:
         values, opposite = (
             padded[i : i + rows, k : k + columns] for i, k in ((row, column), (2 - row, 2 - column))
         )
@@ -95,9 +96,9 @@ def _gradient(heights: np.ndarray, cell_size: CellSize) -> tuple[np.ndarray, np.
         opposite = np.where(np.isnan(opposite), heights, opposite)
         return np.where(missing, 2 * heights - opposite, values)
 
-    northwest, north, northeast = (at(0, column) for column in range(3))
-    west, east = at(1, 0), at(1, 2)
-    southwest, south, southeast = (at(2, column) for column in range(3))
+    northwest, north, northeast = (beside(0, column) for column in range(3))
+    west, east = beside(1, 0), beside(1, 2)
+    southwest, south, southeast = (beside(2, column) for column in range(3))
     eastward = (northeast + 2 * east + southeast) - (northwest + 2 * west + southwest)
     northward = (northwest + 2 * north + northeast) - (southwest + 2 * south + southeast)
     return eastward / (8 * width), northward / (8 * height)

@@ -1,4 +1,6 @@
-"""Sky-view factor and openness: how much the surroundings of a place hide of its sky.
+"""What the surroundings of a place hide of its sky, and how much it looks down on them.
+
+The sky-view factor, the openness and the local dominance.
 
 References
 ----------
@@ -6,6 +8,9 @@ Zaksek, K., Ostir, K., Kokalj, Z. (2011): Sky-View Factor as a Relief Visualizat
 Remote Sensing 3(2), 398-415.
 Yokoyama, R., Shirasawa, M., Pike, R. J. (2002): Visualizing Topography by Openness. Photogrammetric
 Engineering & Remote Sensing 68(3), 257-265.
+Hesse, R. (2016): Visualisierung hochaufloesender Digitaler Gelaendemodelle mit LiVT. In:
+Lieberwirth, U. and Herzog, I. (eds.): 3D-Anwendungen in der Archaeologie. Edition Topoi, Berlin,
+109-128. The local dominance.
 """
 
 from __future__ import annotations
@@ -27,6 +32,11 @@ _DIRECTIONS = 16
 # Places along a direction are this far apart, in cells; beyond `_EVERY` cells, in this proportion
 # to their distance.
 _STEP, _EVERY, _FARTHER = 1 / 3, 64.0, 1 / 96
+# Height of the eyes above the terrain in metres, and directions in which they look.
+_EYES, _VIEWS = 1.7, 24
+# An observer looks at so many distances between the two radii, or at fewer if these lie less than
+# one cell apart.
+_DISTANCES, _ROUNDING = 10, 1e-6
 # Cells that are worked on together: they stay in the cache of a processor.
 PIECE = 40_000
 
@@ -57,7 +67,7 @@ class Surroundings:
         """Call a function for the pieces of the heights that hold any, in threads."""
         side = math.isqrt(PIECE)
         rows, columns = (parts_of(count, side) for count in self.shape)
-        places = [(one, other) for one in rows for other in columns]
+        places = [(one, two) for one in rows for two in columns]
 
         def work_at(part: slice) -> None:
             piece = Piece(self._wide, self._reach, *places[part.start])
@@ -74,26 +84,26 @@ class Piece:
         self, wide: np.ndarray, reach: tuple[int, int], rows: slice, columns: slice
     ) -> None:
         self.place, self._reach = (rows, columns), reach
-        ends = (each.stop + 2 * by for each, by in zip(self.place, reach))
-        self._wide = wide[tuple(slice(each.start, end) for each, end in zip(self.place, ends))]
-        own = self._at(0, 0)
+        ends = (cells.stop + 2 * by for cells, by in zip(self.place, reach))
+        self._wide = wide[tuple(slice(cells.start, end) for cells, end in zip(self.place, ends))]
+        own = self._shifted(0, 0)
         self.known = np.isfinite(own)  # bool (rows, columns), cells with a height
         # float32 (rows, columns), heights; 0 where there is none.
         self.own = np.where(self.known, own, np.float32(0.0))
 
-    def _at(self, row: int, column: int) -> np.ndarray:
-        rows, columns = (each.stop - each.start for each in self.place)
+    def _shifted(self, row: int, column: int) -> np.ndarray:
+        rows, columns = (cells.stop - cells.start for cells in self.place)
         row, column = row + self._reach[0], column + self._reach[1]
         return self._wide[row : row + rows, column : column + columns]
 
     def heights_of(self, neighbour: Neighbour) -> np.ndarray:
         """Return the heights of a neighbour of each cell; beyond the border those of a plane."""
-        there = self._at(neighbour.row, neighbour.column)
+        there = self._shifted(neighbour.row, neighbour.column)
         if self._planes is None:
             return there
         beyond = np.isnan(there)
         if beyond.any():
-            there, (own, down, right) = there.copy(), (each[beyond] for each in self._planes)
+            there, (own, down, right) = there.copy(), (values[beyond] for values in self._planes)
             there[beyond] = (
                 own + down * np.float32(neighbour.row) + right * np.float32(neighbour.column)
             )
@@ -108,10 +118,10 @@ class Piece:
             return None
         sigma = self._reach[0] / TRUNCATE, self._reach[1] / TRUNCATE
         inside = tuple(
-            slice(by, by + each.stop - each.start) for each, by in zip(self.place, self._reach)
+            slice(by, by + cells.stop - cells.start) for cells, by in zip(self.place, self._reach)
         )
         slopes = trend_slopes(self._wide, sigma)
-        return [self.own, *(each[inside].astype(np.float32) for each in slopes)]
+        return [self.own, *(slope[inside].astype(np.float32) for slope in slopes)]
 
 
 def horizon_reach(radius: float, cells: Cells) -> tuple[int, int]:
@@ -192,9 +202,9 @@ def _horizon(piece: Piece, line: list[Neighbour]) -> np.ndarray:
     """Return the tangent of the angle of the horizon along a line."""
     tangent = np.full(piece.own.shape, -np.inf, dtype=np.float32)
     rise = np.empty_like(tangent)
-    for each in line:
-        np.subtract(piece.heights_of(each), piece.own, out=rise)
-        rise *= np.float32(1.0 / each.distance)
+    for neighbour in line:
+        np.subtract(piece.heights_of(neighbour), piece.own, out=rise)
+        rise *= np.float32(1.0 / neighbour.distance)
         np.maximum(tangent, rise, out=tangent)
     return tangent
 
@@ -212,5 +222,51 @@ def _lines(cells: Cells, radii: tuple[float, float]) -> Iterator[list[Neighbour]
         angle = 2.0 * math.pi * number / _DIRECTIONS
         row = np.round(np.sin(angle) * distance / cells[1]).astype(int).tolist()
         column = np.round(np.cos(angle) * distance / cells[0]).astype(int).tolist()
-        places = [each for each in dict.fromkeys(zip(row, column)) if each != (0, 0)]
+        places = [place for place in dict.fromkeys(zip(row, column)) if place != (0, 0)]
         yield [Neighbour(r, c, math.hypot(r * cells[1], c * cells[0])) for r, c in places]
+
+
+def dominance_reach(radius: float, cells: Cells) -> tuple[int, int]:
+    """Return up to how many rows and columns away cells matter to the local dominance."""
+    farthest = 2.0 * max(radius, max(cells))
+    return math.ceil(farthest / cells[1]), math.ceil(farthest / cells[0])
+
+
+def local_dominance(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
+    """Return how steeply an observer looks down on the land around, in relation to level land,
+    float32, 1 there, more on rises, less in hollows; NaN where there is no height.
+    """
+    # The observer looks at what lies from `radius` metres, at least one cell, up to twice as far.
+    # Beyond the border of the data the land goes on as a plane. A cell depends on others up to
+    # `dominance_reach`.
+    around = Surroundings(heights, dominance_reach(radius, cells))
+    seen = list(_seen(radius, cells))
+    level = np.float32(sum(weight * _EYES for _, weight in seen))
+    dominance = np.full(heights.shape, np.nan, dtype=np.float32)
+
+    def work(piece: Piece) -> None:
+        eyes = piece.own + np.float32(_EYES)
+        total, down = np.zeros_like(eyes), np.empty_like(eyes)
+        for neighbour, weight in seen:
+            np.subtract(eyes, piece.heights_of(neighbour), out=down)
+            np.maximum(down, np.float32(0.0), out=down)
+            down *= np.float32(weight)
+            total += down
+        np.divide(total, level, out=dominance[piece.place], where=piece.known)
+
+    around.over_pieces(work)
+    return dominance
+
+
+def _seen(radius: float, cells: Cells) -> Iterator[tuple[Neighbour, float]]:
+    """Yield places that the observer sees, and weights: the angle of a metre times the area."""
+    least = min(cells)
+    radius = max(radius, max(cells))
+    step = max(radius / _DISTANCES, least)
+    for number in range(_VIEWS):
+        angle = math.radians(number * 360.0 / _VIEWS)
+        for distance in np.arange(radius, 2.0 * radius + step * _ROUNDING, step).tolist():
+            row = round(math.sin(angle) * distance / cells[1])
+            column = round(math.cos(angle) * distance / cells[0])
+            weight = (2.0 * distance + step) / distance
+            yield Neighbour(-row, -column, distance), weight

@@ -93,11 +93,11 @@ def _relaxed(padded: np.ndarray, unknown: np.ndarray, relaxations: int) -> np.nd
             slice(max(near[0] - _FAR, 0), min(near[-1] + _FAR + 1, columns)),
         )
         # What lies beyond the cut reaches one cell farther with each relaxation.
-        first = [max(each.start - relaxations, 0) for each in core]
-        last = [min(each.stop + relaxations, end) for each, end in zip(core, unknown.shape)]
+        first = [max(cells.start - relaxations, 0) for cells in core]
+        last = [min(cells.stop + relaxations, end) for cells, end in zip(core, unknown.shape)]
         part = padded[first[0] : last[0] + 2, first[1] : last[1] + 2].copy()
         _relax_all(part, unknown[first[0] : last[0], first[1] : last[1]], relaxations)
-        inner = (slice(a.start - at + 1, a.stop - at + 1) for a, at in zip(core, first))
+        inner = (slice(a.start - start + 1, a.stop - start + 1) for a, start in zip(core, first))
         relaxed[core] = part[tuple(inner)]
     return relaxed
 
@@ -148,7 +148,7 @@ def _coarser(grid: np.ndarray, known: np.ndarray, odd: First) -> tuple[np.ndarra
     """
     total, count = np.where(known, grid, np.float32(0.0)), known.astype(np.uint8)
     for axis in (0, 1):
-        total, count = (_pairs(each, axis, odd[axis]) for each in (total, count))
+        total, count = (_pairs(values, axis, odd[axis]) for values in (total, count))
     return total / np.maximum(count, 1), count > 0
 
 
@@ -157,7 +157,7 @@ def _pairs(grid: np.ndarray, axis: int, odd: int) -> np.ndarray:
     shape = list(grid.shape)
     shape[axis] = (shape[axis] + odd + 1) // 2
     pairs = np.zeros(shape, dtype=grid.dtype)
-    along, lines = (each if axis == 0 else each.T for each in (pairs, grid))
+    along, lines = (values if axis == 0 else values.T for values in (pairs, grid))
     first, second = lines[odd::2], lines[1 - odd :: 2]
     along[odd : odd + len(first)] = first
     along[: len(second)] += second

@@ -114,7 +114,7 @@ def _segments(
     level = np.repeat(low[rows, columns] + 1, counts)
     level += numbered(counts)
     rows, columns = np.repeat(rows, counts), np.repeat(columns, counts)
-    case = sum((each[rows, columns] >= level) << bit for bit, each in enumerate(corners))
+    case = sum((corner[rows, columns] >= level) << bit for bit, corner in enumerate(corners))
     squares = (
         heights[rows + down, columns + right] for down, right in ((0, 0), (0, 1), (1, 1), (1, 0))
     )
@@ -160,8 +160,8 @@ def _nodes(
     rows, columns = rows + (edges == _SOUTH), columns + (edges == _EAST)
     is_vertical = (edges == _EAST) | (edges == _WEST)
     one = heights[rows, columns]
-    other = heights[rows + is_vertical, columns + ~is_vertical]
-    share = np.clip((level * interval - one) / (other - one), 0.0, 1.0)
+    two = heights[rows + is_vertical, columns + ~is_vertical]
+    share = np.clip((level * interval - one) / (two - one), 0.0, 1.0)
     edge = 2 * ((rows + row) * heights.shape[1] + columns) + is_vertical
     places = np.column_stack((rows + row + share * is_vertical, columns + share * ~is_vertical))
     return edge * _LEVELS + level + _LEVELS // 2, places
@@ -172,8 +172,8 @@ def _chains(
 ) -> Iterator[_Piece]:
     """Yield the segments, joined to lines within the strip."""
     order = np.argsort(first)
-    at = np.searchsorted(first, last, sorter=order)
-    following = order[np.minimum(at, len(order) - 1)] if len(order) else order
+    place = np.searchsorted(first, last, sorter=order)
+    following = order[np.minimum(place, len(order) - 1)] if len(order) else order
     following = np.where(first[following] == last, following, -1)
     heads = np.ones(len(first), dtype=bool)
     heads[following[following >= 0]] = False

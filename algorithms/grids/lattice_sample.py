@@ -66,8 +66,8 @@ class LatticeSample:
     def _tile_of_each(self, progress: Progress) -> tuple[np.ndarray, list[tuple[int, int]]]:
         """Return the number of the tile of each point (n,), and row and column of each tile."""
         (first_row, last_row), (first_column, last_column) = (
-            [int(np.floor(self.cells(end, axis)) // TILE) for end in (each.min(), each.max())]
-            for axis, each in ((1, self.points.y), (0, self.points.x))
+            [int(np.floor(self.cells(end, axis)) // TILE) for end in (places.min(), places.max())]
+            for axis, places in ((1, self.points.y), (0, self.points.x))
         )
         rows, columns = last_row - first_row + 1, last_column - first_column + 1
         # NumPy sorts integers of two bytes fastest.
@@ -76,8 +76,8 @@ class LatticeSample:
 
         def place(part: slice) -> None:
             row, column = (
-                np.floor(self.cells(each[part], axis)).astype(np.int64) // TILE - first
-                for axis, each, first in (
+                np.floor(self.cells(places[part], axis)).astype(np.int64) // TILE - first
+                for axis, places, first in (
                     (1, self.points.y, first_row),
                     (0, self.points.x, first_column),
                 )
@@ -110,12 +110,12 @@ class LatticeSample:
     @property
     def count(self) -> int:
         """Number of points after thinning."""
-        return sum(len(each.which) for each in self.tiles.values())
+        return sum(len(tile.which) for tile in self.tiles.values())
 
     @cached_property
     def hull(self) -> np.ndarray:
         """Return the indices of the corners of the convex hull of all points."""
-        outer = np.concatenate([each.outer for each in self.tiles.values()])
+        outer = np.concatenate([tile.outer for tile in self.tiles.values()])
         return outer[hull_corners(self.points.x[outer], self.points.y[outer])]
 
     def window(self, place: tuple[int, int], margin: int) -> Window:
@@ -140,7 +140,7 @@ class LatticeSample:
             count += len(inside)
         return Window(
             lattice,
-            *(np.concatenate(each) if each else np.zeros(0) for each in (x, y)),
+            *(np.concatenate(parts) if parts else np.zeros(0) for parts in (x, y)),
             np.concatenate(which) if which else np.zeros(0, dtype=np.intp),
         )
 

@@ -114,7 +114,7 @@ class NearestHeights:
         self._points, self._reach = points, reach
         self._tree = cKDTree(points[:, :2]) if len(points) else None
 
-    def at(self, places: np.ndarray) -> np.ndarray:
+    def near(self, places: np.ndarray) -> np.ndarray:
         """Return the height of the nearest point to each place (n, 2); NaN where none is near."""
         heights = np.full(len(places), np.nan)
         if self._tree is not None and len(places):

@@ -42,7 +42,7 @@ class Queries(NamedTuple):
 
     def take(self, which: np.ndarray | slice) -> Queries:
         """Return the selected queries."""
-        return Queries(*(each[which] for each in self))
+        return Queries(*(column[which] for column in self))
 
 
 class LocalDelaunay:
@@ -65,7 +65,7 @@ class LocalDelaunay:
         # the number -1: it is the index of the last element, which is no vertex.
         occupied = window.lattice >= 0
         order = window.lattice[occupied]
-        self._x, self._y = (np.append(each[order], NOWHERE) for each in window[1:3])
+        self._x, self._y = (np.append(axis[order], NOWHERE) for axis in window[1:3])
         self._z = np.append(thinned.points.z[window.which[order]], 0.0)
         self._before = np.concatenate(([0], np.cumsum(occupied)))
         # Number of vertices southwest of each corner of cells.
@@ -103,7 +103,7 @@ class LocalDelaunay:
                 self._counts_southwest(some, width // 2, across) for across in (-1, 0, 1)
             )
             columns = middle - west, east - middle
-            quarters = [part for each in columns for part in (each[1] - each[0], each[2] - each[1])]
+            quarters = [part for half in columns for part in (half[1] - half[0], half[2] - half[1])]
             kept = np.flatnonzero(np.min(quarters, axis=0) > 0)
             which, counts = which[kept], np.sum(quarters, axis=0)[kept]
         if width < _LEAST_LISTED:

@@ -37,14 +37,14 @@ def local_trend(heights: np.ndarray, sigma: Sigma) -> np.ndarray:
     filled = np.where(known, heights, 0.0).astype(np.float64)
     smooth, weights = _weighted(sigma), known.astype(np.float64)
     if known.all():  # faster: the product of the weights along rows and along columns
-        weight = np.multiply(*(_edge_weights(*each) for each in zip(known.shape, sigma, (1, 0))))
+        weight = np.multiply(*(_edge_weights(*line) for line in zip(known.shape, sigma, (1, 0))))
     else:
         weight = smooth(weights, 0, 0)
     lacks = known & (weight < 1.0 - _COMPLETE)
     # Elsewhere the sum is the mean, whatever the rounding of the weights.
     trend = smooth(filled, 0, 0)
     trend[~known] = np.nan
-    reach = [reach_of(each) for each in sigma]
+    reach = [reach_of(deviation) for deviation in sigma]
     for row in range(0, heights.shape[0], _PIECE):
         for column in range(0, heights.shape[1], _PIECE):
             piece = np.s_[row : row + _PIECE, column : column + _PIECE]

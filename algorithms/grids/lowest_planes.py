@@ -170,8 +170,8 @@ class LowestOfCells(NamedTuple):
         there = places[:, None] + offsets
         centre = tuple(grid.ravel()[places] for grid in (self.x, self.y, self.z))
         x, y, z = (
-            (grid.ravel()[there] - at[:, None]).astype(np.float32)
-            for grid, at in zip((self.x, self.y, self.z), centre)
+            (grid.ravel()[there] - place[:, None]).astype(np.float32)
+            for grid, place in zip((self.x, self.y, self.z), centre)
         )
         distance = np.hypot(x, y)
         known = distance > width  # False for NaN

@@ -131,8 +131,9 @@ def _sorted(
     kept = _lowest_of_places(points)
     progress(0.4)
     x, y = (
-        values - (at + grid_size * np.floor(((values.min() + values.max()) / 2 - at) / grid_size))
-        for values, at in zip(points, anchor)
+        values
+        - (corner + grid_size * np.floor(((values.min() + values.max()) / 2 - corner) / grid_size))
+        for values, corner in zip(points, anchor)
     )
     # A coordinate on the border of a cell must not be rounded to the wrong side.
     points = Points(x + _ROUNDING, y + _ROUNDING, points.z)
@@ -280,7 +281,7 @@ class _Keys:
 
     def _walk(self, which: np.ndarray, part: slice) -> None:
         some = which[part]
-        x, y, z = (each.take(some) for each in self._points)
+        x, y, z = (axis.take(some) for axis in self._points)
         triangle = self._triangle.take(some)
         self._beyond[some] = self._over(z - self._tin.heights(x, y, triangle))
         self._triangle[some] = triangle
@@ -313,7 +314,7 @@ class _Keys:
         for k in range(3):
             edge = 3 * self._triangle[some] + k
             beside, edge = some[edges[edge]], edge[edges[edge]]
-            at = self._points.take(beside)
-            beyond = self._over(at.z - self._tin.flipped_heights(at.x, at.y, edge))
+            places = self._points.take(beside)
+            beyond = self._over(places.z - self._tin.flipped_heights(places.x, places.y, edge))
             self._beyond[beside] = np.maximum(self._beyond[beside], beyond)
         return some

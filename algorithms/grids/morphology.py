@@ -175,7 +175,7 @@ def _in_strip(
     width = padded.shape[1]
     reach = (width - columns) // 2
     run, length = padded.ravel(), 1  # run[i] is the extreme of `length` cells from i on
-    spare, other, line = (np.empty_like(run) for _ in range(3))
+    spare, swap, line = (np.empty_like(run) for _ in range(3))
     count = (rows - 1) * width + columns
     ends = np.empty(rows * width, dtype=run.dtype)
     extreme = ends[:count]
@@ -184,7 +184,7 @@ def _in_strip(
         wanted = 2 * half + 1
         while 2 * length <= wanted:
             run = which(run[:-length], run[length:], out=spare[: run.size - length])
-            spare, other = other, spare
+            spare, swap = swap, spare
             length *= 2
         shift = wanted - length  # two runs that overlap make a longer one
         full = which(run[:-shift], run[shift:], out=line[: run.size - shift]) if shift else run

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import zlib
+from functools import cached_property
 from typing import Callable, Iterator
 
 import numpy as np
@@ -145,8 +146,9 @@ class _JoinedGaps:
     """The gaps of strips from north to south, joined where they touch."""
 
     def __init__(self) -> None:
-        # The group of each gap that touches the border of its strip; the first is the outside.
-        self._parents = [_OUTSIDE]
+        # The gaps that touch the border of their strip are numbered; the first is the outside.
+        self._count = _OUTSIDE + 1
+        self._pairs: list[np.ndarray] = []  # which of them touch
         self._strips: list[dict[int, int]] = []
         self._above: np.ndarray | None = None
 
@@ -155,39 +157,39 @@ class _JoinedGaps:
         labels, _ = _labelled(cells)
         sides = np.concatenate((labels[:, 0], labels[:, -1]))
         edges = np.unique(np.concatenate((labels[0], labels[-1], sides)))
-        start = len(self._parents)
-        numbers = {int(label): start + k for k, label in enumerate(edges[edges > 0])}
-        self._parents.extend(numbers.values())
+        numbers = {int(label): self._count + k for k, label in enumerate(edges[edges > 0])}
+        self._count += len(numbers)
         self._strips.append(numbers)
         open_sides = [sides, *([labels[0]] if is_first else []), *([labels[-1]] if is_last else [])]
-        for label in np.unique(np.concatenate(open_sides)):
-            if label:
-                self._join(_OUTSIDE, numbers[int(label)])
         table = np.full(int(edges.max()) + 1, -1)
         table[list(numbers)] = list(numbers.values())
+        beyond = table[np.unique(np.concatenate(open_sides))]
+        touching = [np.column_stack((np.full_like(beyond, _OUTSIDE), beyond))]
         if self._above is not None:
-            pairs = np.column_stack((self._above, table[labels[0]]))
-            for above, below in np.unique(pairs[(pairs >= 0).all(axis=1)], axis=0).tolist():
-                self._join(above, below)
+            touching.append(np.column_stack((self._above, table[labels[0]])))
+        pairs = np.concatenate(touching)
+        self._pairs.append(np.unique(pairs[(pairs >= 0).all(axis=1)], axis=0))
         self._above = table[labels[-1]]
+
+    @cached_property
+    def _is_outside(self) -> np.ndarray:
+        """Which of the numbered gaps reach the outside."""
+        from scipy.sparse import coo_matrix
+        from scipy.sparse.csgraph import connected_components
+
+        one, two = np.concatenate(self._pairs).T
+        shape = self._count, self._count
+        links = coo_matrix((np.ones(len(one), dtype=bool), (one, two)), shape=shape)
+        groups = connected_components(links, directed=False)[1]
+        return groups == groups[_OUTSIDE]
 
     def outside(self, strip: int, cells: np.ndarray) -> np.ndarray:
         """Return which cells of a strip lie in gaps that are not inside; bool."""
         labels, count = _labelled(cells)
         is_outside = np.zeros(count + 1, dtype=bool)
-        numbers = self._strips[strip].items()
-        is_outside[[k for k, number in numbers if self._group(number) == _OUTSIDE]] = True
+        numbers = self._strips[strip]
+        is_outside[list(numbers)] = self._is_outside[list(numbers.values())]
         return np.take(is_outside, labels)
-
-    def _group(self, number: int) -> int:
-        while self._parents[number] != number:
-            self._parents[number] = self._parents[self._parents[number]]
-            number = self._parents[number]
-        return number
-
-    def _join(self, one: int, two: int) -> None:
-        low, high = sorted((self._group(one), self._group(two)))
-        self._parents[high] = low
 
 
 def _labelled(cells: np.ndarray) -> tuple[np.ndarray, int]:

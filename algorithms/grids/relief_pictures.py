@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .hillshade import brightness, slope
+from .hillshade import as_bytes, brightness, slope
 from .horizons import Cells, openness, sky_view_and_openness
 
 
@@ -52,14 +52,14 @@ def archaeological_topography(heights: np.ndarray, cells: Cells, radius: float) 
     heights = heights.astype(np.float32)
     steep = slope(heights, cells)
     both = [_blended(heights, steep, cells, radius, land) for land in (_HILLY, _LEVEL)]
-    return _as_bytes(heights, (both[0] + both[1]) / 2)
+    return as_bytes(heights, (both[0] + both[1]) / 2)
 
 
 def _blended(
     heights: np.ndarray, steep: np.ndarray, cells: Cells, radius: float, land: _Land
 ) -> np.ndarray:
     """Return VAT for a kind of land, 0 to 1."""
-    near, far = (each * radius for each in land.radii)
+    near, far = (share * radius for share in land.radii)
     sky, zenith = sky_view_and_openness(heights, cells, (near, far))
     shade = brightness(heights, cells, _AZIMUTH, land.altitude)
     # From the bottom to the top: as brightness, by half.
@@ -82,16 +82,9 @@ def red_relief(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
     ridge = (openness(heights, cells, radius) - openness(-heights, cells, radius)) / 2
     value = _stretched(ridge, (_DARKEST, _BRIGHTEST))
     pale = value * (1 - _stretched(slope(heights, cells), (0.0, _REDDEST)))
-    return np.stack([_as_bytes(heights, each) for each in (value, pale, pale)])
+    return np.stack([as_bytes(heights, band) for band in (value, pale, pale)])
 
 
 def _stretched(values: np.ndarray, ends: tuple[float, float]) -> np.ndarray:
     """Return values from 0 at the first end to 1 at the second."""
     return np.clip((values - ends[0]) / (ends[1] - ends[0]), 0.0, 1.0)
-
-
-def _as_bytes(heights: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Return values from 0 to 1 as bytes from 1 to 255; 0 where there is no height."""
-    # A lone cell has a height, but no surroundings.
-    known = ~np.isnan(heights) & ~np.isnan(values)
-    return np.where(known, np.rint(1 + 254 * np.nan_to_num(values)), 0).astype(np.uint8)

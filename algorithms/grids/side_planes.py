@@ -75,7 +75,8 @@ class Sides:
         there = (distance[:, :-1] < distance[:, -1:]) & (distance[:, :-1] >= self._apart)
         which = np.where(there, which[:, :-1], 0)
         x, y, z = (
-            np.where(there, of[which] - at[:, None], 0.0) for of, at in zip(self._ground, points)
+            np.where(there, of[which] - place[:, None], 0.0)
+            for of, place in zip(self._ground, points)
         )
         angles = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
         ahead = x[:, :, None] * np.cos(angles) + y[:, :, None] * np.sin(angles) >= -1e-6

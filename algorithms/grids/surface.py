@@ -12,8 +12,7 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from .cells import cells_at
 from .delaunay_walk import circumcircles
-from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates
-from .tin_cells import triangles_of_cells
+from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates, triangles_of_cells
 
 # Most vertices of a block: so few that all threads have work, and that progress and cancel do not
 # have to wait.
@@ -89,7 +88,7 @@ class Surface:
             return queries[left], corners
 
         found = in_threads(fill, blocks, progress)
-        left, corners = (np.concatenate(each) for each in zip(*found))
+        left, corners = (np.concatenate(parts) for parts in zip(*found))
         if len(left):
             heights[left] = self._refined(x[left], y[left], corners, max_edge, cells)
         return heights
@@ -132,15 +131,19 @@ class Surface:
             inside, queries = waiting.pop()
             if not len(queries):
                 continue
-            sides = [np.ptp(each[inside]) if len(inside) else 0.0 for each in vertices[:2]]
+            sides = [
+                np.ptp(axis_places[inside]) if len(inside) else 0.0 for axis_places in vertices[:2]
+            ]
             axis = int(sides[1] > sides[0])
             if len(inside) <= _VERTICES_A_BLOCK:
                 yield queries, float(sides[axis])
                 continue
             cut = np.median(vertices[axis][inside])
             for side in (np.greater_equal, np.less):
-                at = (x, y)[axis][queries]
-                waiting.append((inside[side(vertices[axis][inside], cut)], queries[side(at, cut)]))
+                places = (x, y)[axis][queries]
+                waiting.append(
+                    (inside[side(vertices[axis][inside], cut)], queries[side(places, cut)])
+                )
 
     def _block_heights(
         self,
@@ -235,7 +238,7 @@ class Surface:
         used, back = np.unique(triangle, return_inverse=True)
         corners = tin.triangles[used].T
         # Relative to a corner, because large coordinates lose digits.
-        x, y, radius = circumcircles(*(each[corners] - each[corners[0]] for each in (tin.x, tin.y)))
+        x, y, radius = circumcircles(*(axis[corners] - axis[corners[0]] for axis in (tin.x, tin.y)))
         x, y = x + tin.x[corners[0]], y + tin.y[corners[0]]
         # Three vertices on one line have no circle; they only occur along the hull.
         is_open = np.isfinite(x) & np.isfinite(y) & np.isfinite(radius)
@@ -262,7 +265,7 @@ def _located(tin: Tin, x: np.ndarray, y: np.ndarray, cells: CellLattice | None) 
     if shape[0] * shape[1] > _MOST_CELLS * len(x):
         return tin.locate(x, y)
     corner = tuple(
-        at + first * cells.size for at, first in zip(cells.anchor, (first_column, first_row))
+        start + first * cells.size for start, first in zip(cells.anchor, (first_column, first_row))
     )
     return triangles_of_cells(tin, corner, cells.size, shape)[
         row - first_row, column - first_column
@@ -284,7 +287,7 @@ def _without_long(tin: Tin, triangle: np.ndarray, max_edge: float | None) -> np.
     if max_edge is None or not len(tin.triangles):
         return triangle
     longest = np.zeros(len(tin.triangles))
-    for one, other in ((0, 1), (1, 2), (2, 0)):
-        a, b = tin.triangles[:, one], tin.triangles[:, other]
+    for one, two in ((0, 1), (1, 2), (2, 0)):
+        a, b = tin.triangles[:, one], tin.triangles[:, two]
         np.maximum(longest, np.hypot(tin.x[a] - tin.x[b], tin.y[a] - tin.y[b]), out=longest)
     return np.where((triangle >= 0) & (longest[triangle] <= max_edge), triangle, -1)

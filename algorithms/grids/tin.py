@@ -7,12 +7,17 @@ from typing import Iterable
 import numpy as np
 
 from ..core.threads import parts_of
+from .cells import numbered
 
 # Queries of one walk, so few that the arrays of a step stay in the processor's cache.
 _QUERIES_A_STEP = 200_000
 # Rounding: a query outside an edge still counts as on it if twice the area between them is below
 # this, in m2.
 _ON_EDGE = 1e-11
+# Rounding: the centre of a cell outside an edge by less than this share of a cell counts as inside.
+_ON_ROW = 1e-9
+# Pairs of a triangle and a row of cells that are computed at a time.
+_PAIRS = 1 << 18
 
 
 class Tin:
@@ -90,7 +95,7 @@ class Tin:
 
         corners = self.triangles[triangles]
         cx, cy = self._x[corners], self._y[corners]
-        ux, uy, vx, vy = (each[:, k] - each[:, 0] for k in (1, 2) for each in (cx, cy))
+        ux, uy, vx, vy = (axis[:, k] - axis[:, 0] for k in (1, 2) for axis in (cx, cy))
         u, v = ux**2 + uy**2, vx**2 + vy**2
         double_area = 2.0 * np.maximum(ux * vy - uy * vx, 1e-12)
         to_centre = np.column_stack((vy * u - uy * v, ux * v - vx * u)) / double_area[:, None]
@@ -181,8 +186,8 @@ def _triangulate(xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     neighbours = mesh.neighbors.astype(np.int32)
     corners = xy[triangles]
     clockwise = _twice_area(corners[:, 0], corners[:, 1], corners[:, 2]) < 0.0
-    for each in (triangles, neighbours):
-        each[clockwise] = each[clockwise][:, [0, 2, 1]]
+    for table in (triangles, neighbours):
+        table[clockwise] = table[clockwise][:, [0, 2, 1]]
     return triangles, neighbours
 
 
@@ -216,3 +221,61 @@ def _triangle_of_vertex(triangles: np.ndarray, count: int) -> np.ndarray:
 def _twice_area(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
     """Return twice the signed areas of triangles with corners (n, 2), counterclockwise positive."""
     return (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+
+
+def triangles_of_cells(
+    tin: Tin, corner: tuple[float, float], cell: float, shape: tuple[int, int]
+) -> np.ndarray:
+    """Return the triangle that holds the centre of each cell, int32 (rows, columns) from south,
+    rows of `tin.triangles`; -1 for none, on an edge one of the two.
+    """
+    # The southwestern corner and the side of the cells are in metres.
+    found = np.full(shape, -1, dtype=np.int32)
+    # In cells, from the centre of the first cell.
+    x, y = ((axis - start) / cell - 0.5 for axis, start in zip((tin.x, tin.y), corner))
+    corners_y = y[tin.triangles]
+    first = np.maximum(np.ceil(corners_y.min(axis=1) - _ON_ROW), 0).astype(np.int64)
+    last = np.minimum(np.floor(corners_y.max(axis=1) + _ON_ROW), shape[0] - 1).astype(np.int64)
+    crossing = np.flatnonzero(first <= last)
+    counts = last[crossing] - first[crossing] + 1
+    for some in _parts(counts):
+        triangle = np.repeat(crossing[some], counts[some])
+        row = first[triangle] + numbered(counts[some])
+        west, east = _crossed(x, y, tin.triangles[triangle], row)
+        left = np.maximum(np.ceil(west - _ON_ROW), 0).astype(np.int64)
+        right = np.minimum(np.floor(east + _ON_ROW), shape[1] - 1).astype(np.int64)
+        across = np.maximum(right - left + 1, 0)
+        place = np.repeat(row * shape[1] + left, across) + numbered(across)
+        found.ravel()[place] = np.repeat(triangle, across)
+    return found
+
+
+def _crossed(
+    x: np.ndarray, y: np.ndarray, corners: np.ndarray, row: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the smallest and the largest x of triangles (k, 3) on rows (k,)."""
+    west, east = np.full(len(row), np.inf), np.full(len(row), -np.inf)
+    for one, two in ((0, 1), (1, 2), (2, 0)):
+        start_x, start_y = x[corners[:, one]], y[corners[:, one]]
+        end_x, end_y = x[corners[:, two]], y[corners[:, two]]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = np.where(end_y == start_y, 0.0, (row - start_y) / (end_y - start_y))
+        meets = (share >= -_ON_ROW) & (share <= 1.0 + _ON_ROW)
+        # An edge parallel to the row counts if it lies on the row.
+        meets &= (end_y != start_y) | (np.abs(row - start_y) <= _ON_ROW)
+        meeting = start_x + np.clip(share, 0.0, 1.0) * (end_x - start_x)
+        np.minimum(west, meeting, out=west, where=meets)
+        np.maximum(east, meeting, out=east, where=meets)
+    # If no edge meets the row because of rounding, no cell is inside.
+    none = west > east
+    west[none], east[none] = 0.0, -1.0
+    return west, east
+
+
+def _parts(counts: np.ndarray) -> list[slice]:
+    """Divide triangles into parts with about equally many pairs of triangle and row."""
+    if not len(counts):
+        return []
+    part = np.cumsum(counts) // _PAIRS
+    starts = np.flatnonzero(np.diff(part, prepend=-1))
+    return [slice(a, b) for a, b in zip(starts, [*starts[1:], len(counts)])]

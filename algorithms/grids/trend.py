@@ -40,11 +40,11 @@ class Trend:
     def __init__(self, heights: np.ndarray, size: float, first: First = (0, 0)) -> None:
         self._size = size
         self._block = max(round(_BLOCK / size), 3)
-        self._within = tuple(each % self._block for each in first)
+        self._within = tuple(start % self._block for start in first)
         self._blocks = in_threads(lambda axis: self._of_axis(heights, axis), (0, 1))
         columns = np.arange(heights.shape[1]) + self._within[1]
         # Columns are interpolated once for all rows of a block.
-        self._across = [_interpolated(each, columns, self._block, -1) for each in self._blocks]
+        self._across = [_interpolated(values, columns, self._block, -1) for values in self._blocks]
 
     def _of_axis(self, heights: np.ndarray, axis: int) -> np.ndarray:
         """Return the slope along an axis and the unevenness of each block, (2, rows, columns)."""
@@ -54,17 +54,21 @@ class Trend:
         blocks = _sampled_blocks(slopes, self._block, self._within)
         slope = _median(blocks)
         departure = _median(np.abs(blocks - slope[..., None]))
-        return np.stack([median_of_nine(each) for each in (slope, departure)])
+        return np.stack([median_of_nine(grid) for grid in (slope, departure)])
 
     def of_rows(self, first: int, last: int) -> Rises:
         """Return the rises at all cells of the rows from `first` on, before `last`."""
         rows = np.arange(first, last) + self._within[0]
-        return self._rises([_interpolated(each, rows, self._block, -2) for each in self._across])
+        return self._rises(
+            [_interpolated(values, rows, self._block, -2) for values in self._across]
+        )
 
     def of_cells(self, row: np.ndarray, column: np.ndarray) -> Rises:
         """Return the rises at cells."""
         row, column = row + self._within[0], column + self._within[1]
-        return self._rises([_at_places(each, self._block, row, column) for each in self._blocks])
+        return self._rises(
+            [_at_places(values, self._block, row, column) for values in self._blocks]
+        )
 
     def along(self, row: np.ndarray, column: np.ndarray, north: int, east: int) -> np.ndarray:
         """Return the rise of the terrain from cells to the cells `north` and `east` of them."""
@@ -78,9 +82,9 @@ class Trend:
 
     def _rises(self, fields: list[np.ndarray]) -> Rises:
         """Return the rises from slope and unevenness (2, ...) along both axes."""
-        for each in fields:
-            each *= np.float32(self._size)
-            each[1] /= 2
+        for field in fields:
+            field *= np.float32(self._size)
+            field[1] /= 2
         (north, north_departure), (east, east_departure) = fields
         return Rises(north, east, length(north, east), north_departure + east_departure)
 
@@ -135,7 +139,7 @@ def _neighbours(
 
 def _sampled_blocks(grid: np.ndarray, block: int, within: First) -> np.ndarray:
     """Return some cells of each block of a grid, shape (rows, columns, samples) of blocks."""
-    rows, columns = (-(-(at + side) // block) for at, side in zip(within, grid.shape))
+    rows, columns = (-(-(start + side) // block) for start, side in zip(within, grid.shape))
     ends = rows * block - grid.shape[0] - within[0], columns * block - grid.shape[1] - within[1]
     padded = np.pad(grid, list(zip(within, ends)), mode="symmetric")
     step = max(block // _SAMPLES, 1)

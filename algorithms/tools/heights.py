@@ -222,8 +222,8 @@ def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:
         )
     scale, (lowest, highest) = cloud.scale[2], (float(heights.min()), float(heights.max()))
     for offset in (cloud.offset[2], 0.0, float(np.rint((lowest + highest) / 2.0))):
-        ends = (np.rint((each - offset) / scale) for each in (lowest, highest))
-        if all(_INTEGERS.min <= each <= _INTEGERS.max for each in ends):
+        ends = (np.rint((height - offset) / scale) for height in (lowest, highest))
+        if all(_INTEGERS.min <= end <= _INTEGERS.max for end in ends):
             return np.rint((heights - offset) / scale).astype(np.int32), offset
     raise BareEarthError(
         f"Heights above ground from {lowest:.2f} to {highest:.2f} do not fit the scale"
@@ -254,12 +254,12 @@ def _measured(
 
     leaves, part = store.leaves.within(block.box), progress.part(0.15, 0.3)
     found = store.over_pieces(leaves, wanted, corner, part)
-    positions, above = (np.concatenate([each[part] for each in found]) for part in (0, 1))
+    positions, above = (np.concatenate([columns[part] for columns in found]) for part in (0, 1))
     if not ground.points.count:
         return positions, np.full(len(positions), np.nan)
     heights = np.zeros(len(positions))
     surface = GroundSurface(ground.points, progress.part(0.3, 0.45))
-    points = Points(*map(np.concatenate, zip(*(each[2].points for each in found))))
+    points = Points(*map(np.concatenate, zip(*(columns[2].points for columns in found))))
     heights[above] = surface.heights_above(points, progress.part(0.45, 1.0))
     return positions, heights
 

@@ -12,8 +12,12 @@ import pytest
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.grids import horizons, outline
 from bare_earth.algorithms.grids.hillshade import hillshade, slope
-from bare_earth.algorithms.grids.horizons import openness, sky_view, sky_view_and_openness
-from bare_earth.algorithms.grids.local_dominance import local_dominance
+from bare_earth.algorithms.grids.horizons import (
+    local_dominance,
+    openness,
+    sky_view,
+    sky_view_and_openness,
+)
 from bare_earth.algorithms.grids.local_relief import multi_scale_relief
 from bare_earth.algorithms.grids.relief_pictures import archaeological_topography, red_relief
 from bare_earth.algorithms.tools import relief as relief_module

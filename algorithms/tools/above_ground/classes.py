@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -30,6 +31,19 @@ _SCHEMES = {
 _ROUNDING = 1e-6
 
 
+def _limit(default: float, which: str, help: str) -> Any:
+    """Declare a height at which vegetation begins."""
+    return parameter(
+        default,
+        label=f"Height at which {which} vegetation begins",
+        unit="m",
+        minimum=0.0,
+        maximum=100.0,
+        advanced=True,
+        help=help,
+    )
+
+
 @dataclass(frozen=True)
 class AboveGround(ParameterSet):
     """Which classes the points above the ground get."""
@@ -42,33 +56,12 @@ class AboveGround(ParameterSet):
         " vegetation by its height above ground. The LAS specification has these classes, but no"
         " limits: 0.5 and 2 m are usual. IGN's LiDAR HD has 0.5 and 1.5 m.",
     )
-    medium_height: float = parameter(
-        0.5,
-        label="Height at which medium vegetation begins",
-        unit="m",
-        minimum=0.0,
-        maximum=100.0,
-        advanced=True,
-        help="Used only with limits of your own.",
-    )
-    high_height: float = parameter(
-        2.0,
-        label="Height at which high vegetation begins",
-        unit="m",
-        minimum=0.0,
-        maximum=100.0,
-        advanced=True,
-        help="Used only with limits of your own.",
-    )
-    low_height: float = parameter(
-        0.0,
-        label="Height at which low vegetation begins",
-        unit="m",
-        minimum=0.0,
-        maximum=100.0,
-        advanced=True,
-        help="Points below this height above ground, and points below the ground, become class 1.",
-    )
+    medium_height: float = _limit(0.5, "medium", "Used only with limits of your own.")
+    high_height: float = _limit(2.0, "high", "Used only with limits of your own.")
+    low_height: float = _limit(
+        0.0, "low", "Points below this height above ground, and points below the ground, become"
+        " class 1.",
+    )  # fmt: skip
     buildings: bool = parameter(
         True,
         label="Find buildings (6)",

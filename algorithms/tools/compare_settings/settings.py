@@ -66,7 +66,7 @@ class Setting(NamedTuple):
 
 def _presets(declared: type[ParameterSet]) -> dict[str, str]:
     """Return the labels of the presets that a set of parameters has."""
-    return next(dict(each.choices) for each in declared.declarations() if each.name == "preset")
+    return next(dict(one.choices) for one in declared.declarations() if one.name == "preset")
 
 
 # Every method with each of its presets, by name.

@@ -82,7 +82,7 @@ class Window:
     @cached_property
     def sides(self) -> tuple[float, float]:
         """Width and height in metres."""
-        west, south, east, north = (each * self.crs.horizontal_unit for each in self.box)
+        west, south, east, north = (side * self.crs.horizontal_unit for side in self.box)
         return east - west, north - south
 
     @cached_property

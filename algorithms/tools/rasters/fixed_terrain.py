@@ -166,7 +166,7 @@ def _with_level(
     if not np.isnan(border[:, 2]).any():
         return LevelWater(rings, tuple(parts))
     places = border[:, :2]
-    heights = shore.at(places)
+    heights = shore.near(places)
     if np.isnan(heights).all():
         return LevelWater(rings)
     stations = [part[:, :2] for part in parts]

@@ -64,7 +64,7 @@ class LevelWater:
         found = self._surface.interpolate(x, y)
         beyond = np.isnan(found)
         corners = NearestHeights(np.concatenate((*self.rings, *self.rivers)), np.inf)
-        found[beyond] = corners.at(np.column_stack((x, y))[beyond])
+        found[beyond] = corners.near(np.column_stack((x, y))[beyond])
         return found
 
     @cached_property

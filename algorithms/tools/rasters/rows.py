@@ -15,8 +15,14 @@ import numpy as np
 
 from ...grids.canopy import PIT_PASSES, canopy_height, without_pits
 from ...grids.hillshade import hillshade, multidirectional_hillshade, slope
-from ...grids.horizons import Cells, horizon_reach, openness, sky_view
-from ...grids.local_dominance import dominance_reach, local_dominance
+from ...grids.horizons import (
+    Cells,
+    dominance_reach,
+    horizon_reach,
+    local_dominance,
+    openness,
+    sky_view,
+)
 from ...grids.local_relief import (
     local_relief,
     multi_scale_reach,
