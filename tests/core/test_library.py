@@ -87,3 +87,9 @@ def test_mypy_reads_the_stub(tmp_path):
     done = subprocess.run([*command, right, wrong], capture_output=True, text=True, cwd=tmp_path)
     (line,) = (each for each in done.stdout.splitlines() if ": error: " in each)
     assert line.startswith("wrong.py:2") and 'Unexpected keyword argument "outputas"' in line
+
+
+def test_the_page_of_the_library_has_all_names():
+    page = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^::: bare_earth\.(\w+)$", page, re.MULTILINE)
+    assert sorted(shown) == sorted({*bare_earth.__all__} - {"__version__"})
