@@ -22,8 +22,8 @@ _LARGEST_CELL = 5.0
 # nominal spacing of pulses is ignored; that of IGN has no class for it.
 STATED: Mapping[str, Mapping[str, Any]] = {
     "none": {},
-    "lbs-ql1": {"dtm_cell_size": 0.5, "shore_distance": 0.35},
-    "lbs-ql2": {"dtm_cell_size": 1.0, "shore_distance": 0.71},
+    "lbs-ql1": {"dtm_cell_size": 0.5, "shore_distance": SPECIFICATIONS["lbs-ql1"].spacing},
+    "lbs-ql2": {"dtm_cell_size": 1.0, "shore_distance": SPECIFICATIONS["lbs-ql2"].spacing},
     "linz": {"dtm_cell_size": 1.0},
     "ign": {"dtm_cell_size": 0.5, "shore_distance": 0.0, "above_ground": "ign"},
 }

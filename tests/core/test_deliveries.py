@@ -17,7 +17,7 @@ from surveys import finished
 from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import FinishedFilesStay, OutputInUse
-from bare_earth.algorithms.delivery.deliveries import DELIVERIES
+from bare_earth.algorithms.delivery.deliveries import DELIVERIES, STATED
 from bare_earth.algorithms.delivery.delivering import deliver
 from bare_earth.algorithms.delivery.request import (
     DeliveryOptions,
@@ -36,6 +36,7 @@ from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc
 from bare_earth.algorithms.tools.check.checkpoints import Checkpoints
+from bare_earth.algorithms.tools.quality.specifications import SPECIFICATIONS
 from bare_earth.algorithms.tools.rasters.constraints import Constraints
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
@@ -190,8 +191,8 @@ class Stops(Progress):
             raise Cancelled
 
 
-def test_the_table_of_files_is_complete():
-    assert FILES.keys() == DELIVERIES.keys()
+def test_the_tables_are_complete():
+    assert FILES.keys() == DELIVERIES.keys() and STATED.keys() == SPECIFICATIONS.keys()
 
 
 @pytest.mark.parametrize("name", list(FILES))
