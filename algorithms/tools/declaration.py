@@ -21,6 +21,7 @@ TERRAIN = "terrain,terrain model,elevation model,dtm,dem,dsm,hillshade,relief"
 CANOPY = "chm,ndsm,canopy,vegetation,vegetation height,normalize,normalise,hag,lasheight"
 TIN = "tin,triangulation"
 RASTER = "grid,raster,rasterize,interpolate"
+TILES = "vpc,tiles,batch,survey,folder,many files"
 
 
 @dataclass(frozen=True)

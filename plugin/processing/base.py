@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from html import escape
 from pathlib import Path
-from typing import Any, Iterator, Mapping, Sequence
+from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -35,7 +35,6 @@ from .inputs import CloudCrs
 from .output_checks import check_outputs
 from .outputs import NOTHING_STAYS, do_not_load, places_of
 from .presets import presets_of
-from .search_words import words_of
 from .stated_crs import crs_of_text, stated_crs_of
 
 _ICONS = Path(__file__).parents[1] / "icons"
@@ -51,6 +50,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     # the output for the end of the log, set by `compute`.
 
     identifier = title = section = summary = about = page = run_name = subject = ""
+    words: tuple[str, ...] = ()  # for the search of the toolbox, separated by commas
     cancelled = NOTHING_STAYS  # message in the log after a cancel
     shown: tuple[str, ...] | None = None  # parameters that are not advanced; None: as declared
     stated: str | None = None  # the CRS that the user states; set before `prepare`
@@ -186,7 +186,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def tags(self) -> list[str]:
         """Return the words for the search of the toolbox."""
-        return words_of(self.identifier)
+        return words_in(self.words)
 
     def helpUrl(self) -> str:
         """Return the address of the page on the algorithm."""
@@ -303,6 +303,12 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         subject = self.subject or tr(self.title)
         origin = Origin.of(self.displayName(), self._settings, commands)
         layers.arrange(context, looks, labels, subject, self._stage, origin)
+
+
+def words_in(groups: Iterable[str]) -> list[str]:
+    """Return the words of groups, separated by commas, in English and the user's language."""
+    words = (word for group in groups for text in (group, tr(group)) for word in text.split(","))
+    return list(dict.fromkeys(words))
 
 
 def _plain(text: str) -> str:

@@ -1,7 +1,6 @@
 """Ground classification of many files as one survey, in the toolbox."""
 
 from ...algorithms.tools.ground.tool import TOOL, as_command
-from ..i18n import mark
 from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified
@@ -13,8 +12,8 @@ class ClassifyTilesAlgorithm(BareEarthAlgorithm):
     """Classify ground (many files)."""
 
     identifier, page, section, shown = TOOL.identifier, TOOL.page, TOOL.section, TOOL.shown
-    title, summary, about = TOOL.title, TOOL.summary, TOOL.about
-    run_name, cancelled, unused = mark("classified files"), TILES_STAY, ("relief_radius",)
+    title, summary, about, words = TOOL.title, TOOL.summary, TOOL.about, TOOL.words
+    run_name, cancelled, unused = "classified files", TILES_STAY, ("relief_radius",)
 
     def parameter_sets(self):
         """Return method, points and classes, files, outputs, and resources."""

@@ -17,6 +17,7 @@ from qgis.core import (
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.tools.contours import Interval
+from ...algorithms.tools.declaration import CANOPY, CLOUD, GROUND, TERRAIN
 from ...algorithms.tools.ground.method import TileMethod
 from .. import compat
 from ..i18n import tr
@@ -24,18 +25,23 @@ from ..styles import layers, rasters
 from ..styles.loaded import fresh_path
 from ..styles.metadata import Origin, settings_of
 from ..styles.stage import Stage
-from .base import BareEarthAlgorithm, errors_for_qgis
+from .base import BareEarthAlgorithm, errors_for_qgis, words_in
 from .choices import ChoiceParameter, with_labels
 from .feedback import tell_of_unknown
 from .fields import help_of
 from .inputs import name_of
 from .output_checks import check_outputs
 from .outputs import do_not_load, places_of
-from .search_words import words_of
 
 _CHOICES = {declared.name.upper(): declared for declared in TileMethod.declarations()}
 # Names of outputs in the models that make a classified cloud or contour lines.
 _CLASSIFIED, _LINES = "ground:OUTPUT", "contours:OUTPUT"
+# For the search of the toolbox, by the second half of the id.
+_WORDS = {
+    "terraincontours": (CLOUD, GROUND, TERRAIN, "contours,workflow"),
+    "cloudheights": (CLOUD, GROUND, CANOPY, "height,extra bytes"),
+    "twomethods": (CLOUD, GROUND, "preview,try,test,preset,parameters,compare,profile"),
+}
 _FOLDER = Path(__file__).parents[1] / "models"
 
 
@@ -95,7 +101,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
 
     def tags(self) -> list[str]:
         """Return the words for the search of the toolbox."""
-        return words_of(self.name())
+        return words_in(_WORDS[self.name()])
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return no declared parameters, since the fields are in the model."""

@@ -6,6 +6,7 @@ from ...algorithms.delivery.request import DeliveryChoice, DeliveryTerrain
 from ...algorithms.engine.memory import Resources
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.contours import Contours
+from ...algorithms.tools.declaration import CANOPY, CLOUD, GROUND, TERRAIN, TILES
 from ...algorithms.tools.ground.method import TileMethod
 from ...algorithms.tools.rasters.parameters import SurfaceModel
 from . import delivery, outputs
@@ -26,6 +27,10 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         " optional. A delivery makes all that a job hands over, in one folder: for a survey,"
         " archaeology, forestry, floods or a drone site. Lengths are metres."
     )
+    words = (
+        CLOUD, GROUND, TERRAIN, CANOPY, TILES, "contours,workflow",
+        "deliverables,archaeology,forestry,flood,drone",
+    )  # fmt: skip
     shown = "delivery", "method", "preset", "dtm_cell_size", "contour_interval"
 
     def parameter_sets(self):

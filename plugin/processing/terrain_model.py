@@ -5,6 +5,7 @@ from __future__ import annotations
 from ...algorithms.engine.memory import Resources
 from ...algorithms.survey.files import is_one_file
 from ...algorithms.survey.ground_classes import GroundClasses
+from ...algorithms.tools.declaration import CANOPY, CLOUD, RASTER, TERRAIN, TIN
 from ...algorithms.tools.rasters.parameters import RasterOutput, SurfaceModel, TerrainModel
 from ..i18n import mark
 from .area import OF_RASTERS, add_area, area_of, area_options, given_options
@@ -28,7 +29,8 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         " without noise; canopy height, the difference of the two; and a hillshade of the terrain."
         " All lie on the same grid. Heights are in the vertical unit of the CRS."
     )
-    page, run_name = "terrain-model", mark("terrain and surface")
+    words = CLOUD, TERRAIN, CANOPY, TIN, RASTER
+    page, run_name = "terrain-model", "terrain and surface"
     shown, unused = ("dtm_cell_size", "max_edge"), ("relief_radius",)
     numbers = (("GROUND_COUNT", "Ground points"), ("SURFACE_COUNT", "Points of the surface"))
 

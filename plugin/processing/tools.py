@@ -33,7 +33,6 @@ from .classified import show_class_raster
 from .feedback import FeedbackProgress
 from .inputs import ignored_filter
 from .outputs import after_cancel, do_not_load, point_cloud_formats
-from .search_words import words_in
 from .tool_inputs import Given, Request, add_input, given
 
 # Inputs of these kinds, which name the run, are found first; these are read when the work begins.
@@ -54,7 +53,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         self._tool = tool
         self.identifier, self.page, self.section = tool.identifier, tool.page, tool.section
         self.title, self.summary, self.about = tool.title, tool.summary, tool.about
-        self.run_name, self.shown = tool.run_name, tool.shown
+        self.run_name, self.shown, self.words = tool.run_name, tool.shown, tool.words
         self._inputs = [declared for declared in tool.all_inputs if declared.label]
         self._outputs = [output for output in tool.all_outputs if output.label]
         self._given: dict[str, Given] = {}
@@ -62,10 +61,6 @@ class ToolAlgorithm(BareEarthAlgorithm):
     def createInstance(self) -> ToolAlgorithm:
         """Return another instance."""
         return type(self)(self._tool)
-
-    def tags(self) -> list[str]:
-        """Return the words for the search of the toolbox."""
-        return words_in(self._tool.words)
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the sets of the tool."""

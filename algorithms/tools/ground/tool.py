@@ -11,7 +11,7 @@ from ...engine.options import TileInput, TileOutput
 from ...survey.selection import Selection
 from ..above_ground.classes import ThenAboveGround
 from ..contours import Contours
-from ..declaration import Tool
+from ..declaration import CLOUD, GROUND, TERRAIN, TILES, Tool
 from ..rasters.parameters import Gaps, RasterOutput, SurfaceModel, TerrainModel
 from .method import TileMethod
 from .output import Output
@@ -49,6 +49,7 @@ TOOL = Tool(
     about="Classifies the ground points of many files as if they were one file, and writes each"
     " file under its name into the output folder. A virtual point cloud (.vpc) lists the results.",
     page="classify-tiles",
+    words=(CLOUD, GROUND, TERRAIN, TILES),
     shown=("method", "preset"),
     numbers=(
         ("TILE_COUNT", "Tiles"),
