@@ -11,9 +11,8 @@ from typing import Sequence
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..tools import FILE_TOOLS, POINT_TOOLS
 from . import commands, odm
-from .command import FAILED, USAGE
 from .commands import tool_command
-from .options import UsageError
+from .options import FAILED, USAGE, UsageError
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
 from ..tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool
-from .command import DONE, FAILED, Command
-from .options import UsageError, add_json, add_parameters, chosen
+from .options import DONE, FAILED, Command, UsageError, add_json, add_parameters, chosen
 from .terminal import Terminal, tell
 
 if TYPE_CHECKING:

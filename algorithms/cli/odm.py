@@ -6,8 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Sequence
 
-from .command import DONE, Command
-from .options import KEPT, add_crs, add_json, add_parameters, chosen
+from .options import DONE, KEPT, Command, add_crs, add_json, add_parameters, chosen
 from .terminal import Terminal, tell
 
 

@@ -1,13 +1,27 @@
-"""Options of declared parameters, and the parameters that they give."""
+"""Commands, options of declared parameters, and the parameters that they give."""
 
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Callable, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.parameters import Declaration, ParameterSet, shown_value
+
+# Exit codes.
+DONE, FAILED, USAGE = 0, 1, 2
+
+
+class Command(NamedTuple):
+    """One command."""
+
+    name: str
+    help: str  # one line
+    description: str  # one or two sentences; empty if `add` sets it
+    # adds options to a parser; they can depend on the whole command line
+    add: Callable[[argparse.ArgumentParser, Sequence[str]], None]
+    run: Callable[[argparse.Namespace], int]  # returns the exit code
+
 
 # End of the help of `add_crs`.
 KEPT = "; written point clouds keep the records that the files have"
@@ -18,15 +32,6 @@ class UsageError(BareEarthError):
     """The command line contains a value that is not allowed."""
 
 
-def add_inputs(parser: argparse.ArgumentParser, first: str = "", name: str = "input") -> None:
-    """Add the argument for the input point clouds; `first` starts its help."""
-    parser.add_argument(
-        name, metavar="INPUT", type=Path, nargs="+",
-        help=first + "files, folders, virtual point clouds (.vpc), or lists of files (.txt); all"
-        " of them together are one survey",
-    )  # fmt: skip
-
-
 def add_crs(parser: argparse.ArgumentParser, note: str = "") -> None:
     """Add the option for the CRS of the points; `note` ends its help."""
     parser.add_argument(
@@ -34,14 +39,6 @@ def add_crs(parser: argparse.ArgumentParser, note: str = "") -> None:
         help="the CRS of the points, for files that state none or a wrong one: an EPSG code, such"
         " as EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state"
         + note,
-    )  # fmt: skip
-
-
-def add_extent(parser: argparse.ArgumentParser, what: str, more: str = "") -> None:
-    """Add the option for a rectangle; `what` and `more` start and end its help."""
-    parser.add_argument(
-        "--extent", nargs=4, type=float, metavar=("XMIN", "YMIN", "XMAX", "YMAX"),
-        help=f"{what}, in the CRS of the points{more}",
     )  # fmt: skip
 
 

@@ -12,7 +12,7 @@ from typing import Any, Callable, Iterable, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.files import Outputs, check_output
+from ..core.files import Outputs
 from ..core.progress import Progress
 from ..core.temporary import remove, shown
 from ..core.version import __version__
@@ -90,12 +90,6 @@ def write_geotiff(
     band = Band.of(grid, nodata, shows, values.bands)
     with Outputs() as outputs:
         _writer()(raster_file(outputs, target), values, grid, band, progress)
-
-
-def check_raster_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
-    """Refuse, before any work is done, a raster that could not be written at the end."""
-    check_output(target, sources)
-    check_raster(target)
 
 
 def check_raster(target: Path) -> None:

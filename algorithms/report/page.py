@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import base64
 from html import escape
-from pathlib import Path
 from typing import Iterable, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.errors import BareEarthError, printable
-from ..core.files import check_output
+from ..core.errors import printable
 from ..core.version import __version__
 from .pictures import Picture, png
 from .units import Units, round_length
@@ -39,13 +37,6 @@ _TALLEST, _RADIUS = 900, 7
 
 class Html(str):
     """Markup, which no part escapes again."""
-
-
-def check_page(target: Path, sources: tuple[Path, ...] = ()) -> None:
-    """Refuse a page that could not be written at the end, or that is not named .html."""
-    check_output(target, sources)
-    if target.suffix.lower() not in (".html", ".htm"):
-        raise BareEarthError(f"Cannot write {target}: the page is HTML, name it .html.")
 
 
 def page(title: str, parts: Iterable[str], style: str = "") -> str:

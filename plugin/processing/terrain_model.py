@@ -9,18 +9,21 @@ from ...algorithms.tools.declaration import CANOPY, CLOUD, RASTER, TERRAIN, TIN
 from ...algorithms.tools.rasters.parameters import RasterOutput, SurfaceModel, TerrainModel
 from ..i18n import mark
 from .area import OF_RASTERS, add_area, area_of, area_options, given_options
-from .base import command_line
+from .base import BareEarthAlgorithm, command_line
 from .constraints import add_constraints, constraints_of
 from .feedback import Refusal
+from .inputs import ANY_CLOUD_HELP, SurveyInput, ignored_filter, name_of, source_path
 from .outputs import add_rasters, raster_files, raster_paths, shown_rasters, usual_rasters
-from .products import ProductAlgorithm
 from .raster_target import add_raster_target, raster_target_of
+from .stated_crs import add_crs
+
+_NUMBERS = {"GROUND_COUNT": "Ground points", "SURFACE_COUNT": "Points of the surface"}
 
 
-class TerrainModelAlgorithm(ProductAlgorithm):
+class TerrainModelAlgorithm(BareEarthAlgorithm):
     """Terrain and surface models."""
 
-    identifier = "terrainmodel"
+    identifier, section = "terrainmodel", "Products"
     title = "Terrain, surface and canopy height models"
     summary = "Makes terrain model, surface model, canopy height and hillshade of a point cloud."
     about = (
@@ -32,18 +35,32 @@ class TerrainModelAlgorithm(ProductAlgorithm):
     words = CLOUD, TERRAIN, CANOPY, TIN, RASTER
     page, run_name = "terrain-model", "terrain and surface"
     shown, unused = ("dtm_cell_size", "max_edge"), ("relief_radius",)
-    numbers = (("GROUND_COUNT", "Ground points"), ("SURFACE_COUNT", "Points of the surface"))
 
     def parameter_sets(self):
         """Return ground classes, cells and light, points of the surface, files, and resources."""
         return GroundClasses, TerrainModel, SurfaceModel, RasterOutput, Resources
 
-    def add_outputs(self):
-        """Add the fields of area, constraints and rasters; all of them are optional."""
+    def initAlgorithm(self, configuration=None):
+        """Declare the fields of the dialog and the results; all outputs are optional."""
+        self.addParameter(SurveyInput("INPUT", "Classified point cloud"), ANY_CLOUD_HELP)
+        add_crs(self)
+        self.add_declared()
         add_area(self, ("EXTENT", "BOUNDARY"), OF_RASTERS)
         add_constraints(self)
         add_raster_target(self)
         add_rasters(self, usual_rasters("hillshade"))
+        self.add_numbers(_NUMBERS)
+
+    def find_inputs(self, parameters, context):
+        """Find the input file."""
+        self.source = source_path(self, parameters, "INPUT", context)
+        self.inputs, self.subject = [self.source], name_of(self.source)
+
+    def prepare(self, parameters, context, progress):
+        """Find the input, and warn of a filter that is ignored."""
+        super().prepare(parameters, context, progress)
+        if ignored_filter(self, parameters, "INPUT", context):
+            progress.warning("The layer's filter is not applied: all points are read.")
 
     def compute(self, parameters, context, progress):
         """Make the wanted rasters."""
@@ -69,4 +86,4 @@ class TerrainModelAlgorithm(ProductAlgorithm):
         progress.info(f"The rasters have {summary.columns:,} x {summary.rows:,} cells.")
         if not is_one_file([self.source]):
             paths = shown_rasters(paths, request.raster_output, context)
-        return {**paths, **self.numbers_of(summary)}
+        return {**paths, **{name: getattr(summary, name.lower()) for name in _NUMBERS}}

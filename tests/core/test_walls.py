@@ -178,7 +178,7 @@ def test_shipped_code_holds_none_of_what_hides_or_varies():
 
 @pytest.mark.parametrize("wrapper", WRAPPERS, ids=name_of)
 def test_a_processing_wrapper_is_thin(wrapper):
-    assert len(wrapper.read_text(encoding="utf-8").splitlines()) < 80
+    assert len(wrapper.read_text(encoding="utf-8").splitlines()) < 100
 
 
 def test_there_are_processing_wrappers():
