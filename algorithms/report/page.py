@@ -188,9 +188,8 @@ class Mark(NamedTuple):
 
 def map_of_places(name: str, boxes: np.ndarray, marks: Sequence[Mark], unit: str) -> Html:
     """Return a map of marks on rectangles: west, south, east and north, shape (n, 4)."""
-    x, y = [mark.x for mark in marks], [mark.y for mark in marks]
-    west, south = (min(low, *at) for low, at in zip(boxes[:, :2].min(axis=0).tolist(), (x, y)))
-    east, north = (max(high, *at) for high, at in zip(boxes[:, 2:].max(axis=0).tolist(), (x, y)))
+    places = np.vstack((boxes[:, :2], boxes[:, 2:], [(mark.x, mark.y) for mark in marks]))
+    (west, south), (east, north) = places.min(axis=0).tolist(), places.max(axis=0).tolist()
     scale = min(_WIDTH / max(east - west, 1e-6), _TALLEST / max(north - south, 1e-6))
     high = (north - south) * scale
     drawn = "".join(

@@ -94,10 +94,10 @@ def ramped(values: np.ndarray, colours: Sequence[str], low: float, high: float) 
     """Return the pixels of values, uint8 (rows, columns, 3), coloured by a ramp of colours such as
     ``#d1157f`` from `low` to `high`; NaN for none.
     """
-    ramp = np.array([rgb(each) for each in colours], dtype=np.float64)
+    ramp = np.array([rgb(colour) for colour in colours], dtype=np.float64)
     share = np.clip((np.nan_to_num(values, nan=low) - low) / (high - low), 0.0, 1.0)
     places = np.linspace(0.0, 1.0, len(ramp))
-    pixels = np.stack([np.interp(share, places, ramp[:, each]) for each in range(3)], axis=-1)
+    pixels = np.stack([np.interp(share, places, ramp[:, band]) for band in range(3)], axis=-1)
     pixels[np.isnan(values)] = rgb(NOWHERE)
     return np.rint(pixels).astype(np.uint8)
 

@@ -34,14 +34,14 @@ class Matched(NamedTuple):
     alone: tuple[int, int]  # points of each file that the other file does not have
 
 
-def match_files(one: Path, other: Path, progress: Progress, crs: str | None = None) -> Matched:
+def match_files(first: Path, second: Path, progress: Progress, crs: str | None = None) -> Matched:
     """Find the points that two files have in common, in any order; refuse files with hardly any."""
     # Points are the same if their coordinates, return numbers and GPS times are. Times do not count
     # where a file has none, or for most points another one. Of several equal points, each is used
     # once. If the scales of the files differ, coordinates are compared in steps of the coarser one.
     # One file can be a part of the other, or both can overlap. Of the one with more points only the
     # extent of the other is kept.
-    files = open_las(one, crs), open_las(other, crs)
+    files = open_las(first, crs), open_las(second, crs)
     left = progress
     # COPC has an order of its own.
     if files[0].count == files[1].count and files[0].is_copc == files[1].is_copc:
@@ -59,7 +59,7 @@ def match_files(one: Path, other: Path, progress: Progress, crs: str | None = No
     count = len(orders[0])
     if count < _LEAST_SHARE * min(file.count for file in files) or not count:
         raise BareEarthError(
-            f"{one} and {other} do not hold the same points: of {files[0].count:,} and"
+            f"{first} and {second} do not hold the same points: of {files[0].count:,} and"
             f" {files[1].count:,} points {count:,} are in both. Compare a classified file with its"
             " own reference."
         )
@@ -67,17 +67,17 @@ def match_files(one: Path, other: Path, progress: Progress, crs: str | None = No
     if any(alone):
         progress.info(
             f"{count:,} points are in both files and are compared. {alone[0]:,} points of"
-            f" {one.name} and {alone[1]:,} of {other.name} have no partner."
+            f" {first.name} and {alone[1]:,} of {second.name} have no partner."
         )
     return Matched(clouds, orders, alone)
 
 
-def _is_same_order(one: PointCloud, other: PointCloud) -> bool:
+def _is_same_order(first: PointCloud, second: PointCloud) -> bool:
     """Return whether two clouds have the same points in the same order."""
-    if not (np.allclose(one.scale, other.scale) and np.allclose(one.offset, other.offset)):
+    if not (np.allclose(first.scale, second.scale) and np.allclose(first.offset, second.offset)):
         return False
     names = ("x", "y", "z", "return_number")
-    return all(np.array_equal(getattr(one, name), getattr(other, name)) for name in names)
+    return all(np.array_equal(getattr(first, name), getattr(second, name)) for name in names)
 
 
 def _read(files: tuple[LasFile, LasFile], progress: Progress) -> tuple[PointCloud, PointCloud]:
