@@ -4,11 +4,10 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
-from runs import classify_file
+from surveys import write_points
 
-from bare_earth import BareEarthError
+from bare_earth import BareEarthError, classify
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import file_points, memory_store
 from bare_earth.algorithms.filters import METHODS
@@ -295,20 +294,14 @@ def test_below_no_ground_lies_nothing_and_few_points_suffice():
 @pytest.fixture
 def file(scene, tmp_path):
     points, _ = scene
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
-    las = laspy.LasData(header)
-    las.x, las.y, las.z = points.x + EAST, points.y + NORTH, points.z
-    las.classification[:] = np.where(points.x < 40, 2, 1)
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(tmp_path / "in.las"))
-    return tmp_path / "in.las"
+    classes = np.where(points.x < 40, 2, 1)
+    return write_points(tmp_path / "in.las", points.x, points.y, points.z, classes)
 
 
 def test_the_counts_are_those_of_the_file_and_of_the_area(file, scene):
     target = file.with_name("out.las")
     area = box(30, 0, 80, 80)
-    summary = classify_file(file, target, SlopeFilter(), progress=SILENT, area=area)
+    summary = classify(file, target, method="slope", extent=area.box)
     found = np.asarray(laspy.read(target).classification)
     before = laspy.read(file)
     inside = area.contains(np.asarray(before.x), np.asarray(before.y))
@@ -324,7 +317,7 @@ def test_the_counts_are_those_of_the_file_and_of_the_area(file, scene):
 
 
 def test_without_an_area_it_is_all(file, scene):
-    summary = classify_file(file, file.with_name("out.las"), SlopeFilter())
+    summary = classify(file, file.with_name("out.las"), method="slope")
     assert summary.area_count == summary.selected_count == summary.point_count == scene[0].count
     assert summary.area_ground_count == summary.ground_count
 
@@ -335,10 +328,10 @@ def test_the_file_is_the_same_whether_its_records_are_kept_or_read_again(
     las, tmp_path, monkeypatch, point_format, target
 ):
     source = las.make("in.laz", version=4, point_format=point_format, extra=2)
-    selection = Selection(returns="all", from_classes=tuple(range(32)))
+    how = {"method": "slope", "returns": "all", "from_classes": range(32)}
     written = []
     for longest in (0, 48):
         monkeypatch.setattr(file_points, "_LONGEST_KEPT", longest)
-        classify_file(source, tmp_path / target, SlopeFilter(), selection)
+        classify(source, tmp_path / target, **how)
         written.append((tmp_path / target).read_bytes())
     assert written[0] == written[1]

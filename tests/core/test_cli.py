@@ -7,6 +7,7 @@ import laspy
 import numpy as np
 import pytest
 from runs import command, environment
+from surveys import ORIGIN, classes_of, write_points
 
 from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.cli import main
@@ -26,7 +27,7 @@ from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from benchmarks.scenes.simple import village
 
-EAST, NORTH = 500_000.0, 5_700_000.0
+EAST, NORTH = ORIGIN[:2]
 # Another value than the default for each kind of parameter, and how it is written.
 OTHER_VALUES = {
     "boolean": lambda each: (not each.default, None),
@@ -46,14 +47,7 @@ def scene():
 @pytest.fixture
 def file(scene, tmp_path):
     points, _ = scene
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
-    las = laspy.LasData(header)
-    las.x, las.y, las.z = points.x + EAST, points.y + NORTH, points.z
-    las.classification[:] = 1
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(tmp_path / "in.las"))
-    return tmp_path / "in.las"
+    return write_points(tmp_path / "in.las", points.x, points.y, points.z)
 
 
 @pytest.fixture
@@ -63,10 +57,6 @@ def out(file):
 
 def run(*words):
     return main([str(word) for word in words])
-
-
-def classes_of(path):
-    return np.asarray(laspy.read(path).classification)
 
 
 class FakeTerminal:
@@ -89,33 +79,33 @@ def test_what_steers_a_terminal_is_shown_as_text(las, tmp_path, capsys):
     source = las.make("a\x1b[31m\nb.las")
     assert run("info", source) == 0
     assert run("classify", tmp_path / "\udcff\x07.las", tmp_path / "out.las") == 1
-    heard = capsys.readouterr()
-    assert "\x1b" not in heard.out + heard.err and "\x07" not in heard.err
-    assert "a\\x1b[31m\\nb.las" in heard.out
-    assert heard.err.splitlines()[-1].endswith("\\xff\\x07.las does not exist. Check the path.")
+    told = capsys.readouterr()
+    assert "\x1b" not in told.out + told.err and "\x07" not in told.err
+    assert "a\\x1b[31m\\nb.las" in told.out
+    assert told.err.splitlines()[-1].endswith("\\xff\\x07.las does not exist. Check the path.")
 
 
 def test_done_is_0_and_quiet_where_no_terminal_listens(file, out, capsys):
     assert run("classify", file, out) == 0
     assert set(np.unique(classes_of(out))) == {1, 2}
-    heard = capsys.readouterr()
-    assert heard.out == ""
+    told = capsys.readouterr()
+    assert told.out == ""
     # The CRS is not stated: a warning is told all the same, and nothing else.
-    assert heard.err.count("\n") == 1 and heard.err.startswith("Warning: in.las does not say")
+    assert told.err.count("\n") == 1 and told.err.startswith("Warning: in.las does not say")
 
 
 def test_verbose_tells_what_is_done(file, out, capsys):
     assert run("classify", file, out, "--verbose") == 0
-    heard = capsys.readouterr()
-    assert "points take part." in heard.err and "points are ground" in heard.out
+    told = capsys.readouterr()
+    assert "points take part." in told.err and "points are ground" in told.out
 
 
 def test_a_terminal_gets_a_bar_and_messages(file, out, capsys, monkeypatch):
     pytest.importorskip("tqdm")
     monkeypatch.setattr(sys, "stderr", FakeTerminal(sys.stderr))
     assert run("classify", file, out) == 0
-    heard = capsys.readouterr()
-    assert "%" in heard.err and "points take part." in heard.err
+    told = capsys.readouterr()
+    assert "%" in told.err and "points take part." in told.err
 
 
 @pytest.mark.parametrize(
@@ -137,10 +127,10 @@ def test_a_terminal_gets_a_bar_and_messages(file, out, capsys, monkeypatch):
 def test_what_fails_is_1_and_one_line(words, text, file, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run(*(word.replace("{in}", str(file)) for word in words)) == 1
-    heard = capsys.readouterr()
-    lines = [line for line in heard.err.splitlines() if not line.startswith("Warning: ")]
+    told = capsys.readouterr()
+    lines = [line for line in told.err.splitlines() if not line.startswith("Warning: ")]
     assert len(lines) == 1 and lines[0].startswith("bare-earth: ") and text in lines[0]
-    assert lines[0].endswith(".") and heard.out == ""
+    assert lines[0].endswith(".") and told.out == ""
     assert os.listdir(tmp_path) == ["in.las"]
 
 
@@ -165,8 +155,8 @@ def test_what_fails_is_1_and_one_line(words, text, file, tmp_path, capsys, monke
 def test_wrong_usage_is_2(words, text, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run(*words) == 2
-    heard = capsys.readouterr()
-    assert text in heard.err and "Traceback" not in heard.err
+    told = capsys.readouterr()
+    assert text in told.err and "Traceback" not in told.err
     assert not os.listdir(tmp_path)
 
 
@@ -197,9 +187,9 @@ def test_any_error_is_1_and_one_line(error, text, file, out, capsys, monkeypatch
 def test_verbose_tells_where_an_error_arose(error, file, out, capsys, monkeypatch):
     failing(monkeypatch, error)
     assert run("classify", file, out, "--verbose") == 1
-    heard = capsys.readouterr().err
-    assert "Traceback" in heard and "in fail" in heard
-    assert heard.splitlines()[-1].startswith("bare-earth: ")
+    told = capsys.readouterr().err
+    assert "Traceback" in told and "in fail" in told
+    assert told.splitlines()[-1].startswith("bare-earth: ")
 
 
 @pytest.mark.parametrize(
@@ -269,7 +259,7 @@ def test_an_empty_parameter_is_automatic_as_its_help_says(capsys):
 # What reaches the classifier
 
 
-def heard_by_classify(monkeypatch):
+def requests_of_classify(monkeypatch):
     calls = []
 
     def classify(sources, output, request, *_):
@@ -291,7 +281,7 @@ def options():
 
 @pytest.mark.parametrize(("method", "declared", "each"), list(options()))
 def test_each_parameter_reaches_the_classifier(method, declared, each, monkeypatch):
-    calls = heard_by_classify(monkeypatch)
+    calls = requests_of_classify(monkeypatch)
     value, text = OTHER_VALUES[each.kind](each)
     flag = each.name.replace("_", "-")
     words = [f"--{flag}", *text.split()] if text else [f"--{flag}" if value else f"--no-{flag}"]
@@ -307,7 +297,7 @@ def test_each_parameter_reaches_the_classifier(method, declared, each, monkeypat
 
 @pytest.mark.parametrize("word", ["none", "automatic", "None"])
 def test_a_parameter_can_be_left_empty(word, monkeypatch):
-    calls = heard_by_classify(monkeypatch)
+    calls = requests_of_classify(monkeypatch)
     assert run("classify", "in.las", "out.las", "--stop-edge", word) == 0
     assert calls[0].parameters.stop_edge is None
     assert run("classify", "in.las", "out.las", "--from-classes", word) == 0
@@ -315,7 +305,7 @@ def test_a_parameter_can_be_left_empty(word, monkeypatch):
 
 
 def test_rasters_and_area_reach_the_classifier(monkeypatch, tmp_path):
-    calls = heard_by_classify(monkeypatch)
+    calls = requests_of_classify(monkeypatch)
     boundary = tmp_path / "a.wkt"
     boundary.write_text("POLYGON ((0 0, 5 0, 5 5))")
     words = "classify in.las out.las --dtm a.tif --hillshade b.tif --extent -1.5 -2 3 4e0"
@@ -366,8 +356,8 @@ def test_an_area_limits_what_changes(file, out, scene, capsys):
     changed = classes_of(out) != 1
     assert changed.any()
     assert ((x >= 5) & (y >= 5) & (x + y <= 60.01) & (x <= 30))[changed].all()
-    heard = capsys.readouterr()
-    assert "points in the area are ground" in heard.out and "points lie in the area." in heard.err
+    told = capsys.readouterr()
+    assert "points in the area are ground" in told.out and "points lie in the area." in told.err
 
 
 def test_known_ground_is_kept(file, out, scene, capsys):

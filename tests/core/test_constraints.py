@@ -2,51 +2,35 @@
 
 import json
 import re
-from dataclasses import replace
 
 import laspy
 import numpy as np
 import pytest
 from conftest import Heard
-from surveys import cut
+from surveys import ORIGIN, cut, heights_of, write_points
 
-from bare_earth import BareEarthError
+from bare_earth import BareEarthError, classify, terrain
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.grids.lines import NearPlaces, along, inside_grid
-from bare_earth.algorithms.runs.entry import classify, terrain
-from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
-from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
-from bare_earth.algorithms.tools.rasters.constraints import Constraints
-from bare_earth.algorithms.tools.rasters.step import RasterFiles
+from bare_earth.algorithms.survey.vector_files import read_lines
 from benchmarks.scenes.simple import scatter
 
 rasterio = pytest.importorskip("rasterio")
-EAST, NORTH = 500_000.0, 5_700_000.0
+EAST, NORTH = ORIGIN[:2]
 SIZE = 120.0
 
 
 def _write(path, x, y, z):
-    las = laspy.LasData(laspy.LasHeader(point_format=6, version="1.4"))
-    las.header.scales, las.header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
-    las.x, las.y, las.z = x + EAST, y + NORTH, z
-    las.classification[:] = 2
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(path))
-    return path
+    return write_points(path, x, y, z, 2)
 
 
-def _raster(source, target, progress=SILENT, **constraints):
-    request = TerrainRequest(
-        rasters=RasterFiles(dtm=target), constraints=Constraints(**constraints)
-    )
-    terrain(source, request, progress)
+def _raster(source, target, progress=None, **constraints):
+    """Return the heights of a terrain model, and x and y of its cells."""
+    terrain(source, dtm=target, progress=progress, **constraints)
     with rasterio.open(target) as raster:
         rows, columns = np.mgrid[: raster.height, : raster.width]
-        x, y = (np.reshape(each, rows.shape) for each in raster.xy(rows.ravel(), columns.ravel()))
-        return raster.read(1, masked=True).filled(np.nan), x - EAST, y - NORTH
+        x, y = (np.reshape(axis, rows.shape) for axis in raster.xy(rows.ravel(), columns.ravel()))
+    return heights_of(target), x - EAST, y - NORTH
 
 
 def _square(west, south, east, north):
@@ -102,11 +86,11 @@ def test_a_breakline_without_heights_lies_on_the_ground_beside_it(wall, tmp_path
 def test_heights_of_a_breakline_that_cannot_be_are_taken_from_the_ground(tmp_path, heights, told):
     x, y = scatter(SIZE, 1.0, seed=2)
     source = _write(tmp_path / "flat.laz", x, y, np.full(len(x), 10.01))
-    heard = Heard()
+    progress = Heard()
     line = _line((20.0, 30.0, heights[0]), (100.0, 90.0, heights[1]))
-    found, *_ = _raster(source, tmp_path / "dtm.tif", heard, breaklines=(line,))
+    found, *_ = _raster(source, tmp_path / "dtm.tif", progress, breaklines=(line,))
     assert np.nanmax(np.abs(found - 10.01)) < 0.02
-    assert re.search(told, heard.warnings[-1])
+    assert re.search(told, progress.warnings[-1])
 
 
 def test_a_breakline_of_zeros_has_no_heights_on_low_land_either(tmp_path):
@@ -121,11 +105,11 @@ def test_a_breakline_of_zeros_has_no_heights_on_low_land_either(tmp_path):
 
 def test_a_high_wall_and_a_breakline_far_from_the_ground_keep_their_heights(wall, tmp_path):
     source, lines = wall
-    heard = Heard()
+    progress = Heard()
     top = lines[1] + (0.0, 0.0, 9.0)
     away = _line((SIZE + 15.0, 0.0, 0.0), (SIZE + 15.0, SIZE, 0.0))
-    found, *_ = _raster(source, tmp_path / "dtm.tif", heard, breaklines=(top, away))
-    assert not any("cannot be" in each for each in heard.warnings) and np.nanmax(found) > 20.0
+    found, *_ = _raster(source, tmp_path / "dtm.tif", progress, breaklines=(top, away))
+    assert not any("cannot be" in text for text in progress.warnings) and np.nanmax(found) > 20.0
 
 
 def test_polygons_of_water_with_heights_of_0_have_the_level_of_their_banks(lake, tmp_path):
@@ -133,8 +117,7 @@ def test_polygons_of_water_with_heights_of_0_have_the_level_of_their_banks(lake,
     rings = [[[*corner, 0.0] for corner in [*corners.tolist(), corners[0].tolist()]]]
     shape = {"type": "Polygon", "coordinates": rings}
     (tmp_path / "water.geojson").write_text(json.dumps(shape))
-    water = tuple(read_boundary(tmp_path / "water.geojson"))
-    found, x, y = _raster(lake, tmp_path / "dtm.tif", water=water)
+    found, x, y = _raster(lake, tmp_path / "dtm.tif", water=tmp_path / "water.geojson")
     inside = np.maximum(np.abs(x - 60.0), np.abs(y - 60.0)) < 29.0
     assert np.ptp(found[inside]) < 0.001 and abs(found[inside][0] - 20.0) < 0.1
 
@@ -195,12 +178,17 @@ def test_each_branch_of_a_river_falls_along_its_own_line(tmp_path):
     level = np.where(branch < main, 19.0 + 0.03 * (y - 30.0), 20.0 - 0.016 * x)
     level = np.where(np.abs(y - 30.0) < 25.0, 20.0 - 0.016 * x, level)
     wet = away < 0.0
-    source = _write(tmp_path / "fork.laz", *(each[~wet] for each in (x, y, level + 0.2 * away)))
+    source = _write(tmp_path / "fork.laz", *(axis[~wet] for axis in (x, y, level + 0.2 * away)))
     ring = [(1, 20), (119, 20), (119, 40), (68, 40), (68, 119), (52, 119), (52, 40), (1, 40)]
-    rivers = [(1.0, 30.0, 0.0), (119.0, 30.0, 0.0)], [(60.0, 118.0, 0.0), (60.0, 38.0, 0.0)]
+    rivers = (
+        _line((1.0, 30.0, 0.0), (119.0, 30.0, 0.0)), _line((60.0, 118.0, 0.0), (60.0, 38.0, 0.0))
+    )  # fmt: skip
     bed = (np.add(ring, (EAST, NORTH)),)
     found, x, y = _raster(
-        source, tmp_path / "dtm.tif", water=(bed,), rivers=tuple(_line(*each) for each in rivers)
+        source,
+        tmp_path / "dtm.tif",
+        water=(bed,),
+        rivers=rivers,
     )
     head = (np.abs(x - 60.0) < 3.0) & (np.abs(y - 110.0) < 3.0)
     assert np.abs(found[head] - 21.4).max() < 0.2
@@ -213,7 +201,7 @@ def test_the_level_of_a_river_steps_at_a_weir(tmp_path):
     x, y = scatter(SIZE, 1.0, seed=5)
     across = np.abs(y - 60.0)
     z = np.where(x < 64.0, 22.0, 20.0) + 0.2 * np.maximum(across - 10.0, 0.0)
-    source = _write(tmp_path / "weir.laz", *(each[across > 10.0] for each in (x, y, z)))
+    source = _write(tmp_path / "weir.laz", *(axis[across > 10.0] for axis in (x, y, z)))
     river = _line((1.0, 60.0, 0.0), (SIZE - 1.0, 60.0, 0.0))
     bed = _square(1.0, 50.0, SIZE - 1.0, 70.0)
     found, x, y = _raster(source, tmp_path / "dtm.tif", water=(bed,), rivers=(river,))
@@ -277,41 +265,40 @@ def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how
     x, y = scatter(SIZE, 1.0, seed=4)
     z = 10.0 + 0.05 * x + np.where(y > 80.0, 4.0, 0.0)
     source = _write(tmp_path / "in.laz", x, y, z)
-    known = Constraints(
-        breaklines=(_line((0.0, 80.0, np.nan), (SIZE, 80.0, np.nan)),),
-        water=(_square(20.0, 20.0, 60.0, 50.0),),
-    )
+    known = {
+        "breaklines": (_line((0.0, 80.0, np.nan), (SIZE, 80.0, np.nan)),),
+        "water": (_square(20.0, 20.0, 60.0, 50.0),),
+    }
     # With a surface, so that the rasters reach as far as all points in both runs.
-    paths = [(tmp_path / f"{i}.tif", tmp_path / f"dsm{i}.tif") for i in range(2)]
-    rasters = [RasterFiles(dtm=dtm, dsm=dsm) for dtm, dsm in paths]
-    request = ClassifyRequest(parameters=SlopeFilter(), rasters=rasters[0], constraints=known)
+    once, again = (
+        {name: tmp_path / f"{name}-{run}.tif" for name in ("dtm", "dsm")} for run in range(2)
+    )
     if how == "many":
         cloud = laspy.read(source)
         integers = np.column_stack((cloud.X, cloud.Y, cloud.Z)) // 10
-        source, target = [cut(tmp_path / "tiles", integers, 4)], tmp_path / "out"
-        made = [target]
+        source, target = cut(tmp_path / "tiles", integers, 4), tmp_path / "out"
     else:
-        target = made = tmp_path / "out.laz"
-    if how == "parts":
-        request = replace(request, resources=Resources(memory=0.001))
-    heard = las.Heard()
-    classify(source, target, request, heard)
-    assert any("do not fit into the memory" in each for each in heard.infos) == (how == "parts")
-    terrain(made, TerrainRequest(rasters=rasters[1], constraints=known))
-    assert paths[0][0].read_bytes() == paths[1][0].read_bytes()
-    with rasterio.open(paths[0][0]) as raster:
+        target = tmp_path / "out.laz"
+    memory, progress = 0.001 if how == "parts" else None, las.Heard()
+    classify(source, target, method="slope", memory=memory, progress=progress, **once, **known)
+    assert any("do not fit into the memory" in text for text in progress.infos) == bool(memory)
+    terrain(target, **again, **known)
+    assert once["dtm"].read_bytes() == again["dtm"].read_bytes()
+    with rasterio.open(once["dtm"]) as raster:
         south, west = raster.index(EAST + 22.0, NORTH + 22.0)
         north, east = raster.index(EAST + 58.0, NORTH + 48.0)
         lake = raster.read(1)[north:south, west:east]
-        above, below = (next(raster.sample([(EAST + 40.5, NORTH + at)]))[0] for at in (80.9, 79.1))
+        above, below = (
+            next(raster.sample([(EAST + 40.5, NORTH + north)]))[0] for north in (80.9, 79.1)
+        )
     assert lake.size > 500 and np.ptp(lake) < 1e-3
     assert above - below > 3.9
 
 
-def test_a_run_without_rasters_takes_no_lines(tmp_path):
-    line = (_line((0.0, 80.0, 1.0), (SIZE, 80.0, 1.0)),)
+def test_a_run_without_rasters_takes_no_lines(wall, tmp_path):
+    source, lines = wall
     with pytest.raises(BareEarthError, match="Choose a raster to make"):
-        ClassifyRequest(constraints=Constraints(breaklines=line))
+        classify(source, tmp_path / "out.laz", breaklines=lines)
 
 
 def test_the_terrain_command_takes_files_of_lines_and_polygons(wall, tmp_path, capsys):
@@ -329,8 +316,7 @@ def test_the_terrain_command_takes_files_of_lines_and_polygons(wall, tmp_path, c
     expected, *_ = _raster(source, tmp_path / "expected.tif", breaklines=lines)
     words = ["terrain", str(source), "--dtm", str(tmp_path / "dtm.tif")]
     assert main([*words, "--breaklines", str(tmp_path / "lines.geojson")]) == 0
-    with rasterio.open(tmp_path / "dtm.tif") as raster:
-        assert np.array_equal(raster.read(1, masked=True).filled(np.nan), expected, equal_nan=True)
+    assert np.array_equal(heights_of(tmp_path / "dtm.tif"), expected, equal_nan=True)
     files = [str(source), str(tmp_path / "out.laz"), "--dtm", str(tmp_path / "once.tif")]
     known = ["--dsm", str(tmp_path / "dsm.tif"), "--breaklines", str(tmp_path / "lines.geojson")]
     assert main(["classify", *files, "--method", "slope", *known]) == 0
@@ -343,17 +329,14 @@ def test_the_terrain_command_takes_files_of_lines_and_polygons(wall, tmp_path, c
 def test_lines_far_from_any_ground_are_told(wall, tmp_path, las):
     source, _ = wall
     line = _line((900.0, 900.0, np.nan), (950.0, 900.0, np.nan))
-    heard = las.Heard()
-    request = TerrainRequest(
-        rasters=RasterFiles(dtm=tmp_path / "dtm.tif"),
-        constraints=Constraints(
-            breaklines=(line, _line((9.0, 9.0, 10.0), (19.0, 9.0, 10.0))),
-            water=(_square(800.0, 800.0, 850.0, 850.0), _square(20.0, 20.0, 30.0, 30.0)),
-        ),
-    )
-    terrain(source, request, heard)
-    assert any("Breaklines left out: 1." in each for each in heard.warnings)
-    assert any("water that are not flattened: 1." in each for each in heard.warnings)
+    progress = las.Heard()
+    _raster(
+        source, tmp_path / "dtm.tif", progress,
+        breaklines=(line, _line((9.0, 9.0, 10.0), (19.0, 9.0, 10.0))),
+        water=(_square(800.0, 800.0, 850.0, 850.0), _square(20.0, 20.0, 30.0, 30.0)),
+    )  # fmt: skip
+    assert any("Breaklines left out: 1." in text for text in progress.warnings)
+    assert any("water that are not flattened: 1." in text for text in progress.warnings)
 
 
 @pytest.mark.parametrize(

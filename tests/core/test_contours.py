@@ -4,8 +4,9 @@ import json
 
 import numpy as np
 import pytest
+from surveys import ORIGIN, write_points
 
-from bare_earth import BareEarthError
+from bare_earth import BareEarthError, contours
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import SILENT
@@ -13,10 +14,10 @@ from bare_earth.algorithms.grids.isolines import Isolines
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid
 from bare_earth.algorithms.rasters.writing import write_geotiff
 from bare_earth.algorithms.tools import contours as contours_module
-from bare_earth.algorithms.tools.contours import INDEX, Contours, write_contours
+from bare_earth.algorithms.tools.contours import INDEX, Contours
 
 rasterio = pytest.importorskip("rasterio")
-EAST, NORTH = 500_000.0, 5_700_000.0
+EAST, NORTH = ORIGIN[:2]
 
 
 def lines_of(heights, interval, *edges):
@@ -124,10 +125,9 @@ def test_noise_makes_no_specks_and_lines_stay_where_they_are(tmp_path):
     noisy = noisy_slope()
     noisy[100:110, 100:110] = np.nan
     path, lines = raster(tmp_path / "dtm.tif", noisy), tmp_path / "lines.geojson"
-    none = Contours(contour_interval=1.0, contour_smoothing=0.0, contour_min_length=0.0)
-    write_contours(path, lines, none)
+    contours(path, lines, interval=1.0, contour_smoothing=0.0, contour_min_length=0.0)
     many = len(read(lines)[2])
-    write_contours(path, lines, Contours(contour_interval=1.0))
+    contours(path, lines, interval=1.0)
     _, values, shapes = read(lines)
     assert many > 1000 and len(shapes) < 30
     for value, shape in zip(values, shapes):
@@ -145,8 +145,7 @@ def test_small_rings_are_left_out_and_large_ones_stay(tmp_path):
     path, lines = raster(tmp_path / "dtm.tif", heights), tmp_path / "lines.geojson"
     lengths = {}
     for least in (0.0, 4.6, 18.0):
-        how = Contours(contour_interval=0.5, contour_smoothing=0, contour_min_length=least)
-        write_contours(path, lines, how)
+        contours(path, lines, interval=0.5, contour_smoothing=0, contour_min_length=least)
         lengths[least] = [np.hypot(*np.diff(each, axis=0).T).sum() for each in read(lines)[2]]
         assert min(lengths[least]) >= least
     assert [len(each) for each in lengths.values()] == [6, 4, 2]
@@ -158,8 +157,8 @@ def test_all_formats_hold_the_same_lines(tmp_path, suffix):
     path = raster(tmp_path / "dtm.tif", bumps() + 100.0)
     target = tmp_path / f"lines{suffix}"
     for _ in range(2):  # also in the place of an old file
-        write_contours(path, target, Contours(contour_interval=1.0))
-    write_contours(path, tmp_path / "expected.geojson", Contours(contour_interval=1.0))
+        contours(path, target, interval=1.0)
+    contours(path, tmp_path / "expected.geojson", interval=1.0)
     _, values, shapes = read(tmp_path / "expected.geojson")
     about, _, found, fields = pyogrio.raw.read(str(target))
     assert about["crs"] == "EPSG:25832" and about["geometry_type"] == "LineString"
@@ -170,9 +169,9 @@ def test_all_formats_hold_the_same_lines(tmp_path, suffix):
 
 def test_strips_of_a_raster_make_no_difference(tmp_path, monkeypatch):
     path = raster(tmp_path / "dtm.tif", bumps(120, 90))
-    write_contours(path, tmp_path / "one.geojson")
+    contours(path, tmp_path / "one.geojson")
     monkeypatch.setattr(contours_module, "_CELLS", 900)
-    write_contours(path, tmp_path / "many.geojson")
+    contours(path, tmp_path / "many.geojson")
     one, many = (
         sorted(
             (value["ELEV"], len(shape), shape.mean(axis=0).round(2).tolist())
@@ -194,22 +193,14 @@ def test_intervals_are_one_two_or_five(tmp_path):
 
 def test_the_unit_of_feet_is_told(tmp_path, las):
     path = raster(tmp_path / "dtm.tif", bumps() * 3, epsg=2264, unit=0.3048006096012192)
-    heard = las.Heard()
-    interval = write_contours(path, tmp_path / "a.geojson", Contours(), heard)
-    assert interval.unit == "US survey ft" and "US survey ft" in heard.infos[-1]
+    progress = las.Heard()
+    interval = contours(path, tmp_path / "a.geojson", progress=progress)
+    assert interval.unit == "US survey ft" and "US survey ft" in progress.infos[-1]
 
 
 def test_the_commands_draw_the_same_lines(tmp_path):
-    import laspy
-
     x, y = np.random.default_rng(2).uniform(0, 100, (2, 9000))
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0)
-    cloud = laspy.LasData(header)
-    cloud.x, cloud.y, cloud.z = x + EAST, y + NORTH, 50 + 0.1 * x + 2 * np.sin(y / 9)
-    cloud.classification[:] = 2
-    cloud.return_number[:] = cloud.number_of_returns[:] = 1
-    cloud.write(str(tmp_path / "in.laz"))
+    write_points(tmp_path / "in.laz", x, y, 50 + 0.1 * x + 2 * np.sin(y / 9), 2)
     source, dtm = str(tmp_path / "in.laz"), str(tmp_path / "dtm.tif")
     words = ["--contour-interval", "0.5"]
     names = [str(tmp_path / f"{each}.geojson") for each in "abc"]
@@ -237,8 +228,8 @@ def test_what_cannot_be_drawn_is_one_sentence(tmp_path, capsys, monkeypatch):
         assert main(["contours", *words]) == 1 and text in capsys.readouterr().err
     steep = raster(tmp_path / "steep.tif", bumps() * 100)
     with pytest.raises(BareEarthError, match="Choose a larger one"):
-        write_contours(steep, lines, Contours(contour_interval=0.001))
+        contours(steep, lines, interval=0.001)
     assert lines.read_text() == "old"
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     with pytest.raises(BareEarthError, match="pip install pyogrio"):
-        write_contours(path, tmp_path / "a.gpkg")
+        contours(path, tmp_path / "a.gpkg")

@@ -11,24 +11,21 @@ import rasterio
 from conftest import Heard
 from realdata import real
 from runs import said
+from surveys import ORIGIN, write_points
 
-from bare_earth import BareEarthError
+from bare_earth import BareEarthError, heights
 from bare_earth.algorithms.core.points import Frame
-from bare_earth.algorithms.core.progress import SILENT, Notes
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.crs.provider import wkt_of_epsg, wkt_of_text
 from bare_earth.algorithms.crs.system import crs_of_wkt
 from bare_earth.algorithms.crs.unit_names import unit_in
 from bare_earth.algorithms.crs.wkt import read_wkt
-from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.rasters import sampling
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
 from bare_earth.algorithms.rasters.sampling import HeightRaster, HeightSampler
 from bare_earth.algorithms.rasters.writing import write_geotiff
-from bare_earth.algorithms.runs.entry import write as write_with
-from bare_earth.algorithms.runs.requests import PointRequest
-from bare_earth.algorithms.tools.heights import HeightOutput, MeasureHeights
 
-EAST, NORTH, SIDE = 500_000.0, 5_700_000.0, 60
+EAST, NORTH, SIDE = *ORIGIN[:2], 60
 SURVEY, UTM = 1200 / 3937, wkt_of_epsg(25832)
 
 
@@ -51,20 +48,11 @@ def dtm(path, cell=1.0, side=SIDE, epsg=25832, hole=False, unit=1.0):
 def points(path, count=4000, west=0.0, east=SIDE, epsg=25832, seed=1):
     """Write points of class 0 up to 30 m above the plane."""
     random = np.random.default_rng(seed)
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
-    if epsg:
-        header.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(wkt_of_epsg(epsg)))
-        header.global_encoding.wkt = True
-    las = laspy.LasData(header)
     # Not in the outermost half cell, where the plane ends.
-    las.x = EAST + random.uniform(max(west, 2.0), min(east, SIDE - 2.0), count)
-    las.y = NORTH + random.uniform(2.0, SIDE - 2.0, count)
-    high = random.uniform(0.0, 30.0, count)
-    las.z = terrain(np.asarray(las.x), np.asarray(las.y)) + high
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(path))
-    return path
+    x = random.uniform(max(west, 2.0), min(east, SIDE - 2.0), count)
+    y = random.uniform(2.0, SIDE - 2.0, count)
+    z = terrain(x + EAST, y + NORTH) + random.uniform(0.0, 30.0, count)
+    return write_points(path, x, y, z, 0, crs=f"EPSG:{epsg}")
 
 
 def found(path):
@@ -79,8 +67,7 @@ def true_heights(path):
 @pytest.mark.parametrize("cell", [0.5, 1.0, 4.0])
 def test_heights_above_a_raster_need_no_classes(tmp_path, cell):
     source, target = points(tmp_path / "in.las"), tmp_path / "out.laz"
-    raster = HeightRaster.of(dtm(tmp_path / "dtm.tif", cell))
-    summary = write_with(source, target, PointRequest(MeasureHeights(dtm=raster)))
+    summary = heights(source, target, dtm=dtm(tmp_path / "dtm.tif", cell))
     expected = true_heights(source)
     np.testing.assert_allclose(found(target), expected, atol=0.001)
     assert summary.maximum == pytest.approx(expected.max(), abs=0.001)
@@ -89,30 +76,19 @@ def test_heights_above_a_raster_need_no_classes(tmp_path, cell):
 
 def test_heights_above_a_raster_as_z(tmp_path):
     source, target = points(tmp_path / "in.las"), tmp_path / "out.las"
-    raster = HeightRaster.of(dtm(tmp_path / "dtm.tif"))
-    write_with(
-        source, target, PointRequest(MeasureHeights(output=HeightOutput(output_as="z"), dtm=raster))
-    )
+    heights(source, target, output_as="z", dtm=dtm(tmp_path / "dtm.tif"))
     np.testing.assert_allclose(np.asarray(laspy.read(target).z), true_heights(source), atol=0.0015)
 
 
 def test_memory_and_squares_change_nothing(tmp_path, monkeypatch):
     source = points(tmp_path / "in.las", count=9000)
-    request = PointRequest(
-        MeasureHeights(dtm=HeightRaster.of(dtm(tmp_path / "dtm.tif", hole=True)))
-    )
-    write_with(source, tmp_path / "one.las", request)
+    raster, progress = dtm(tmp_path / "dtm.tif", hole=True), Heard()
+    heights(source, tmp_path / "one.las", dtm=raster)
     monkeypatch.setattr(sampling, "_SIDE", 7)
     monkeypatch.setattr(sampling, "_MOST_KEPT", 2)
-    write_with(source, tmp_path / "squares.las", request)
-    few, heard = Resources(memory=0.001), Heard()
-    write_with(
-        source,
-        tmp_path / "disk.las",
-        PointRequest(MeasureHeights(dtm=request.step.dtm), resources=few),
-        heard,
-    )
-    assert any("wait in a temporary file" in text for text in heard.infos)
+    heights(source, tmp_path / "squares.las", dtm=raster)
+    heights(source, tmp_path / "disk.las", dtm=raster, memory=0.001, progress=progress)
+    assert any("wait in a temporary file" in text for text in progress.infos)
     for name in ("squares", "disk"):
         assert (tmp_path / f"{name}.las").read_bytes() == (tmp_path / "one.las").read_bytes()
 
@@ -140,9 +116,8 @@ def test_many_files_give_the_heights_of_one_and_go_on(tmp_path, threads_for_proc
 
 def test_places_without_a_value_have_no_height_and_it_is_told(tmp_path):
     source, target = points(tmp_path / "in.las"), tmp_path / "out.las"
-    raster = HeightRaster.of(dtm(tmp_path / "dtm.tif", hole=True))
-    heard = Notes()
-    write_with(source, target, PointRequest(MeasureHeights(dtm=raster)), heard)
+    raster, progress = dtm(tmp_path / "dtm.tif", hole=True), Heard()
+    heights(source, target, dtm=raster, progress=progress)
     las = laspy.read(source)
     empty = (np.asarray(las.x) < EAST + 10) & (np.asarray(las.y) < NORTH + 10)
     values = found(target)
@@ -150,13 +125,11 @@ def test_places_without_a_value_have_no_height_and_it_is_told(tmp_path):
     # Beside the hole, the other neighbours count: half a cell of the slope at most.
     np.testing.assert_allclose(values[~empty], true_heights(source)[~empty], atol=0.08)
     text = f"{np.count_nonzero(empty):,} of 4,000 points have no height (NaN)"
-    assert any(text in told for _, told in heard.messages)
-    request = PointRequest(MeasureHeights(output=HeightOutput(output_as="z"), dtm=raster))
+    assert any(text in told for told in progress.infos + progress.warnings)
     with pytest.raises(BareEarthError, match="as an extra dimension"):
-        write_with(source, tmp_path / "z.las", request)
-    small = HeightRaster.of(dtm(tmp_path / "small.tif", side=1))
+        heights(source, tmp_path / "z.las", output_as="z", dtm=raster)
     with pytest.raises(BareEarthError, match=r"no value at any point of .*in\.las"):
-        write_with(source, tmp_path / "none.las", PointRequest(MeasureHeights(dtm=small)))
+        heights(source, tmp_path / "none.las", dtm=dtm(tmp_path / "small.tif", side=1))
     assert not (tmp_path / "z.las").exists() and not (tmp_path / "none.las").exists()
 
 
@@ -173,23 +146,17 @@ def test_a_raster_in_another_crs_is_refused(tmp_path, many, threads_for_processe
 
 def test_a_raster_without_crs_is_taken_as_that_of_the_points(tmp_path):
     source, raster = points(tmp_path / "in.las"), dtm(tmp_path / "dtm.tif", epsg=None)
-    write_with(
-        source, tmp_path / "out.las", PointRequest(MeasureHeights(dtm=HeightRaster.of(raster)))
-    )
+    heights(source, tmp_path / "out.las", dtm=raster)
     np.testing.assert_allclose(found(tmp_path / "out.las"), true_heights(source), atol=0.001)
 
 
 def test_heights_of_a_raster_in_its_stated_unit(tmp_path):
     source, metres = points(tmp_path / "in.las"), dtm(tmp_path / "metres.tif")
-    unstated = HeightRaster.of(metres)
-    assert unstated.unit == 1.0 and not unstated.states_unit
     raster, feet = read_raster(metres), tmp_path / "feet.tif"
     grid = raster._replace(unit="ft", states_unit=True)
     cells = raster.heights / np.float32(0.3048)
     write_geotiff(feet, cells, grid, NODATA, SILENT, "Height, {unit}")
-    known = HeightRaster.of(feet)
-    assert known.unit == 0.3048 and known.shape == (SIDE, SIDE)
-    write_with(source, tmp_path / "out.las", PointRequest(MeasureHeights(dtm=known)))
+    heights(source, tmp_path / "out.las", dtm=feet)
     np.testing.assert_allclose(found(tmp_path / "out.las"), true_heights(source), atol=0.001)
 
 
@@ -206,21 +173,17 @@ def test_heights_of_a_raster_in_its_stated_unit(tmp_path):
 def test_a_raster_beside_points_whose_heights_are_feet(tmp_path, shows, unit, expected, warnings):
     source, target = points(tmp_path / "in.las", epsg=25832), tmp_path / "out.las"
     las = laspy.read(source)
-    las.header.vlrs.extract("WktCoordinateSystemVlr")
-    las.header.vlrs.append(
-        laspy.vlrs.known.WktCoordinateSystemVlr(pyproj.CRS("EPSG:25832+8228").to_wkt("WKT1_GDAL"))
-    )
+    las.header.add_crs(pyproj.CRS("EPSG:25832+8228"))
     heights_in_feet, foot = np.asarray(las.z) / 0.3048, 0.3048
     las.z = heights_in_feet
     las.write(str(source))
     grid = RasterGrid(EAST, NORTH + SIDE, 1.0, SIDE, SIDE, Frame((0, 0), 1.0, unit, UTM))
     values = (terrain(grid.x[None, :], grid.y[:, None]) / unit).astype(np.float32)
     write_geotiff(tmp_path / "dtm.tif", values, grid, NODATA, SILENT, shows)
-    raster, heard = HeightRaster.of(tmp_path / "dtm.tif"), Heard()
-    assert raster.unit == pytest.approx(expected, rel=1e-8)
-    write_with(source, target, PointRequest(MeasureHeights(dtm=raster)), heard)
-    assert len(heard.warnings) == len(warnings)
-    for told, words in zip(heard.warnings, warnings):
+    progress = Heard()
+    heights(source, target, dtm=tmp_path / "dtm.tif", progress=progress)
+    assert len(progress.warnings) == len(warnings)
+    for told, words in zip(progress.warnings, warnings):
         assert words in told and "gdal_edit.py -units" in told
     if unit == expected:
         truth = heights_in_feet - terrain(np.asarray(las.x), np.asarray(las.y)) / foot
@@ -228,22 +191,20 @@ def test_a_raster_beside_points_whose_heights_are_feet(tmp_path, shows, unit, ex
 
 
 def test_points_far_above_a_raster_or_above_another_datum_are_told(tmp_path):
-    source, heard = points(tmp_path / "in.las"), Heard()
+    source, progress = points(tmp_path / "in.las"), Heard()
     far = dtm(tmp_path / "far.tif")
     with rasterio.open(far, "r+", IGNORE_COG_LAYOUT_BREAK="YES") as raster:
         raster.write(raster.read() - 47.0)
-    write_with(
-        source, tmp_path / "out.las", PointRequest(MeasureHeights(dtm=HeightRaster.of(far))), heard
-    )
-    (warning,) = heard.warnings
+    heights(source, tmp_path / "out.las", dtm=far, progress=progress)
+    (warning,) = progress.warnings
     assert "Nearly all points lie at least 48." in warning and "vertical datums" in warning
     here, there = (crs_of_wkt(wkt_of_text(f"EPSG:25832+{code}")) for code in (7837, 5621))
     raster = dataclasses.replace(HeightRaster.of(far), crs=there)
-    raster.tell(here, heard)
+    raster.tell(here, progress)
     feet = crs_of_wkt(wkt_of_text("EPSG:25832+8228"))
-    dataclasses.replace(raster, crs=feet, states_unit=True).tell(feet, heard)
-    assert "metre by its band, which is used, and in foot by its CRS" in heard.warnings[2]
-    assert "EVRF2007 height" in heard.warnings[1] and "DHHN2016 height" in heard.warnings[1]
+    dataclasses.replace(raster, crs=feet, states_unit=True).tell(feet, progress)
+    assert "metre by its band, which is used, and in foot by its CRS" in progress.warnings[2]
+    assert "EVRF2007 height" in progress.warnings[1] and "DHHN2016 height" in progress.warnings[1]
 
 
 def test_a_terrain_model_in_metres_is_checked_beside_points_in_feet(tmp_path):
@@ -262,8 +223,7 @@ def test_a_terrain_model_in_metres_is_checked_beside_points_in_feet(tmp_path):
 def test_points_in_feet_above_a_raster_in_feet(tmp_path):
     # EPSG:2260 is in US survey feet; neither states the unit of heights.
     source, target = points(tmp_path / "in.las", epsg=2260), tmp_path / "out.las"
-    raster = HeightRaster.of(dtm(tmp_path / "dtm.tif", epsg=2260))
-    summary = write_with(source, target, PointRequest(MeasureHeights(dtm=raster)))
+    summary = heights(source, target, dtm=dtm(tmp_path / "dtm.tif", epsg=2260))
     np.testing.assert_allclose(found(target), true_heights(source), atol=0.001)
     assert summary.unit == "US survey foot"
 
@@ -278,7 +238,7 @@ def test_values_at_the_border_and_outside(tmp_path):
     sampler = HeightSampler(HeightRaster.of(dtm(tmp_path / "dtm.tif")))
     x = EAST + np.array([-0.01, 0.0, 0.5, 30.25, SIDE, SIDE + 0.01])
     values = sampler.heights(x, np.full(6, NORTH + 30.0))
-    first, last = (terrain(EAST + each, NORTH + 30.0) for each in (0.5, SIDE - 0.5))
+    first, last = (terrain(EAST + x, NORTH + 30.0) for x in (0.5, SIDE - 0.5))
     assert np.isnan(values[[0, 5]]).all()
     expected = [first, first, terrain(EAST + 30.25, NORTH + 30.0), last]
     np.testing.assert_allclose(values[1:5], expected, atol=1e-4)
