@@ -30,24 +30,18 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 from mutants import Original, mutant
-from runs import classify_file, classify_tiles, write_height_above_ground, write_key_points
 
 import bare_earth.algorithms as package
-from bare_earth import BareEarthError
-from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth import BareEarthError, classify, heights, info, key_points, terrain
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.opening import open_las
-from bare_earth.algorithms.las.reading import inspect, read_cloud
+from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.writing import write_changed, write_classified
-from bare_earth.algorithms.runs.entry import terrain
-from bare_earth.algorithms.runs.requests import TerrainRequest
 from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from bare_earth.algorithms.survey.window import read_window
-from bare_earth.algorithms.tools.rasters.step import RasterFiles
 
 # Of how many sound ones a whole run is made: that takes longest.
 RUNS = 0.1
@@ -57,12 +51,12 @@ A_CHILD = 40
 # Bytes that may be asked for, and that may be used (sound files take 0.1 GB); seconds that it may
 # work, and that it may take.
 ASKED, USED, SECONDS, WAITED = 4 << 30, 1 << 30, 20, 300
-METHOD = SlopeFilter(preset="whitebox")
+METHOD = {"method": "slope", "preset": "whitebox"}
 
 
 def cloud_actions(source, random):
     """Yield what may be done with a point cloud: the first always, of the others three."""
-    yield lambda: "\n".join(inspect(source).lines()).encode("utf-8", "replace")
+    yield lambda: "\n".join(info(source).lines()).encode("utf-8", "replace")
     layout = open_las(source)
     if layout.count > 10**6:  # many points of few bytes: that takes as long as it takes
         return
@@ -71,14 +65,14 @@ def cloud_actions(source, random):
     extra = Edits(extra=ExtraDimension("height", "of it", values), kept=classes > 1)
     out = {suffix: source.with_name(f"out{suffix}") for suffix in (".las", ".laz", ".copc.laz")}
     others = [
-        *(functools.partial(write_classified, source, each, classes) for each in out.values()),
+        *(functools.partial(write_classified, source, path, classes) for path in out.values()),
         lambda: write_changed(source, out[".las"], extra),
         lambda: read_cloud(source).points(slice(None)),
         lambda: write_vpc(source.with_name("out.vpc"), [source]),
         lambda: read_window(source, (4e5, 5e6, 4e5 + 3, 5e6 + 3)),
     ]
-    for each in random.choice(len(others), 3, replace=False):
-        yield others[each]
+    for number in random.choice(len(others), 3, replace=False):
+        yield others[number]
     if random.random() < RUNS:
         yield a_run(source, random)
 
@@ -86,13 +80,13 @@ def cloud_actions(source, random):
 def a_run(source, random):
     """Return a whole run over a point cloud, one of several."""
     out = source.with_name("out.laz")
-    dtm, little = source.with_name("out.tif"), Resources(threads=1, memory=0.001)
+    dtm = source.with_name("out.tif")
     runs = (
-        lambda: classify_file(source, out, METHOD, dtm=dtm),
-        lambda: classify_file(source, out, METHOD, dtm=dtm, resources=little),
-        lambda: write_height_above_ground(source, out),
-        lambda: write_key_points(source, out),
-        lambda: terrain(source, TerrainRequest(rasters=RasterFiles(dtm=dtm))),
+        lambda: classify(source, out, dtm=dtm, **METHOD),
+        lambda: classify(source, out, dtm=dtm, threads=1, memory=0.001, **METHOD),
+        lambda: heights(source, out),
+        lambda: key_points(source, out),
+        lambda: terrain(source, dtm=dtm),
     )
     return runs[random.integers(len(runs))]
 
@@ -101,7 +95,7 @@ def vpc_actions(source):
     """Yield what may be done with a list of files."""
     yield lambda: read_vpc(source)
     yield lambda: open_survey([source])
-    yield lambda: classify_tiles([source], source.with_name("out"), METHOD)
+    yield lambda: classify(source, source.with_name("out"), **METHOD)
 
 
 def actions(source, random):

@@ -6,12 +6,12 @@ import struct
 import zlib
 from html.parser import HTMLParser
 
-import laspy
 import numpy as np
 import pytest
-from runs import assess_files
+from surveys import write_points
 
 from bare_earth import BareEarthError
+from bare_earth import assess as assess_files
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.report.pictures import Relief, png, rgb
@@ -60,16 +60,9 @@ TYPE_1, TYPE_2 = (X < 5) & (Y < 5), (X > 35) & (Y > 35)
 FOUND = np.where(((TRUTH == 2) & ~TYPE_1) | TYPE_2, 2, 1)
 
 
-def write(path, classes, order=None):
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.01, 0.01, 0.01), (0.0, 0.0, 0.0)
-    las = laspy.LasData(header)
-    order = np.arange(len(X)) if order is None else order
-    las.x, las.y, las.z = X[order] + 1000, Y[order] + 2000, 50 + 0.1 * X[order]
-    las.classification = classes[order]
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(path))
-    return path
+def write(path, classes, order=slice(None)):
+    x, y = X[order], Y[order]
+    return write_points(path, x, y, 50 + 0.1 * x, classes[order], offset=(1000.0, 2000.0, 0.0))
 
 
 @pytest.fixture
@@ -168,8 +161,7 @@ def test_the_order_of_the_points_does_not_matter(files, tmp_path):
 
 def test_the_error_map_holds_the_share_of_wrong_points(files, tmp_path):
     rasterio = pytest.importorskip("rasterio")
-    options = AssessmentOptions(map_cell_size=10.0)
-    assess_files(*files, options, error_map=tmp_path / "errors.tif")
+    assess_files(*files, map_cell_size=10.0, error_map=tmp_path / "errors.tif")
     with rasterio.open(tmp_path / "errors.tif") as raster:
         share = raster.read(1)
         assert raster.transform[:6] == (10.0, 0.0, 1000.0, 0.0, -10.0, 2040.0)
@@ -179,13 +171,12 @@ def test_the_error_map_holds_the_share_of_wrong_points(files, tmp_path):
 
 
 def test_ignored_classes_are_no_errors_anywhere(files, tmp_path):
-    options = AssessmentOptions(ignored_classes=(6,))
-    result = assess_files(*files, options, report=tmp_path / "report.html")
+    result = assess_files(*files, ignored_classes=(6,), report=tmp_path / "report.html")
     assert (result.point_count, result.other_as_ground) == (800, 0)
     pixels = picture_of((tmp_path / "report.html").read_text(encoding="utf-8"))
     assert np.ptp(pixels[:20, 20:], axis=2).max() == 0
     with pytest.raises(BareEarthError, match="nothing to assess"):
-        assess_files(*files, AssessmentOptions(ignored_classes=(2, 6)))
+        assess_files(*files, ignored_classes=(2, 6))
 
 
 @pytest.mark.parametrize(

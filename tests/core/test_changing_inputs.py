@@ -9,41 +9,26 @@ import sys
 import numpy as np
 import pytest
 import surveys
-from runs import (
-    classify_file,
-    classify_tiles,
-    write_height_above_ground,
-    write_key_points,
-)
 
-from bare_earth import BareEarthError, Progress
-from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.runs.entry import terrain
-from bare_earth.algorithms.runs.requests import TerrainRequest
-from bare_earth.algorithms.tools.rasters.step import RasterFiles
+from bare_earth import BareEarthError, Progress, classify, heights, key_points, terrain
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="open files are locked there")
-METHOD = SlopeFilter(preset="whitebox")
-HERE, DISK = Resources(threads=1), Resources(threads=1, memory=0.001)
+METHOD = {"method": "slope", "preset": "whitebox"}
+HERE, DISK = {"threads": 1}, {"threads": 1, "memory": 0.001}
 RUNS = {
-    "classify": lambda one, out, heard: classify_file(
-        one, out, METHOD, resources=HERE, progress=heard
-    ),
-    "classify from disk": lambda one, out, heard: classify_file(
-        one, out, METHOD, resources=DISK, progress=heard
-    ),
-    "height": lambda one, out, heard: write_height_above_ground(
-        one, out, resources=HERE, progress=heard
-    ),
-    "height from disk": lambda one, out, heard: write_height_above_ground(
-        one, out, resources=DISK, progress=heard
-    ),
-    "key points": lambda one, out, heard: write_key_points(one, out, progress=heard),
-    "terrain": lambda one, out, heard: terrain(
-        one, TerrainRequest(rasters=RasterFiles(dtm=out), resources=HERE), heard
-    ),
+    "classify": (classify, {**METHOD, **HERE}),
+    "classify from disk": (classify, {**METHOD, **DISK}),
+    "height": (heights, HERE),
+    "height from disk": (heights, DISK),
+    "key points": (key_points, {}),
+    "terrain": (terrain, HERE),
 }
+
+
+def run(name, source, out, progress=None):
+    action, how = RUNS[name]
+    files = {"dtm": out} if action is terrain else {"output": out}
+    action(source, progress=progress, **files, **how)
 
 
 def replaced(path):
@@ -98,7 +83,7 @@ def undisturbed(tmp_path_factory):
             classes = 1 + (np.arange(len(points)) % 3 > 0)
             source = surveys.write(folder / f"in{suffix}", points, classes=classes)
             out = folder / ("out.tif" if name == "terrain" else f"out{suffix}")
-            RUNS[name](source, out, Progress())
+            run(name, source, out)
             made[name, suffix] = source.read_bytes(), out.read_bytes()
         return made[name, suffix]
 
@@ -119,16 +104,16 @@ def test_a_changed_input_is_told_or_made_no_difference(
     data, expected = undisturbed(name, suffix)
     source.write_bytes(data)
     out.write_bytes(b"old")
-    heard = Meanwhile(source, CHANGES[change], when)
+    progress = Meanwhile(source, CHANGES[change], when)
     told = ("has changed while", "does not exist", "damaged", "is not a LAS")
     try:
-        RUNS[name](source, out, heard)
+        run(name, source, out, progress)
     except BareEarthError as error:
-        assert any(each in str(error) for each in told), error
+        assert any(words in str(error) for words in told), error
         assert out.read_bytes() == b"old"
     else:
         assert out.read_bytes() == expected
-    assert heard.done
+    assert progress.done
     assert not list(tmp_path.glob(".*"))
 
 
@@ -137,18 +122,18 @@ def test_a_changed_input_is_told_or_made_no_difference(
     "when", [0.4, *(pytest.param(when, marks=pytest.mark.long) for when in (0.1, 0.6, 0.8))]
 )
 def test_a_changed_tile_of_a_survey_is_told_or_made_no_difference(tmp_path, change, when):
-    def survey(name, heard=None):
+    def survey(name, progress=None):
         folder, out = tmp_path / name, tmp_path / f"{name}-out"
         surveys.cut(folder, surveys.strip(12_000), 6)
-        if heard is not None:
-            heard.path = folder / "2.laz"
-        done = classify_tiles([folder], out, METHOD, progress=heard or Progress())
+        if progress is not None:
+            progress.path = folder / "2.laz"
+        done = classify([folder], out, progress=progress, **METHOD)
         return done, surveys.bytes_of(out)
 
     _, expected = survey("undisturbed")
-    heard = Meanwhile(None, CHANGES[change], when)
-    done, found = survey("disturbed", heard)
-    assert heard.done
-    names = {os.path.basename(each) for each in done.failures}
+    progress = Meanwhile(None, CHANGES[change], when)
+    done, found = survey("disturbed", progress)
+    assert progress.done
+    names = {os.path.basename(path) for path in done.failures}
     assert set(found) == set(expected) - names
-    assert all(found[each] == expected[each] for each in found)
+    assert all(found[name] == expected[name] for name in found)

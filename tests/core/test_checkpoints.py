@@ -4,10 +4,10 @@ import csv
 import json
 import re
 
-import laspy
 import numpy as np
 import pytest
 from conftest import Heard
+from surveys import write_points
 from test_assessment import Tags
 
 from bare_earth import BareEarthError
@@ -46,15 +46,8 @@ def cloud(count=8_000, seed=1):
 
 
 def write(path, x, y, z, classes, crs="EPSG:25832", returns=1):
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0)
-    header.add_crs(pyproj.CRS(crs))
-    las = laspy.LasData(header)
-    las.x, las.y, las.z = x + EAST, y + NORTH, z
-    las.classification = classes
-    las.return_number[:], las.number_of_returns[:] = 1, returns
-    las.write(str(path))
-    return path
+    offset = EAST, NORTH, 0.0
+    return write_points(path, x, y, z, classes, offset=offset, crs=crs, number_of_returns=returns)
 
 
 @pytest.fixture(scope="module")

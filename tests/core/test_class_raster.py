@@ -1,10 +1,9 @@
 """Rasters of the classes of a point cloud."""
 
-import laspy
 import numpy as np
 import pytest
+from surveys import heights_of, write_points
 
-from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.survey.vpc import write_vpc
 from bare_earth.algorithms.tools.rasters.class_raster import (
     NO_CLASS,
@@ -17,7 +16,7 @@ pytest.importorskip("rasterio")
 
 def test_a_cell_is_ground_if_half_of_its_points_are_and_else_what_says_most():
     points = {0: [2, 1], 1: [2, 1, 5], 2: [1, 1], 3: [6, 2, 1, 1], 5: [2]}
-    cells = np.repeat(list(points), [len(each) for each in points.values()])
+    cells = np.repeat(list(points), [len(classes) for classes in points.values()])
     classes = np.concatenate(list(points.values())).astype(np.uint8)
     whole = ClassCells(6)
     whole.add(cells, classes)
@@ -32,14 +31,9 @@ def test_a_cell_is_ground_if_half_of_its_points_are_and_else_what_says_most():
 
 def write_cloud(path, west=0.0):
     """Write a square of 20 m with ground in the west, buildings in the north, and other points."""
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.01,) * 3, (500_000.0, 5_700_000.0, 0.0)
-    las = laspy.LasData(header)
     side = np.arange(0.25, 20.0, 0.5)
-    x, y = (each.ravel() for each in np.meshgrid(side, side))
-    las.x, las.y, las.z = x + 500_000 + west, y + 5_700_000, np.zeros_like(x)
-    las.classification = np.where(x < 5, 2, np.where(y > 15, 6, 1)).astype(np.uint8)
-    las.write(str(path))
+    x, y = (axis.ravel() for axis in np.meshgrid(side, side))
+    write_points(path, x + west, y, 0 * x, np.where(x < 5, 2, np.where(y > 15, 6, 1)))
 
 
 def check_square(values):
@@ -52,7 +46,7 @@ def test_a_file_becomes_a_raster_with_each_class_in_its_place(tmp_path, suffix):
     source, target = tmp_path / f"cloud{suffix}", tmp_path / "classes.tif"
     write_cloud(source)
     assert write_class_raster(source, target) == [1, 2, 6]
-    values = read_raster(target).heights
+    values = heights_of(target)
     check_square(values[~np.isnan(values)].reshape(20, 20))
 
 
@@ -62,7 +56,7 @@ def test_the_files_of_a_survey_become_one_raster(tmp_path):
     write_cloud(files[1])
     write_vpc(tmp_path / "all.vpc", files)
     assert write_class_raster(tmp_path / "all.vpc", tmp_path / "classes.tif") == [1, 2, 6]
-    values = read_raster(tmp_path / "classes.tif").heights[-20:, :50]
+    values = heights_of(tmp_path / "classes.tif")[-20:, :50]
     check_square(values[:, :20])
     check_square(values[:, 30:])
     assert np.isnan(values[:, 20:30]).all()

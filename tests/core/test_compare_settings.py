@@ -3,18 +3,15 @@ import json
 import re
 import shlex
 
-import laspy
 import numpy as np
 import pytest
 from conftest import Heard
-from pyproj import CRS
 from runs import CancelAt
+from surveys import classes_of, write_points
 from test_assessment import Tags
 
-from bare_earth import BareEarthError, Cancelled
+from bare_earth import BareEarthError, Cancelled, classify, compare_settings
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.las.writing import write_classified
-from bare_earth.algorithms.tools.compare_settings import compare_settings
 from bare_earth.algorithms.tools.compare_settings.settings import SETTINGS, TrialOptions
 from bare_earth.algorithms.tools.ground.step import LabelGround
 
@@ -22,10 +19,10 @@ ORIGIN = (500_000.0, 5_700_000.0)
 SIDE = 120.0
 # A hall 30 m wide on a plane: a filter that looks 2 m far takes its roof for ground.
 HALL = (40.0, 70.0, 50.0, 80.0)
-WINDOW = (*(each + 20 for each in ORIGIN), *(each + 100 for each in ORIGIN))
-BOTH = TrialOptions(settings=("tin-densification:automatic", "slope:whitebox"))
+WINDOW = (*(start + 20 for start in ORIGIN), *(start + 100 for start in ORIGIN))
+BOTH = "tin-densification:automatic", "slope:whitebox"
 FOOT = 0.3048
-ONE = TrialOptions(settings=("grid-minimum:automatic",))
+ONE = ("grid-minimum:automatic",)
 
 
 def scene():
@@ -38,17 +35,10 @@ def scene():
 
 
 def write(path, which=slice(None), epsg=25832, unit=1.0):
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (*ORIGIN, 0.0)
-    if epsg:
-        header.add_crs(CRS.from_epsg(epsg))
-    las = laspy.LasData(header)
-    x, y, z, _ = (each[which] for each in scene())
-    las.x, las.y, las.z = x / unit + ORIGIN[0], y / unit + ORIGIN[1], z / unit
-    las.classification[:] = 1
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(path))
-    return path
+    x, y, z, _ = (column[which] for column in scene())
+    return write_points(
+        path, x / unit, y / unit, z / unit, offset=(*ORIGIN, 0.0), crs=epsg and f"EPSG:{epsg}"
+    )
 
 
 def inside(x, y, box=(20, 20, 100, 100)):
@@ -64,7 +54,7 @@ def source(tmp_path_factory):
 def made(source):
     """The summary of two settings, and the text of their page."""
     page = source.with_name("page.html")
-    summary = compare_settings([source], page, WINDOW, BOTH)
+    summary = compare_settings([source], page, extent=WINDOW, settings=BOTH)
     return summary, page.read_text(encoding="utf-8")
 
 
@@ -74,7 +64,7 @@ def test_each_setting_finds_what_it_finds_on_the_whole_file(source, made, tmp_pa
         command = shlex.split(each["shell"])
         command[command.index(str(source)) + 1] = str(tmp_path / "all.laz")
         assert main(command[1:]) == 0
-        ground = np.asarray(laspy.read(tmp_path / "all.laz").classification) == 2
+        ground = classes_of(tmp_path / "all.laz") == 2
         assert each["ground_count"] == np.count_nonzero(ground & inside(x, y))
         assert each["ground_share"] == pytest.approx(100 * ground[inside(x, y)].mean())
 
@@ -119,8 +109,7 @@ def test_the_profile_lies_where_the_terrains_differ_most_or_where_it_is_wanted(
     # In metres from the corner of the window, which lies 20 m inside.
     low, high = HALL[2:] if along_x else HALL[:2]
     assert low - 20 <= numbers[1 if along_x else 0] <= high - 20
-    options = TrialOptions(BOTH.settings, profile=(*WINDOW[:2], *WINDOW[2:]))
-    compare_settings([source], tmp_path / "p.html", WINDOW, options)
+    compare_settings(source, tmp_path / "p.html", extent=WINDOW, settings=BOTH, profile=WINDOW)
     page = (tmp_path / "p.html").read_text(encoding="utf-8")
     assert "from 0 m east and 0 m north" in page and "to 80 m east and 80 m north" in page
 
@@ -137,10 +126,12 @@ def test_a_survey_of_tiles_and_a_copc_file_give_the_same(source, made, tmp_path)
     (tmp_path / "tiles").mkdir()
     write(tmp_path / "tiles" / "west.laz", x < 61.3)
     write(tmp_path / "tiles" / "east.las", x >= 61.3)
-    tiles = compare_settings([tmp_path / "tiles"], tmp_path / "t.html", WINDOW, BOTH)
+    tiles = compare_settings(
+        [tmp_path / "tiles"], tmp_path / "t.html", extent=WINDOW, settings=BOTH
+    )
     copc = tmp_path / "tile.copc.laz"
-    write_classified(source, copc, np.ones(len(x), np.uint8))
-    nodes = compare_settings([copc], tmp_path / "c.html", WINDOW, BOTH)
+    classify(source, copc, method="slope", to_class=1)
+    nodes = compare_settings([copc], tmp_path / "c.html", extent=WINDOW, settings=BOTH)
     for one, other, whole in zip(figures(tiles), figures(nodes), figures(made[0])):
         assert one == pytest.approx(whole) and other == pytest.approx(whole)
     # What only single files take is not offered for many.
@@ -152,7 +143,7 @@ def test_a_survey_of_tiles_and_a_copc_file_give_the_same(source, made, tmp_path)
 def test_feet_are_converted(made, tmp_path):
     source = write(tmp_path / "feet.laz", epsg=2222, unit=FOOT)  # Arizona East, feet
     box = [start + metres / FOOT for metres in (20, 100) for start in ORIGIN]
-    summary = compare_settings([source], tmp_path / "feet.html", box, BOTH)
+    summary = compare_settings([source], tmp_path / "feet.html", extent=box, settings=BOTH)
     page = (tmp_path / "feet.html").read_text(encoding="utf-8")
     # The page speaks in the unit of the survey, and its figures are in metres.
     assert "(262 x 262 ft, 80 x 80 m)" in page and "164 ft (50 m) round the window" in page
@@ -172,13 +163,14 @@ def test_feet_are_converted(made, tmp_path):
 def test_the_context_is_told_and_can_be_chosen(source, made, tmp_path):
     assert made[0].context == 50.0
     assert "50 m round the window were read" in made[1] and "look up to 180 m far" in made[1]
-    near = TrialOptions(("slope:whitebox",), context=5)
-    summary = compare_settings([source], tmp_path / "p.html", WINDOW, near)
+    page = tmp_path / "p.html"
+    near = {"extent": WINDOW, "settings": ("slope:whitebox",), "context": 5}
+    summary = compare_settings(source, page, **near)
     x, y, *_ = scene()
     assert summary.read_count == np.count_nonzero(inside(x, y, (15, 15, 105, 105)))
-    wide = compare_settings([source], tmp_path / "p.html", WINDOW, TrialOptions(context=300))
+    wide = compare_settings(source, page, extent=WINDOW, context=300)
     assert wide.read_count == len(x)
-    assert "look up to" not in (tmp_path / "p.html").read_text(encoding="utf-8")
+    assert "look up to" not in page.read_text(encoding="utf-8")
 
 
 def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch):
@@ -186,11 +178,11 @@ def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch
         raise BareEarthError("No ground was found.")
 
     monkeypatch.setattr(LabelGround, "work", none)
-    heard = Heard()
-    summary = compare_settings([source], tmp_path / "p.html", WINDOW, BOTH, progress=heard)
+    progress, how = Heard(), {"extent": WINDOW, "settings": BOTH}
+    summary = compare_settings(source, tmp_path / "p.html", progress=progress, **how)
     assert [each["ground_count"] for each in summary.settings] == [0, 0]
     assert summary.settings[1]["terrain_difference"] is None
-    assert "Slope filter, Whitebox" in heard.warnings[-1]
+    assert "Slope filter, Whitebox" in progress.warnings[-1]
 
 
 @pytest.mark.parametrize(
@@ -203,7 +195,7 @@ def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch
 )
 def test_a_window_that_does_not_do_is_refused(source, tmp_path, window, says):
     with pytest.raises(BareEarthError, match=says):
-        compare_settings([source], tmp_path / "p.html", window)
+        compare_settings(source, tmp_path / "p.html", extent=window)
     assert not list(tmp_path.iterdir())
 
 
@@ -215,30 +207,30 @@ def test_values_that_do_not_do_are_refused(source, tmp_path):
         ({"profile": (1, 2, 1, 2)}, "not the same"),
     ):
         with pytest.raises(BareEarthError, match=says):
-            TrialOptions(**wrong)
+            compare_settings(source, tmp_path / "p.html", extent=WINDOW, **wrong)
     assert TrialOptions(("slope:town", "slope:town")).settings == ("slope:town",)
     with pytest.raises(BareEarthError, match=r"name it \.html"):
-        compare_settings([source], tmp_path / "page.png", WINDOW)
+        compare_settings([source], tmp_path / "page.png", extent=WINDOW)
     with pytest.raises(BareEarthError, match="tile"):
-        compare_settings([source], source, WINDOW)
+        compare_settings(source, source, extent=WINDOW)
 
 
 def test_a_cancel_leaves_nothing(source, tmp_path):
     with pytest.raises(Cancelled):
-        compare_settings([source], tmp_path / "p.html", WINDOW, BOTH, progress=CancelAt(0.5))
+        page = tmp_path / "p.html"
+        compare_settings(source, page, extent=WINDOW, settings=BOTH, progress=CancelAt(0.5))
     assert not list(tmp_path.iterdir())
 
 
 def test_without_a_window_the_middle_is_taken(source, tmp_path, capsys):
     x, *_ = scene()
-    heard = Heard()
-    page = tmp_path / "p.html"
-    summary = compare_settings([source], page, options=ONE, progress=heard)
+    page, progress = tmp_path / "p.html", Heard()
+    summary = compare_settings(source, page, settings=ONE, progress=progress)
     # The scene is smaller than 250 m.
     assert summary.point_count == len(x)
-    assert any("window in the middle of the points, x 5" in each for each in heard.infos)
+    assert any("window in the middle of the points, x 5" in each for each in progress.infos)
     first = page.read_bytes()
-    words = ["compare-settings", str(source), str(page), "--settings", *ONE.settings]
+    words = ["compare-settings", str(source), str(page), "--settings", *ONE]
     assert main(words) == 0 and page.read_bytes() == first
     assert main([*words, "--extent", *map(repr, summary.window)]) == 0
     assert page.read_bytes() == first
@@ -249,7 +241,7 @@ def test_the_middle_of_a_wide_survey_is_250_m_wide(tmp_path):
     rows = np.arange(0.0, 800.0, 4.0)
     x, y = (each.ravel() for each in np.meshgrid(rows, rows))
     write_places(source, x, y)
-    summary = compare_settings([source], tmp_path / "p.html", options=ONE)
+    summary = compare_settings([source], tmp_path / "p.html", settings=ONE)
     corner = ORIGIN[0] + 398 - 125, ORIGIN[1] + 398 - 125
     assert summary.window == (*corner, corner[0] + 250, corner[1] + 250)
 
@@ -268,9 +260,9 @@ def test_in_a_gap_the_nearest_points_are_taken(tmp_path, as_tiles):
     else:
         write_places(tmp_path / "in.laz", x[strip], y[strip])
         sources = [tmp_path / "in.laz"]
-    heard = Heard()
-    summary = compare_settings(sources, tmp_path / "p.html", options=ONE, progress=heard)
-    assert any(each.startswith("window round the point that is nearest") for each in heard.infos)
+    progress = Heard()
+    summary = compare_settings(sources, tmp_path / "p.html", settings=ONE, progress=progress)
+    assert any(each.startswith("window round the point that is nearest") for each in progress.infos)
     west, south, east, north = summary.window
     place = ORIGIN[0] + 96, ORIGIN[1] + 496
     assert (east, south, north) == (place[0] + 125, place[1] - 125, place[1] + 125)
@@ -282,18 +274,12 @@ def test_in_a_gap_the_nearest_points_are_taken(tmp_path, as_tiles):
 
 def write_places(path, x, y):
     """Write a plane with points at some places."""
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (*ORIGIN, 0.0)
-    header.add_crs(CRS.from_epsg(25832))
-    las = laspy.LasData(header)
-    las.x, las.y, las.z = x + ORIGIN[0], y + ORIGIN[1], 100 + 0.03 * x
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(path))
+    write_points(path, x, y, 100 + 0.03 * x, 0, offset=(*ORIGIN, 0.0), crs="EPSG:25832")
 
 
 def test_the_command(source, made, tmp_path, capsys):
     words = ["compare-settings", str(source), str(tmp_path / "page.html"), "--json"]
-    words += ["--extent", *map(str, WINDOW), "--settings", *BOTH.settings]
+    words += ["--extent", *map(str, WINDOW), "--settings", *BOTH]
     assert main(words) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["settings"] == made[0].settings

@@ -15,26 +15,23 @@ import numpy as np
 import pytest
 import surveys
 from conftest import GPS_TIMES, make_records
-from runs import classify_file
 
-from bare_earth import BareEarthError, Progress
+from bare_earth import BareEarthError, Progress, classify, info
 from bare_earth.algorithms.crs.provider import to_wgs84
 from bare_earth.algorithms.crs.system import crs_of_wkt
-from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.laszip import Compression
 from bare_earth.algorithms.las.opening import open_las
-from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
+from bare_earth.algorithms.las.reading import read_cloud, read_parts
 from bare_earth.algorithms.las.writing import write_changed, write_classified
 from bare_earth.algorithms.survey.files import open_survey
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from benchmarks.data import FOLDER
 
 DAMAGED = FOLDER / "damaged"
+METHOD = {"method": "slope", "preset": "whitebox"}
 # Little memory and time: what takes more is an abort or a hang.
 LIMITED = """
 import contextlib, sys
@@ -43,13 +40,12 @@ import numpy as np
 with contextlib.suppress(ImportError, ValueError):  # Windows has no such limits, macOS not this one
     import resource
     resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
-from bare_earth.algorithms.core.errors import BareEarthError
-from bare_earth.algorithms.las.reading import inspect
+from bare_earth import BareEarthError, info
 from bare_earth.algorithms.las.writing import write_classified
 classes = np.zeros(60, np.uint8)
 for source in map(Path, sys.argv[1:]):
     for action in (
-        lambda: inspect(source),
+        lambda: info(source),
         lambda: write_classified(source, source.with_name("out.laz"), classes),
     ):
         try:
@@ -183,7 +179,7 @@ def test_parts_of_a_point_of_another_type_than_their_length(make):
 @pytest.mark.parametrize("place", [*range(131, 155, 8), *range(155, 179, 8)])
 def test_scales_and_offsets_with_which_nothing_can_be_calculated(las, place, value):
     path = damage(las.make(), "d", (place, value))
-    for action in (inspect, read_cloud):
+    for action in (info, read_cloud):
         with pytest.raises(BareEarthError, match=r"header of .* is damaged"):
             action(path)
 
@@ -191,7 +187,7 @@ def test_scales_and_offsets_with_which_nothing_can_be_calculated(las, place, val
 def test_extra_bytes_of_no_type_and_no_length(las):
     record = las.vlr(b"LASF_Spec", 4, struct.pack("<2xBB32s156x", 0, 0, b"nothing"))
     source, target = las.make(vlrs=[record], extra=2), las.folder / "out.las"
-    assert inspect(source).extra_dimensions == ["undocumented"]
+    assert info(source).extra_dimensions == ["undocumented"]
     values = np.arange(60, dtype=np.float32)
     write_changed(source, target, Edits(extra=ExtraDimension("height", "of it", values)))
     records = las.split(target).records
@@ -203,7 +199,7 @@ UNPACKED = """
 import sys
 from pathlib import Path
 import numpy as np
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError
 from bare_earth.algorithms.las.writing import write_classified
 for source in map(Path, sys.argv[1:]):
     try:
@@ -336,11 +332,10 @@ def test_an_input_that_changes_while_it_is_classified_is_refused(tmp_path, suffi
                 self.done = True
                 replace_by_another(source, "renamed")
 
-    heard, resources = Meanwhile(), Resources(threads=1, memory=memory)
-    method, target = SlopeFilter(preset="whitebox"), tmp_path / "out.laz"
+    progress, target = Meanwhile(), tmp_path / "out.laz"
     with pytest.raises(BareEarthError, match=r"in\.la[sz] has changed .* Run it again"):
-        classify_file(source, target, method, resources=resources, progress=heard)
-    assert heard.done and list(tmp_path.iterdir()) == [source]
+        classify(source, target, threads=1, memory=memory, progress=progress, **METHOD)
+    assert progress.done and list(tmp_path.iterdir()) == [source]
 
 
 def test_parts_and_all_points_know_their_file(las):
@@ -392,11 +387,10 @@ def test_a_crs_that_the_library_for_rasters_does_not_know_is_told_and_not_printe
     pytest.importorskip("rasterio")
     record = las.vlr(b"LASF_Projection", 2112, b'PROJCS["p",UNIT["metre",1]]')
     source = las.make(version=4, point_format=6, encoding=0x10, vlrs=[record])
-    heard, out = las.Heard(), las.folder / "dtm.tif"
-    method = SlopeFilter(preset="whitebox")
-    every = Selection(from_classes="all")  # they are random numbers
-    classify_file(source, las.folder / "out.las", method, every, dtm=out, progress=heard)
-    assert any("without a CRS" in each for each in heard.warnings)
+    progress, out = las.Heard(), las.folder / "dtm.tif"
+    how = {"from_classes": range(256), "dtm": out, "progress": progress}  # of random numbers
+    classify(source, las.folder / "out.las", **how, **METHOD)
+    assert any("without a CRS" in text for text in progress.warnings)
     assert out.is_file() and capfd.readouterr().err == ""
 
 

@@ -8,23 +8,20 @@ import subprocess
 import sys
 import threading
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
-from runs import classify_tiles, temporary_in
+from runs import temporary_in
 from surveys import bytes_of, cut, finished, strip
 
-from bare_earth import BareEarthError, Cancelled, Progress
+import bare_earth
+from bare_earth import BareEarthError, Cancelled, Progress, classify
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core import version
 from bare_earth.algorithms.engine import cluster as cluster_module
-from bare_earth.algorithms.engine.cluster import Cluster
-from bare_earth.algorithms.engine.options import TileOutput
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin import TinDensification
-from bare_earth.algorithms.runs import many_files as many_files_module
 
-FAST = SlopeFilter(preset="whitebox")
+FAST = {"method": "slope", "preset": "whitebox"}
 KILLS = int(os.environ.get("BARE_EARTH_KILLS", "10"))
 
 
@@ -46,7 +43,7 @@ def free_port():
 @contextlib.contextmanager
 def running_cluster(folder, secret=None, count=2):
     """Start a scheduler and workers, each a process: the address, the workers, the scheduler."""
-    parent = str(Path(many_files_module.__file__).parents[3])
+    parent = str(Path(bare_earth.__file__).parents[1])
     path = os.pathsep.join([parent, os.environ.get("PYTHONPATH", "")])
     address = f"{'tls' if secret else 'tcp'}://127.0.0.1:{free_port()}"
     # As Dask reads its configuration from the environment.
@@ -88,7 +85,7 @@ def clusters(tmp_path_factory):
 
         def running_one(least=2):
             """Return one of which so many workers are left."""
-            left = [each.poll() is None for each in running[0][1:]] if running else [False]
+            left = [process.poll() is None for process in running[0][1:]] if running else [False]
             if not left[-1] or sum(left[:-1]) < least:
                 stack.close()
                 folder = tmp_path_factory.mktemp("dask")
@@ -125,7 +122,7 @@ def survey(tmp_path_factory):
     """Files, and the bytes that they become in threads of this process."""
     folder = tmp_path_factory.mktemp("survey")
     cut(folder / "in", strip(40_000, 900.0, 300.0), 16)
-    classify_tiles([folder / "in"], folder / "threads", FAST)
+    classify([folder / "in"], folder / "threads", **FAST)
     return folder / "in", bytes_of(folder / "threads")
 
 
@@ -158,16 +155,16 @@ KEYS = ("tls.ca-file", "tls.client.cert", "tls.client.key")
 def test_an_address_that_the_keys_do_not_fit_is_refused(scheme, settings, told, survey, tmp_path):
     from dask import config
 
-    workers = Cluster(f"{scheme}://127.0.0.1:{free_port()}")
+    address = f"{scheme}://127.0.0.1:{free_port()}"
     settings = {f"distributed.comm.{name}": value for name, value in settings.items()}
     with config.set(settings), pytest.raises(BareEarthError, match=told):
-        classify_tiles([survey[0]], tmp_path / "out", FAST, workers=workers)
+        classify([survey[0]], tmp_path / "out", scheduler=address, **FAST)
 
 
 def test_workers_of_another_version_are_refused(dask, survey, tmp_path, monkeypatch):
     monkeypatch.setattr(version, "__version__", "99.9")
     with pytest.raises(BareEarthError, match=r"has version .* and this computer 99\.9"):
-        classify_tiles([survey[0]], tmp_path / "out", FAST, workers=Cluster(dask[0]))
+        classify([survey[0]], tmp_path / "out", scheduler=dask[0], **FAST)
 
 
 def test_a_cancel_leaves_the_finished_tiles(dask, survey, tmp_path):
@@ -184,10 +181,9 @@ def test_a_cancel_leaves_the_finished_tiles(dask, survey, tmp_path):
     folder, expected = survey
     progress, out = Impatient(), tmp_path / "out"
     with pytest.raises(Cancelled):
-        classify_tiles([folder], out, FAST, progress=progress, workers=Cluster(dask[0]))
+        classify([folder], out, progress=progress, scheduler=dask[0], **FAST)
     assert 1 <= len(bytes_of(out)) < 16
-    resume = TileOutput(resume=True)
-    summary = classify_tiles([folder], out, FAST, output=resume, workers=Cluster(dask[0]))
+    summary = classify([folder], out, resume=True, scheduler=dask[0], **FAST)
     assert summary.kept_count >= 1 and bytes_of(out) == expected
 
 
@@ -208,7 +204,7 @@ def test_a_worker_that_is_killed_loses_nothing(dask, survey, tmp_path):
 
     killer = Killer()
     out = tmp_path / "out"
-    summary = classify_tiles([folder], out, FAST, progress=killer, workers=Cluster(address))
+    summary = classify([folder], out, progress=killer, scheduler=address, **FAST)
     assert worker.wait() == -signal.SIGKILL and killer.done >= 14
     assert not summary.failures and summary.done_count == 16
     assert bytes_of(out) == expected
@@ -225,8 +221,8 @@ def test_a_scheduler_that_ends_is_told_and_the_run_goes_on_without_it(clusters, 
 
     out = tmp_path / "out"
     with pytest.raises(BareEarthError, match="The scheduler is gone"):
-        classify_tiles([folder], out, FAST, progress=Killer(), workers=Cluster(address))
-    summary = classify_tiles([folder], out, FAST, output=TileOutput(resume=True))
+        classify([folder], out, progress=Killer(), scheduler=address, **FAST)
+    summary = classify([folder], out, resume=True, **FAST)
     assert summary.done_count == 16 and bytes_of(out) == expected
 
 
@@ -244,11 +240,9 @@ def test_jobs_of_a_run_that_was_cancelled_write_nothing_more(tmp_path):
 
     with running_cluster(tmp_path) as (address, _, _):
         wait_for_workers(address, 2)
-        words, cluster = [tmp_path / "in"], Cluster(address)
+        out = tmp_path / "out"
         with pytest.raises(Cancelled):
-            classify_tiles(
-                words, tmp_path / "out", TinDensification(), progress=Impatient(), workers=cluster
-            )
+            classify([tmp_path / "in"], out, progress=Impatient(), scheduler=address)
         written = set(labels.iterdir())
         time.sleep(10.0)
         assert set(labels.iterdir()) == written and not finished(tmp_path / "out")
@@ -256,22 +250,23 @@ def test_jobs_of_a_run_that_was_cancelled_write_nothing_more(tmp_path):
 
 @pytest.mark.long
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
-def test_a_cluster_whose_workers_are_all_gone_is_told(survey, tmp_path):
+def test_a_cluster_whose_workers_are_all_gone_is_told(survey, tmp_path, monkeypatch):
     folder, expected = survey
+    monkeypatch.setattr(cluster_module, "Cluster", partial(cluster_module.Cluster, patience=3.0))
     with running_cluster(tmp_path) as (address, workers, _):
         wait_for_workers(address, 2)
 
         class Killer(Progress):
             def info(self, text):
-                for each in workers:
-                    each.kill()
+                for worker in workers:
+                    worker.kill()
 
-        out, cluster = tmp_path / "out", Cluster(address, patience=3.0)
+        out = tmp_path / "out"
         begun = time.monotonic()
         with pytest.raises(BareEarthError, match=r"All workers of .* are gone"):
-            classify_tiles([folder], out, FAST, progress=Killer(), workers=cluster)
+            classify([folder], out, progress=Killer(), scheduler=address, **FAST)
         assert time.monotonic() - begun < 30.0
-    summary = classify_tiles([folder], out, FAST, output=TileOutput(resume=True))
+    summary = classify([folder], out, resume=True, **FAST)
     assert summary.done_count == 16 and bytes_of(out) == expected
     assert not temporary_in(out)
 
@@ -329,8 +324,9 @@ def test_over_tls_the_bytes_are_the_same_and_without_keys_nobody_gets_in(
 @pytest.mark.long
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
 @pytest.mark.parametrize("victim", ["worker", "scheduler", "frozen scheduler"])
-def test_kills_at_moments_by_chance_lose_nothing(victim, survey, tmp_path):
+def test_kills_at_moments_by_chance_lose_nothing(victim, survey, tmp_path, monkeypatch):
     folder, expected = survey
+    monkeypatch.setattr(cluster_module, "Cluster", partial(cluster_module.Cluster, patience=5.0))
     ends, chance = [], random.Random(victim)
     for number in range(max(KILLS // 3, 1)):
         place = tmp_path / str(number)
@@ -341,10 +337,10 @@ def test_kills_at_moments_by_chance_lose_nothing(victim, survey, tmp_path):
             how = signal.SIGSTOP if victim.startswith("frozen") else signal.SIGKILL
             killer = threading.Timer(chance.uniform(0.0, 2.5), who.send_signal, [how])
             killer.start()
-            out, cluster = place / "out", Cluster(address, patience=5.0)
+            out = place / "out"
             begun = time.monotonic()
             try:
-                summary = classify_tiles([folder], out, FAST, workers=cluster)
+                summary = classify([folder], out, scheduler=address, **FAST)
                 assert summary.done_count == 16
                 ends.append("done")
             except BareEarthError as error:
@@ -355,7 +351,7 @@ def test_kills_at_moments_by_chance_lose_nothing(victim, survey, tmp_path):
             killer.join()
         names = bytes_of(out)
         assert all(expected[name] == content for name, content in names.items())
-        summary = classify_tiles([folder], out, FAST, output=TileOutput(resume=True))
+        summary = classify([folder], out, resume=True, **FAST)
         assert summary.done_count == 16 and bytes_of(out) == expected
         assert not temporary_in(out)
-    print(victim, {each: ends.count(each) for each in ends})
+    print(victim, {end: ends.count(end) for end in ends})

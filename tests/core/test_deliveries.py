@@ -4,54 +4,33 @@ import json
 import os
 import re
 import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import laspy
 import numpy as np
 import pytest
+from conftest import Heard
 from independent_water import compare, corners_in_flat_water
 from scipy.spatial import cKDTree
-from surveys import finished
+from surveys import classes_of, finished, heights_of, write_points
 
-from bare_earth import BareEarthError, Cancelled, Progress
+from bare_earth import BareEarthError, Cancelled, Progress, classify, deliver, terrain
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import FinishedFilesStay, OutputInUse
 from bare_earth.algorithms.delivery.deliveries import DELIVERIES, STATED
-from bare_earth.algorithms.delivery.delivering import deliver
-from bare_earth.algorithms.delivery.request import (
-    DeliveryOptions,
-    DeliveryRequest,
-    DeliveryTerrain,
-    DeliveryWater,
-)
-from bare_earth.algorithms.engine.options import TileOutput
-from bare_earth.algorithms.filters.tin import TinDensification
+from bare_earth.algorithms.delivery.request import DeliveryOptions, DeliveryRequest, DeliveryWater
 from bare_earth.algorithms.grids.lines import along
-from bare_earth.algorithms.rasters.geotiff import read_raster
-from bare_earth.algorithms.runs.entry import classify, terrain
-from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.survey.area import Area
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
-from bare_earth.algorithms.survey.vpc import read_vpc
-from bare_earth.algorithms.tools.check.checkpoints import Checkpoints
 from bare_earth.algorithms.tools.quality.specifications import SPECIFICATIONS
-from bare_earth.algorithms.tools.rasters.constraints import Constraints
-from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
-pyproj = pytest.importorskip("pyproj")
+pytest.importorskip("pyproj")
 EAST, NORTH, WIDTH, DEPTH = 500_000.0, 5_600_000.0, 150.0, 90.0
 LAKE = (115.0, 45.0, 22.0)  # x, y and radius
-ALWAYS = {
-    "index.html",
-    "delivery.json",
-    "accuracy.html",
-    "quality.html",
-    "dtm.tif",
-    "hillshade.tif",
-}
+# The delivery that takes the least time.
+SMALL = {"delivery": "drone-site", "hold_out_share": None}
+ALWAYS = {"index.html", "delivery.json", "accuracy.html", "quality.html", "dtm.tif",
+          "hillshade.tif"}  # fmt: skip
 FILES = {
     "survey": {
         "dsm.tif", "quality/pulse_density.tif", "quality/ground_density.tif", "quality/voids.tif",
@@ -92,8 +71,8 @@ def points():
     several[wood], number[wood] = 2, 2
     crowns = z[wood] + random.uniform(3.0, 12.0, wood.sum())
     columns = [
-        np.concatenate((each, more))
-        for each, more in zip(
+        np.concatenate((column, more))
+        for column, more in zip(
             (x, y, z, number, several, truth),
             (x[wood], y[wood], crowns, *(np.full(wood.sum(), value) for value in (1, 2, 5))),
         )
@@ -102,15 +81,11 @@ def points():
 
 
 def write(path, rows):
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0)
-    header.add_crs(pyproj.CRS("EPSG:25832"))
-    las = laspy.LasData(header)
-    las.x, las.y, las.z = rows[:, 0] + EAST, rows[:, 1] + NORTH, rows[:, 2]
-    las.return_number[:], las.number_of_returns[:] = rows[:, 3:5].T.astype(int)
-    las.classification[:] = 1
-    las.write(str(path))
-    return path
+    returns, several = rows[:, 3:5].T.astype(int)
+    return write_points(
+        path, *rows.T[:3], offset=(EAST, NORTH, 0.0), crs="EPSG:25832",
+        return_number=returns, number_of_returns=several,
+    )  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -134,7 +109,7 @@ def made(scene, tmp_path_factory):
         if (name, is_one) not in known:
             target = folder / f"{name}-{is_one}"
             source = scene[1 if is_one else 2]
-            known[name, is_one] = deliver(source, target, DeliveryRequest(delivery=name)), target
+            known[name, is_one] = deliver(source, target, delivery=name), target
         return known[name, is_one]
 
     return make
@@ -146,9 +121,9 @@ def watered(scene, tmp_path_factory):
     known, folder = {}, tmp_path_factory.mktemp("watered")
 
     def make(how):
-        name = f"key points {how.options.key_points}"
+        name = f"key points {how['key_points']}"
         if name not in known:
-            known[name] = deliver(scene[2], folder / name, how), folder / name
+            known[name] = deliver(scene[2], folder / name, **how), folder / name
         return known[name]
 
     return make
@@ -156,8 +131,8 @@ def watered(scene, tmp_path_factory):
 
 def with_water(has_key_points=False):
     """Return a delivery with water that a user draws, of which nothing is held out."""
-    options = DeliveryOptions(hold_out_share=None, key_points=has_key_points)
-    return DeliveryRequest(options=options, constraints=given_water(0.71)[0])
+    water, _ = given_water(0.71)
+    return {"hold_out_share": None, "key_points": has_key_points, "water": water}
 
 
 def files_of(folder):
@@ -165,29 +140,14 @@ def files_of(folder):
     return {each for each in found if not each.startswith(("points/", ".bare-earth/"))}
 
 
-def heights(path):
-    return read_raster(path).heights
-
-
-class Said(Progress):
-    """Keeps the messages."""
-
-    def __init__(self):
-        self.texts = []
-
-    def info(self, text):
-        """Keep a message."""
-        self.texts.append(text)
-
-
 class Stops(Progress):
     """Cancels when so much is done."""
 
-    def __init__(self, at):
-        self._at = at
+    def __init__(self, share):
+        self._share = share
 
     def report(self, fraction):
-        if fraction >= self._at:
+        if fraction >= self._share:
             raise Cancelled
 
 
@@ -223,17 +183,19 @@ def test_two_files_get_the_same_as_one(made, scene, name):
     assert one.class_counts == many.class_counts and one.cell_size == many.cell_size
     for each in ("dtm.tif", "dsm.tif", "terrain_with_buildings.tif"):
         if (folder / each).exists():
-            assert np.array_equal(heights(folder / each), heights(other / each), equal_nan=True)
+            assert np.array_equal(
+                heights_of(folder / each), heights_of(other / each), equal_nan=True
+            )
     written = {each.name for each in (other / "points").glob("*.laz")}
     assert written == {"east.laz", "west.laz"} and os.path.exists(many.cloud)
 
 
 def test_classes_are_those_of_the_command(made, scene, tmp_path):
     summary, folder = made("survey")
-    chosen = Selection(low_noise_class=True, high_noise_class=True, bridge_class=17)
-    classify(scene[1], tmp_path / "own.laz", ClassifyRequest(selection=chosen))
-    own = laspy.read(tmp_path / "own.laz").classification
-    assert np.array_equal(laspy.read(folder / "points" / "whole.laz").classification, own)
+    how = {"low_noise_class": True, "high_noise_class": True, "bridge_class": 17}
+    classify(scene[1], tmp_path / "own.laz", **how)
+    own = classes_of(tmp_path / "own.laz")
+    assert np.array_equal(classes_of(folder / "points" / "whole.laz"), own)
     truth = scene[0][:, 5]
     assert np.mean((own == 2) == (truth == 2)) > 0.99 and summary.ground_count == (own == 2).sum()
 
@@ -244,14 +206,10 @@ def test_water_is_flat_in_the_terrain_model_and_it_is_that_of_the_commands(made,
     cloud = folder / "points" / "whole.laz"
     # The breakline of the shore is the polygon with its level.
     (shore,) = read_lines(folder / "breaklines.gpkg")
-    how = TerrainRequest(
-        rasters=RasterFiles(dtm=tmp_path / "own.tif"),
-        terrain=TerrainModel(dtm_cell_size=summary.cell_size),
-        constraints=Constraints(water=((shore,),)),
-    )
-    terrain(cloud, how)
-    dtm = heights(folder / "dtm.tif")
-    assert np.array_equal(heights(tmp_path / "own.tif"), dtm, equal_nan=True)
+    own = tmp_path / "own.tif"
+    terrain(cloud, dtm=own, dtm_cell_size=summary.cell_size, water=((shore,),))
+    dtm = heights_of(folder / "dtm.tif")
+    assert np.array_equal(heights_of(own), dtm, equal_nan=True)
     # The lake reaches from x = 93 to 137 m, its middle is 45 m north of the lower edge.
     cell = summary.cell_size
     lake = dtm[
@@ -279,7 +237,7 @@ def given_water(distance):
         beyond = np.hypot(np.maximum(away[:, :2], 0).max(1), np.maximum(away[:, 2:], 0).max(1))
         return np.where(away.max(1) < 0, 9, np.where(beyond <= distance, 20, 2))
 
-    return Constraints(water=(area,)), truth
+    return (area,), truth
 
 
 def rows_of_classes(page):
@@ -301,9 +259,8 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
     scene, tmp_path, specification, distance, is_one
 ):
     water, truth = given_water(distance)
-    options = DeliveryOptions(specification, hold_out_share=None)
-    how = DeliveryRequest(options=options, constraints=water, tiles=TileOutput(overview=True))
-    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", how)
+    how = {"specification": specification, "hold_out_share": None, "water": water}
+    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", overview=True, **how)
     clouds = [laspy.read(each) for each in (tmp_path / "out" / "points").glob("*st.laz")]
     clouds = [laspy.read(summary.cloud)] if is_one else clouds
     assert len(clouds) == 2 - is_one
@@ -324,7 +281,7 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
 @pytest.mark.parametrize("is_one", [True, False])
 def test_key_points_are_among_the_ground_that_water_leaves(scene, watered, tmp_path, is_one):
     how, folder = with_water(has_key_points=True), tmp_path / "out"
-    summary, folder = (deliver(scene[1], folder, how), folder) if is_one else watered(how)
+    summary, folder = (deliver(scene[1], folder, **how), folder) if is_one else watered(how)
     clouds = [laspy.read(each) for each in (folder / "points").glob("*.laz")]
     marked = [np.asarray(each.classification)[np.asarray(each.key_point) == 1] for each in clouds]
     assert set(np.concatenate(marked)) == {2} and all(map(len, marked))
@@ -336,19 +293,15 @@ def test_key_points_are_among_the_ground_that_water_leaves(scene, watered, tmp_p
 
 def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scene, tmp_path):
     water, _ = given_water(0.71)
-    how = DeliveryRequest(
-        options=DeliveryOptions(hold_out_share=None), constraints=water,
-        tiles=TileOutput(format="copc.laz", overview=True),
-    )  # fmt: skip
-    summary = deliver(scene[2], tmp_path / "out", how)
+    how = {"format": "copc.laz", "overview": True, "hold_out_share": None}
+    summary = deliver(scene[2], tmp_path / "out", water=water, **how)
     points = tmp_path / "out" / "points"
     tiles = {"east.copc.laz", "west.copc.laz"}
     lists = {"classified.vpc", "classified-overview.copc.laz"}
     assert {each.name for each in points.iterdir()} == tiles | lists
-    assert {each for each in read_vpc(summary.cloud)} == {points / each for each in tiles}
-    assert (
-        np.asarray(laspy.read(points / "classified-overview.copc.laz").classification) == 9
-    ).any()
+    listed = json.loads(Path(summary.cloud).read_text())["features"]
+    assert {Path(tile["assets"]["data"]["href"]).name for tile in listed} == tiles
+    assert 9 in classes_of(points / "classified-overview.copc.laz")
     files = json.loads((tmp_path / "out" / "delivery.json").read_text())["files"]
     assert {each for each in files if not (tmp_path / "out" / each).is_file()} == set()
     assert {each for each in os.listdir(tmp_path / "out") if each[0] == "."} == {".bare-earth"}
@@ -394,10 +347,8 @@ def test_a_survey_is_as_the_base_specification_asks(made):
 
 
 def test_a_specification_brings_the_classes_that_it_asks_for(scene, tmp_path):
-    how = DeliveryRequest(delivery="survey", options=DeliveryOptions("ign", hold_out_share=None))
-    summary = deliver(scene[1], tmp_path / "out", how)
-    truth = scene[0][:, 5]
-    classes = np.asarray(laspy.read(summary.cloud).classification)
+    summary = deliver(scene[1], tmp_path / "out", specification="ign", hold_out_share=None)
+    truth, classes = scene[0][:, 5], classes_of(summary.cloud)
     assert np.mean(classes[truth == 6] == 6) > 0.9 and np.mean(classes[truth == 5] == 5) > 0.9
     assert summary.cell_size == 0.5
 
@@ -414,7 +365,9 @@ def test_forestry_has_heights_and_classes_of_vegetation(made, scene):
 
 def test_archaeology_has_a_terrain_with_the_house_on_it(made):
     summary, folder = made("archaeology")
-    dtm, with_house = heights(folder / "dtm.tif"), heights(folder / "terrain_with_buildings.tif")
+    dtm, with_house = (
+        heights_of(folder / f"{name}.tif") for name in ("dtm", "terrain_with_buildings")
+    )
     cell = summary.cell_size
     house = np.s_[
         int((DEPTH - 76) / cell) : int((DEPTH - 64) / cell), int(24 / cell) : int(30 / cell)
@@ -427,13 +380,10 @@ def test_archaeology_has_a_terrain_with_the_house_on_it(made):
 
 
 def test_options_of_the_user_replace_those_of_the_delivery(scene, tmp_path):
-    how = DeliveryRequest(
-        delivery="archaeology",
-        parameters=TinDensification(preset="flat", ground_tolerance=0.3),
-        terrain=DeliveryTerrain(dtm_cell_size=2.0),
-        options=DeliveryOptions(key_points=True, hold_out_share=None),
-    )
-    summary = deliver(scene[1], tmp_path / "out", how)
+    summary = deliver(
+        scene[1], tmp_path / "out", delivery="archaeology", preset="flat", ground_tolerance=0.3,
+        dtm_cell_size=2.0, key_points=True, hold_out_share=None,
+    )  # fmt: skip
     assert summary.cell_size == 2.0 and summary.check is None
     settings = json.loads((tmp_path / "out" / "delivery.json").read_text())["settings"]
     assert settings["TIN densification"] == {"preset": "flat", "ground_tolerance": "0.3"}
@@ -444,35 +394,31 @@ def test_options_of_the_user_replace_those_of_the_delivery(scene, tmp_path):
 def test_checkpoints_are_compared_with_points_and_terrain_model(scene, tmp_path):
     x, y = np.meshgrid([60.0, 66.0, 72.0], [10.0, 45.0, 80.0])
     places = np.column_stack((x.ravel(), y.ravel(), ground_at(x, y).ravel() - 0.1))
-    known = Checkpoints.of(places + np.array((EAST, NORTH, 0.0)))
-    how = DeliveryRequest(delivery="drone-site", checkpoints=known)
-    summary = deliver(scene[1], tmp_path / "out", how)
+    known = places + np.array((EAST, NORTH, 0.0))
+    summary = deliver(scene[1], tmp_path / "out", delivery="drone-site", checkpoints=known)
     assert summary.check.counted == 9 and summary.check.shift == pytest.approx(0.1, abs=0.03)
     assert {"checkpoints.csv", "checkpoints.gpkg"} <= files_of(tmp_path / "out")
-    far = Checkpoints.of(places)
     with pytest.raises(BareEarthError, match="checkpoints"):
-        deliver(scene[1], tmp_path / "far", DeliveryRequest(checkpoints=far))
+        deliver(scene[1], tmp_path / "far", checkpoints=places)
     assert not (tmp_path / "far").exists()
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3, 0.8, 1.0])
 def test_a_cancel_leaves_nothing_of_one_file(scene, tmp_path, share):
-    how = DeliveryRequest(delivery="drone-site", options=DeliveryOptions(hold_out_share=None))
     with pytest.raises(Cancelled):
-        deliver(scene[1], tmp_path / "out", how, Stops(share))
+        deliver(scene[1], tmp_path / "out", progress=Stops(share), **SMALL)
     assert os.listdir(tmp_path) == []
 
 
 def test_many_files_can_be_continued_after_a_cancel(scene, tmp_path):
-    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
-    how = DeliveryRequest(delivery="drone-site", options=small)
+    target = tmp_path / "out"
     with pytest.raises(FinishedFilesStay):
-        deliver(scene[2], target, how, Stops(0.95))
+        deliver(scene[2], target, progress=Stops(0.95), **SMALL)
     assert files_of(target) == {"delivery.json"}
     assert not json.loads((target / "delivery.json").read_text())["is_finished"]
     before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
     assert len(before) == 2
-    deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)))
+    deliver(scene[2], target, resume=True, **SMALL)
     assert {each: each.stat().st_mtime_ns for each in before} == before
     assert files_of(target) == (ALWAYS | FILES["drone-site"]) - {"accuracy.html"}
 
@@ -488,9 +434,8 @@ class StopsAfter(Progress):
             raise Cancelled
 
 
-def classes_of(folder):
-    files = sorted((folder / "points").glob("*.laz"))
-    return {each.name: np.asarray(laspy.read(each).classification) for each in files}
+def classes_by_file(folder):
+    return {path.name: classes_of(path) for path in (folder / "points").glob("*.laz")}
 
 
 @pytest.mark.parametrize(
@@ -506,18 +451,20 @@ def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
 ):
     target, how = tmp_path / "out", with_water(has_key_points)
     with pytest.raises(FinishedFilesStay):
-        deliver(scene[2], target, how, StopsAfter(target, count))
+        deliver(scene[2], target, progress=StopsAfter(target, count), **how)
     ready = {each for each in files_of(target) if not each.startswith(".waiting/")}
     assert ready == {"delivery.json"}
     # The classified files stay as they were, until all is done.
     before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
-    assert len(before) == 2 and not any((each == 9).any() for each in classes_of(target).values())
-    said = Said()
-    summary = deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)), said)
-    assert "2 files are done already." in said.texts and not (target / ".waiting").exists()
-    found = classes_of(target)
+    assert len(before) == 2 and not any(
+        (each == 9).any() for each in classes_by_file(target).values()
+    )
+    progress = Heard()
+    summary = deliver(scene[2], target, resume=True, progress=progress, **how)
+    assert "2 files are done already." in progress.infos and not (target / ".waiting").exists()
+    found = classes_by_file(target)
     whole, folder = watered(how)
-    expected = classes_of(folder)
+    expected = classes_by_file(folder)
     assert all(np.array_equal(found[each], expected[each]) for each in expected)
     assert summary.class_counts == whole.class_counts and (found["west.laz"] == 9).any()
     assert files_of(target) == files_of(folder)
@@ -527,21 +474,20 @@ def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
 def test_a_second_run_classifies_files_with_classes_of_water_again(
     scene, watered, tmp_path, resume
 ):
-    target, how, said = tmp_path / "out", with_water(), Said()
+    target, how, progress = tmp_path / "out", with_water(), Heard()
     first, folder = watered(how)
     shutil.copytree(folder, target)
-    before = classes_of(target)
-    second = deliver(scene[2], target, replace(how, tiles=TileOutput(resume=resume)), said)
+    before = classes_by_file(target)
+    second = deliver(scene[2], target, resume=resume, progress=progress, **how)
     assert second.class_counts == first.class_counts
-    assert all(np.array_equal(before[name], each) for name, each in classes_of(target).items())
-    assert any("2 finished files are made again" in each for each in said.texts) == resume
+    assert all(np.array_equal(before[name], each) for name, each in classes_by_file(target).items())
+    assert any("2 finished files are made again" in text for text in progress.infos) == resume
     if not resume:
         return
     # Without water, nothing is left of the classes of water.
-    without = DeliveryRequest(options=how.options, tiles=TileOutput(resume=True))
-    third = deliver(scene[2], target, without)
+    third = deliver(scene[2], target, hold_out_share=None, resume=True)
     assert not {9, 20} & third.class_counts.keys()
-    assert not any((each == 9).any() for each in classes_of(target).values())
+    assert not any((each == 9).any() for each in classes_by_file(target).values())
 
 
 def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
@@ -559,11 +505,13 @@ def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
     with monkeypatch.context() as patched:
         patched.setattr("bare_earth.algorithms.delivery.folder.os.replace", refuse)
         with pytest.raises(BareEarthError, match="the disk is full"):
-            deliver(scene[2], target, how)
+            deliver(scene[2], target, **how)
     assert not json.loads((target / "delivery.json").read_text())["is_finished"]
-    deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)))
-    expected = classes_of(watered(how)[1])
-    assert all(np.array_equal(each, expected[name]) for name, each in classes_of(target).items())
+    deliver(scene[2], target, resume=True, **how)
+    expected = classes_by_file(watered(how)[1])
+    assert all(
+        np.array_equal(each, expected[name]) for name, each in classes_by_file(target).items()
+    )
 
 
 @pytest.mark.parametrize("is_one", [True, False])
@@ -571,8 +519,6 @@ def test_a_delivery_is_kept_beside_an_old_one_that_a_program_has_open(
     scene, tmp_path, windows, is_one
 ):
     target, source = tmp_path / "out", scene[1] if is_one else scene[2]
-    small = DeliveryOptions(hold_out_share=None)
-    how = DeliveryRequest(delivery="drone-site", options=small)
 
     class Opens(Progress):
         def report(self, fraction):
@@ -582,15 +528,15 @@ def test_a_delivery_is_kept_beside_an_old_one_that_a_program_has_open(
     def content():
         return {each: (target / each).read_bytes() for each in files_of(target)}
 
-    deliver(source, target, how)
+    deliver(source, target, **SMALL)
     before = content()
     windows.hold(target / "dtm.tif")
     with pytest.raises(OutputInUse, match=r"dtm\.tif: another program uses it"):
-        deliver(source, target, how)  # before any work
+        deliver(source, target, **SMALL)  # before any work
     assert content() == before and os.listdir(tmp_path) == ["out"]
     windows.in_use.clear()
     with pytest.raises(OutputInUse, match=r"dtm\.tif: another.* is kept in .*out-new\."):
-        deliver(source, target, how, Opens())
+        deliver(source, target, progress=Opens(), **SMALL)
     # Nothing is half new. Of many files, the points are there, so the page is not.
     said = {"delivery.json", "index.html"}
     assert {key: each for key, each in content().items() if key not in said or is_one} == {
@@ -600,13 +546,13 @@ def test_a_delivery_is_kept_beside_an_old_one_that_a_program_has_open(
     assert files_of(kept) == before.keys() and (kept / "points").exists() == is_one
     assert json.loads((kept / "delivery.json").read_text())["is_finished"]
     windows.in_use.clear()
-    deliver(source, target, replace(how, tiles=TileOutput(resume=True)))
+    deliver(source, target, resume=True, **SMALL)
     assert content().keys() == before.keys() and sorted(os.listdir(tmp_path)) == ["out", "out-new"]
 
 
 def test_a_cancel_before_any_file_is_done_leaves_nothing_of_many(scene, tmp_path):
     with pytest.raises(Cancelled) as stopped:
-        deliver(scene[2], tmp_path / "out", DeliveryRequest(), Stops(0.02))
+        deliver(scene[2], tmp_path / "out", progress=Stops(0.02))
     assert not isinstance(stopped.value, FinishedFilesStay) and os.listdir(tmp_path) == []
 
 
@@ -614,9 +560,7 @@ def test_a_file_that_cannot_be_read_is_named_on_the_page(scene, tmp_path):
     tiles = tmp_path / "tiles"
     shutil.copytree(scene[2], tiles)
     (tiles / "broken.laz").write_bytes(b"LASF")
-    small = DeliveryOptions(hold_out_share=None)
-    how = DeliveryRequest(delivery="drone-site", options=small)
-    summary = deliver(tiles, tmp_path / "out", how)
+    summary = deliver(tiles, tmp_path / "out", **SMALL)
     assert [os.path.basename(each) for each in summary.failures] == ["broken.laz"]
     assert "<li>broken.laz is left out." in (tmp_path / "out" / "index.html").read_text("utf-8")
 
@@ -632,10 +576,10 @@ def test_an_error_names_the_folder_of_the_user(scene, tmp_path):
 
 
 def test_a_delivery_replaces_an_earlier_one_and_nothing_else(scene, tmp_path):
-    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
-    deliver(scene[1], target, DeliveryRequest(delivery="flood", options=small))
+    target = tmp_path / "out"
+    deliver(scene[1], target, **{**SMALL, "delivery": "flood"})
     (target / "notes.txt").write_text("mine")
-    deliver(scene[1], target, DeliveryRequest(delivery="drone-site", options=small))
+    deliver(scene[1], target, **SMALL)
     expected = ALWAYS | FILES["drone-site"] | {"notes.txt"}
     assert files_of(target) == expected - {"accuracy.html"}
 
@@ -645,7 +589,7 @@ def test_what_cannot_be_delivered_is_said_before_any_work(scene, tmp_path):
     with pytest.raises(
         BareEarthError, match=r"no delivery 'x'\. Choose one of survey, archaeology"
     ):
-        DeliveryRequest(delivery="x")
+        deliver(source, tmp_path / "out", delivery="x")
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "dtm.tif").write_text("mine")
     with pytest.raises(BareEarthError, match=r"holds other files, such as dtm\.tif"):
@@ -700,7 +644,9 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     passed = list(states.values()).count("pass")
     share, _, names = told["comparisons"].partition("; not: ")
     assert share == f"{passed} of {len(states)} pass" and states["Density"] == "fail"
-    assert names == ", ".join(f"{name} ({it})" for name, it in states.items() if it != "pass")
+    assert names == ", ".join(
+        f"{name} ({state})" for name, state in states.items() if state != "pass"
+    )
 
 
 def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
@@ -721,25 +667,23 @@ def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
 
 
 def test_many_files_with_heights_are_done_already_after_a_finished_delivery(made, scene, tmp_path):
-    target, how = tmp_path / "out", DeliveryRequest(delivery="forestry")
+    target, progress = tmp_path / "out", Heard()
     first, folder = made("forestry", is_one=False)
     shutil.copytree(folder, target)
     before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
     assert len(before) == 2
     for each in before:
         assert "HeightAboveGround" in laspy.read(each).point_format.dimension_names
-    said = Said()
-    second = deliver(scene[2], target, replace(how, tiles=TileOutput(resume=True)), said)
-    assert "2 files are done already." in said.texts
+    second = deliver(scene[2], target, delivery="forestry", resume=True, progress=progress)
+    assert "2 files are done already." in progress.infos
     assert {each: each.stat().st_mtime_ns for each in before} == before
     assert second.class_counts == first.class_counts and {3, 5, 6} & first.class_counts.keys()
     assert second.ground_count == first.ground_count == first.class_counts[2]
 
 
 def test_records_of_many_files_are_not_among_the_points(scene, tmp_path):
-    target, small = tmp_path / "out", DeliveryOptions(hold_out_share=None)
-    how = DeliveryRequest(delivery="drone-site", options=small)
-    deliver(scene[2], target, how)
+    target, progress = tmp_path / "out", Heard()
+    deliver(scene[2], target, **SMALL)
     handed = {"classified.vpc", "east.laz", "west.laz"}
     assert set(os.listdir(target / "points")) == handed
     assert set(os.listdir(target / ".bare-earth")) == {"east.laz.json", "west.laz.json"}
@@ -748,13 +692,12 @@ def test_records_of_many_files_are_not_among_the_points(scene, tmp_path):
         f"points/{each}" for each in handed
     }
     # A run that goes on finds them, also after one that was stopped; one file has none.
-    again, said = replace(how, tiles=TileOutput(resume=True)), Said()
     with pytest.raises(FinishedFilesStay):
-        deliver(scene[2], target, again, Stops(0.5))
-    deliver(scene[2], target, again, said)
-    assert "2 files are done already." in said.texts
+        deliver(scene[2], target, resume=True, progress=Stops(0.5), **SMALL)
+    deliver(scene[2], target, resume=True, progress=progress, **SMALL)
+    assert "2 files are done already." in progress.infos
     assert set(os.listdir(target / "points")) == handed and (target / ".bare-earth").is_dir()
-    deliver(scene[1], target, how)
+    deliver(scene[1], target, **SMALL)
     assert os.listdir(target / "points") == ["whole.laz"]
     assert not (target / ".bare-earth").exists()
 
@@ -786,22 +729,19 @@ def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp
     along_river = line((91.0, 6.0, np.nan), (58.0, 6.0, np.nan))
     dyke = line((5.0, 45.0, 107.0), (12.0, 45.0, 107.5))
     edge = line((55.0, 50.0, np.nan), (75.0, 50.0, np.nan))
-    known = Constraints(
-        water=(lake, river, square(400.0, 0.0, 410.0, 10.0)), rivers=(along_river,),
-        breaklines=(dyke, edge),
+    water, how = (lake, river, square(400.0, 0.0, 410.0, 10.0)), {**SMALL, "delivery": "flood"}
+    summary = deliver(
+        scene[1 if is_one else 2], tmp_path / "out", water=water, rivers=(along_river,),
+        breaklines=(dyke, edge), **how,
     )  # fmt: skip
-    how = DeliveryRequest(
-        delivery="flood", options=DeliveryOptions(hold_out_share=None), constraints=known
-    )
-    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", how)
     assert {"water", "breaklines"} <= summary.layers.keys()
     polygons = features(summary.layers["water"])
     assert [row["KIND"] for row, _ in polygons] == ["lake", "river", "lake"]
     assert {row["GRADE"] for row, _ in polygons} == {"given"}
     assert [row["AREA"] for row, _ in polygons] == [1600.0, 180.0, 100.0]
     assert np.isnan([polygons[2][0]["LEVEL"], polygons[0][0]["SPREAD"]]).all()
-    for (_, at), given in zip(polygons, known.water):
-        assert np.allclose(at[:4], given[0])
+    for (_, ring), given in zip(polygons, water):
+        assert np.allclose(ring[:4], given[0])
     lines = features(summary.layers["breaklines"])
     names = [(row["ID"], row["KIND"]) for row, _ in lines]
     assert names == [
@@ -810,7 +750,7 @@ def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp
     ]  # fmt: skip
     # Their heights are those of the terrain model; the level of a lake is one.
     level = polygons[0][0]["LEVEL"]
-    dtm = heights(tmp_path / "out" / "dtm.tif")
+    dtm = heights_of(tmp_path / "out" / "dtm.tif")
     rows, columns = np.floor((DEPTH - 45.0, 116.0)).astype(int)
     assert dtm[rows, columns] == pytest.approx(level, abs=0.002)
     assert np.allclose(lines[0][1][:, 2], level, atol=0.001)
@@ -820,8 +760,8 @@ def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp
     rows, columns = (DEPTH - y[inside]).astype(int), x[inside].astype(int)
     assert np.allclose(dtm[rows, columns], z[inside], atol=0.02) and inside.sum() >= 4
     assert np.allclose(lines[3][1], dyke)
-    for _, at in lines[4:]:
-        assert len(at) == 5 and np.allclose(at[:, 2], 104.0, atol=0.15)
+    for _, places in lines[4:]:
+        assert len(places) == 5 and np.allclose(places[:, 2], 104.0, atol=0.15)
     files = files_of(tmp_path / "out")
     assert {"water.gpkg", "breaklines.gpkg"} <= files
     page = (tmp_path / "out" / "index.html").read_text("utf-8")
@@ -836,24 +776,22 @@ def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp
         assert found[number].missing == 0
         assert max(found[number].level, found[number].lines) < 0.01
     # The polygons can be used again.
-    again = Constraints(water=tuple(read_boundary(summary.layers["water"])[:2]))
-    second = deliver(scene[1], tmp_path / "again", replace(how, constraints=again))
+    again = read_boundary(summary.layers["water"])[:2]
+    second = deliver(scene[1], tmp_path / "again", water=again, **how)
     (row, _), *_ = features(second.layers["water"])
     assert row["LEVEL"] == pytest.approx(level, abs=0.02)
 
 
 def test_breaklines_of_the_user_are_delivered_beside_water_that_was_found(scene, tmp_path):
     dyke = line((5.0, 45.0, 107.0), (12.0, 45.0, 107.5))
-    small = DeliveryOptions(hold_out_share=None)
-    how = DeliveryRequest(delivery="flood", options=small, constraints=Constraints((dyke,)))
-    summary = deliver(scene[1], tmp_path / "out", how)
+    how = {"hold_out_share": None, "breaklines": (dyke,)}
+    summary = deliver(scene[1], tmp_path / "out", delivery="flood", **how)
     (row, _), *others = features(summary.layers["water"])
     assert row["GRADE"] != "given" and not others
     kinds = [row["KIND"] for row, _ in features(summary.layers["breaklines"])]
     assert kinds == ["shore", "breakline"]
     # Where no water is wanted, the lines are delivered all the same.
-    how = replace(how, delivery="drone-site")
-    summary = deliver(scene[1], tmp_path / "site", how)
+    summary = deliver(scene[1], tmp_path / "site", delivery="drone-site", **how)
     assert "water" not in summary.layers and len(features(summary.layers["breaklines"])) == 1
 
 

@@ -9,13 +9,11 @@ import time
 import numpy as np
 import pytest
 import surveys
-from runs import classify_file, classify_tiles, write_height_above_ground
 
-from bare_earth import BareEarthError
+from bare_earth import BareEarthError, classify, heights
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.slope import SlopeFilter
 
-METHOD = SlopeFilter(preset="whitebox")
+METHOD = {"method": "slope", "preset": "whitebox"}
 
 
 def scattered(path, count=3000, side=100_000.0):
@@ -32,7 +30,7 @@ def test_what_points_far_apart_take_grows_with_the_blocks_that_hold_any(
 ):
     source, out = scattered(tmp_path / "in.laz"), tmp_path / "out.laz"
     begun = time.process_time()
-    classify_file(source, out, METHODS[name].parameters())
+    classify(source, out, method=name)
     seconds = time.process_time() - begun
     record_property("seconds of work", round(seconds, 1))
     print(f"{name}: {seconds:.1f} s of work for 3,000 points over 100 km")
@@ -44,7 +42,7 @@ def test_a_raster_of_points_scattered_over_100_km_is_refused(tmp_path):
     source, out = scattered(tmp_path / "in.laz", 30), tmp_path / "out.laz"
     begun = time.process_time()
     with pytest.raises(BareEarthError, match=r"raster would have .* cells of 1 m"):
-        classify_file(source, out, METHOD, dtm=tmp_path / "dtm.tif")
+        classify(source, out, dtm=tmp_path / "dtm.tif", **METHOD)
     assert time.process_time() - begun < 60
     assert list(tmp_path.iterdir()) == [source]
 
@@ -64,7 +62,7 @@ def grid_of_tiles(folder, side, points=40, metres=20.0):
 
 def seconds_of(folder, out):
     begun = time.process_time()
-    done = classify_tiles([folder], out, METHOD)
+    done = classify([folder], out, **METHOD)
     assert not done.failures
     return done.done_count, time.process_time() - begun
 
@@ -82,8 +80,8 @@ def test_a_thousand_tiles_take_no_more_for_a_tile_than_a_hundred(tmp_path, recor
     assert more / many < 1.5 * seconds / few + 0.01
 
 
-def held():
-    """Return what this process holds: open files, threads, and bytes of memory."""
+def open_now():
+    """Return the open files, threads and bytes of memory of this process."""
     gc.collect()
     with open("/proc/self/statm", encoding="ascii") as file:
         pages = int(file.read().split()[1])
@@ -98,17 +96,17 @@ def test_many_runs_in_one_process_leave_nothing_behind(tmp_path, suffix, record_
     source, out = surveys.write(tmp_path / "in.laz", points), tmp_path / f"out{suffix}"
 
     def run():
-        classify_file(source, out, METHOD, dtm=tmp_path / "dtm.tif")
-        write_height_above_ground(out, tmp_path / f"height{suffix}")
+        classify(source, out, dtm=tmp_path / "dtm.tif", **METHOD)
+        heights(out, tmp_path / f"height{suffix}")
         with pytest.raises(BareEarthError):
-            classify_file(tmp_path / "none.las", out, METHOD)
+            classify(tmp_path / "none.las", out, **METHOD)
 
     for _ in range(30):
         run()
-    before = held()
+    before = open_now()
     for _ in range(170):
         run()
-    after = held()
+    after = open_now()
     record_property("bytes more after 170 runs", after[2] - before[2])
     print(f"{suffix}: {before} before, {after} after 170 runs")
     assert after[:2] == before[:2]

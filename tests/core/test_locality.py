@@ -5,9 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 from realdata import real
-from runs import classify_tiles, memory_store
+from runs import memory_store
 from surveys import cut, finished, points_of, strip, write
 
+from bare_earth import classify
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
@@ -72,9 +73,9 @@ def test_what_is_cut_off_changes_nothing_farther_away_than_the_filter_looks(para
 @pytest.mark.parametrize(
     ("name", "parameters"),
     [
-        pytest.param(name, each, marks=() if name[0] == "i" and each == SlopeFilter() else LONG)
+        pytest.param(name, how, marks=() if name[0] == "i" and how == SlopeFilter() else LONG)
         for name in ("isprs/samp31.laz", "real/ahn3_urban.laz")
-        for each in PARAMETERS
+        for how in PARAMETERS
     ],
 )
 def test_crops_and_stray_points_of_real_surveys_change_nothing_far_away(name, parameters):
@@ -92,17 +93,17 @@ def test_crops_and_stray_points_of_real_surveys_change_nothing_far_away(name, pa
         assert np.array_equal(found[:-1], whole)
 
 
-@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-def test_files_in_the_west_change_nothing_far_away(parameters, wide, tmp_path):
+@pytest.mark.parametrize("method", METHODS)
+def test_files_in_the_west_change_nothing_far_away(method, wide, tmp_path):
     integers = np.column_stack((wide.x, wide.y, wide.z)).astype(np.int64)
-    reach = method_of(parameters).reach(parameters)
+    reach = METHODS[method].reach(METHODS[method].parameters())
     east = integers[integers[:, 0] > 30_000]
     cut(tmp_path / "some", east, 4)
     cut(tmp_path / "all", integers, 4)
     for name in ("some", "all"):
-        classify_tiles([tmp_path / name], tmp_path / f"{name} done", parameters)
+        classify([tmp_path / name], tmp_path / f"{name} done", method=method)
     found, whole = (points_of(finished(tmp_path / f"{name} done")) for name in ("some", "all"))
-    found, whole = (each[each[:, 0] > 30_000 + 100 * reach] for each in (found, whole))
+    found, whole = (rows[rows[:, 0] > 30_000 + 100 * reach] for rows in (found, whole))
     assert len(found) > 3_000 and np.array_equal(found, whole)
 
 
