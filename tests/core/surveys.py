@@ -82,7 +82,7 @@ def classes_of(path):
 def heights_of(path):
     """Return the values of a raster, NaN where it has none."""
     with pytest.importorskip("rasterio").open(path) as raster:
-        return raster.read(1, masked=True).filled(np.nan)
+        return raster.read(1, masked=True, out_dtype="float32").filled(np.nan)
 
 
 def cut(folder, integers, files=6, seed=5, suffix=".laz"):
