@@ -28,23 +28,16 @@ FLOORS = {
     "rasters": "core crs grids",
     "filters": "core grids",
     "report": "core grids",
-    "products": "core crs grids las survey rasters filters report",
     "engine": "core crs las survey",
-    "tools": "core crs grids las survey rasters report products engine",
+    "tools": "core crs grids las survey rasters report engine",
     "tools/ground": "core crs grids las survey rasters filters engine",
-    "runs": "core crs grids las survey rasters filters products engine tools",
-    "tools/compare_settings": (
-        "core crs grids las survey filters report products engine tools runs"
-    ),
-    "delivery": "core crs grids las survey rasters filters report products engine tools runs",
-    "library": (
-        "core crs grids las survey rasters filters products engine steps tools runs delivery"
-    ),
-    "cli": (
-        "core crs grids las survey rasters filters products engine tools runs delivery library"
-    ),
+    "runs": "core crs grids las survey rasters filters engine tools",
+    "tools/compare_settings": ("core crs grids las survey filters report engine tools runs"),
+    "delivery": "core crs grids las survey rasters filters report engine tools runs",
+    "library": ("core crs grids las survey rasters filters engine tools runs delivery"),
+    "cli": ("core crs grids las survey rasters filters engine tools runs delivery library"),
     "__main__": "cli",
-    "__init__": ("core crs grids las survey rasters filters products engine tools runs delivery"),
+    "__init__": ("core crs grids las survey rasters filters engine tools runs delivery"),
 }
 
 

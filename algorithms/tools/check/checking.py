@@ -15,7 +15,6 @@ import numpy as np
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
-from ...products.survey_ground import SurveyGround
 from ...report.units import round_length
 from ...survey.feature_files import FORMATS as LAYERS
 from ...survey.ground_classes import GroundClasses
@@ -28,6 +27,7 @@ from .page import checkpoint_html
 from .reading import FORMATS
 from .residuals import Residuals, residuals_of, write_layer, write_table
 from .results import COUNTED, NOT_STATED, REASONS, Check
+from .survey_ground import SurveyGround
 
 # How many of the largest errors are named.
 _LARGEST = 5

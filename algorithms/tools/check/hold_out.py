@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.progress import SILENT, Progress
-from ...products.survey_ground import SurveyGround
 from .accuracy import Figures
+from .survey_ground import SurveyGround
 
 # Most points at which errors are measured. More would hardly change the figures.
 MOST = 10_000

@@ -11,13 +11,13 @@ import numpy as np
 from ...core.errors import BareEarthError, printable
 from ...core.progress import SILENT, Progress
 from ...crs.unit_names import FOOT
-from ...products.survey_ground import SurveyGround
 from ...rasters.sampling import FAR_BELOW, HeightRaster, HeightSampler
 from ...survey.feature_files import Feature, Layer, feature_writer
 from ...survey.files import Survey
 from .checkpoints import Checkpoints
 from .land_covers import CONTROL, LandCovers, kinds_of
 from .results import COUNTED, listed
+from .survey_ground import SurveyGround
 
 # Fields of the layer. Heights are in the unit of the points, errors in metres.
 FIELDS: dict[str, type] = {

@@ -13,11 +13,11 @@ from ...core.words import counted
 from ...crs.system import Crs
 from ...grids.lines import along
 from ...las.cloud import PointCloud, survey_frame
-from ...products.survey_ground import SurveyGround
 from ...survey.area import Polygon
 from ...survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from ...survey.ground_classes import GroundClasses
 from ...survey.kept_classes import NOISE, is_one_of
+from ..check.survey_ground import SurveyGround
 from ..declaration import CLOUD, CRS, FileTool, Input, Output
 from ..rasters.constraints import STATION, Constraints
 from ..rasters.fixed_terrain import PER_CELL, GivenTerrain

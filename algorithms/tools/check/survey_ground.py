@@ -8,10 +8,10 @@ from typing import Callable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.points import Frame, Points
-from ..core.progress import SILENT, Progress
-from ..grids.delaunay_walk import (
+from ...core.errors import BareEarthError
+from ...core.points import Frame, Points
+from ...core.progress import SILENT, Progress
+from ...grids.delaunay_walk import (
     NOWHERE,
     circumcircles,
     enclosing_triangles,
@@ -19,14 +19,14 @@ from ..grids.delaunay_walk import (
     longest_edge,
     picked,
 )
-from ..grids.lines import NearPlaces
-from ..grids.tin import Tin
-from ..las.cloud import PointCloud, survey_frame
-from ..las.lasfile import LasFile
-from ..las.reading import read_parts
-from ..survey.files import Survey, open_survey
-from ..survey.ground_classes import GroundClasses, GroundCounts
-from ..survey.shapes import Place
+from ...grids.lines import NearPlaces
+from ...grids.tin import Tin
+from ...las.cloud import PointCloud, survey_frame
+from ...las.lasfile import LasFile
+from ...las.reading import read_parts
+from ...survey.files import Survey, open_survey
+from ...survey.ground_classes import GroundClasses, GroundCounts
+from ...survey.shapes import Place
 
 # Points near places are kept in so many rounds, with more for the places that are not certain yet.
 # In dense land the first is enough.

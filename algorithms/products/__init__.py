@@ -1,1 +1,0 @@
-"""One file for each product that is made of classified points."""
