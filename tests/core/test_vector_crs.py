@@ -9,18 +9,10 @@ import pytest
 from conftest import Heard
 from realdata import real
 
+import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.crs import provider
-from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.runs.entry import classify, terrain
-from bare_earth.algorithms.runs.entry import write as write_with
-from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
-from bare_earth.algorithms.survey.area import Area
-from bare_earth.algorithms.survey.vector_files import read_boundary, read_corrections, read_lines
-from bare_earth.algorithms.tools.above_ground import ClassifyAboveGround
-from bare_earth.algorithms.tools.rasters.constraints import Constraints
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 pyproj = pytest.importorskip("pyproj")
 rasterio = pytest.importorskip("rasterio")
@@ -79,20 +71,16 @@ def by_library(path, corners, crs, kind="Polygon", layer=None, append=False, **a
     start += struct.pack("<I", 1) if kind == "Polygon" else b""
     data = start + struct.pack("<I", len(ring)) + np.ascontiguousarray(ring, "<f8").tobytes()
     pyogrio.raw.write(
-        str(path), np.array([data], object), [np.array([each]) for each in attributes.values()],
+        str(path), np.array([data], object), [np.array([value]) for value in attributes.values()],
         list(attributes), geometry_type=f"{kind} Z" if has_z else kind, crs=crs, layer=layer,
         append=append,
     )  # fmt: skip
     return path
 
 
-def highest(source, target, progress=None, resources=Resources(), **constraints):
-    request = TerrainRequest(
-        rasters=RasterFiles(dtm=target),
-        constraints=Constraints(**constraints),
-        resources=resources,
-    )
-    terrain(source, request, *[progress] if progress else [])
+def highest(source, target, **options):
+    """Return the highest cell of a terrain model."""
+    bare_earth.terrain(source, dtm=target, **options)
     with rasterio.open(target) as raster:
         return float(raster.read(1, masked=True).max())
 
@@ -120,35 +108,33 @@ def test_polygons_of_any_crs_and_format_have_their_effect(cloud, tmp_path, name,
     else:
         path = by_library(tmp_path / name, corners, crs)
     assert highest(cloud, tmp_path / "dtm.tif") > 54.9
-    assert highest(cloud, tmp_path / "dtm.tif", no_ground=read_boundary(path)) < 50.1
+    assert highest(cloud, tmp_path / "dtm.tif", no_ground=path) < 50.1
 
 
 def test_extended_wkt_states_its_crs(cloud, tmp_path):
     ring = ", ".join(f"{x} {y}" for x, y in moved(CORNERS, "EPSG:25833"))
     (tmp_path / "a.wkt").write_text(f"SRID=25833;POLYGON (({ring}))", encoding="utf-8")
-    assert highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(tmp_path / "a.wkt")) < 50.1
+    assert highest(cloud, tmp_path / "a.tif", no_ground=tmp_path / "a.wkt") < 50.1
 
 
-@pytest.mark.parametrize("at", ["near", "far"])
-def test_points_that_wait_on_disk_are_no_exception(cloud, tmp_path, at):
-    few, heard = Resources(memory=0.001), Heard()
-    path = geojson(tmp_path / "a.geojson", moved(CORNERS if at == "near" else FAR, "EPSG:4326"))
-    how = {"no_ground": read_boundary(path), "resources": few, "progress": heard}
-    if at == "near":
-        assert highest(cloud, tmp_path / "a.tif", **how) < 50.1
+@pytest.mark.parametrize("is_near", [True, False])
+def test_points_that_wait_on_disk_are_no_exception(cloud, tmp_path, is_near):
+    progress = Heard()
+    path = geojson(tmp_path / "a.geojson", moved(CORNERS if is_near else FAR, "EPSG:4326"))
+    options = {"no_ground": path, "memory": 0.001, "progress": progress}
+    if is_near:
+        assert highest(cloud, tmp_path / "a.tif", **options) < 50.1
     else:
         with pytest.raises(BareEarthError, match="lies in the polygons without ground"):
-            highest(cloud, tmp_path / "a.tif", **how)
-    assert any("wait in a temporary file" in text for text in heard.infos)
+            highest(cloud, tmp_path / "a.tif", **options)
+    assert any("wait in a temporary file" in text for text in progress.infos)
 
 
 def test_the_same_points_are_classified_in_a_boundary_of_any_crs(cloud, tmp_path):
     path = geojson(tmp_path / "a.geojson", moved(CORNERS, "EPSG:4326"))
-    x, y = (np.asarray(getattr(laspy.read(cloud), each)) for each in "xy")
-    inside = Area(None, ((CORNERS,),)).contains(x, y)
-    summary = classify(
-        cloud, tmp_path / "o.laz", ClassifyRequest(area=Area(None, read_boundary(path)))
-    )
+    las = laspy.read(cloud)
+    inside = (las.x > HUT[0]) & (las.x < HUT[2]) & (las.y > HUT[1]) & (las.y < HUT[3])
+    summary = bare_earth.classify(cloud, tmp_path / "o.laz", boundary=path)
     assert summary.area_count == np.count_nonzero(inside) > 1000
 
 
@@ -157,8 +143,7 @@ def test_corrections_of_another_crs_give_their_class(cloud, tmp_path):
         geojson(tmp_path / "a.geojson", moved(CORNERS, "EPSG:4326"), **{"class": 6}),
         by_library(tmp_path / "a.gpkg", moved(CORNERS, "EPSG:25833"), "EPSG:25833", **{"class": 6}),
     ):
-        known = ClassifyRequest(corrections=read_corrections(path))
-        summary = classify(cloud, tmp_path / "o.laz", known)
+        summary = bare_earth.classify(cloud, tmp_path / "o.laz", corrections=path)
         assert summary.class_counts[6] > 1000
 
 
@@ -169,9 +154,7 @@ def test_breaklines_keep_their_heights(cloud, tmp_path, name):
         path = geojson(tmp_path / name, moved(line, "EPSG:4326"), kind="LineString")
     else:
         path = by_library(tmp_path / name, moved(line, "EPSG:25833"), "EPSG:25833", "LineString")
-    assert highest(cloud, tmp_path / "a.tif", breaklines=read_lines(path)) == pytest.approx(
-        58, abs=0.5
-    )
+    assert highest(cloud, tmp_path / "a.tif", breaklines=path) == pytest.approx(58, abs=0.5)
 
 
 FAR = np.add(CORNERS, (5000.0, 0.0))
@@ -216,61 +199,55 @@ def test_geometry_may_lie_in_one_of_many_files(tmp_path, threads_for_processes, 
 
 
 def test_a_river_that_meets_no_water_is_told(cloud, tmp_path):
-    water = read_boundary(geojson(tmp_path / "w.geojson", moved(CORNERS, "EPSG:4326")))
+    water = geojson(tmp_path / "water.geojson", moved(CORNERS, "EPSG:4326"))
     through, beside = (
-        read_lines(
-            geojson(
-                tmp_path / "r.geojson",
-                moved(np.add(CORNERS[:2], (0.0, by)), "EPSG:4326"),
-                kind="LineString",
-            )
+        geojson(
+            tmp_path / f"{north:g}.geojson", moved(CORNERS[:2] + (0.0, north), "EPSG:4326"),
+            kind="LineString",
         )
-        for by in (20.0, -20.0)
-    )
-    for rivers, with_water, is_told in (
-        (through, water, False), (beside, water, True), (through, (), True),
+        for north in (20.0, -20.0)
+    )  # fmt: skip
+    for rivers, polygons, is_told in (
+        (through, water, False), (beside, water, True), (through, None, True),
     ):  # fmt: skip
-        heard = Heard()
-        highest(cloud, tmp_path / "a.tif", heard, rivers=rivers, water=with_water)
-        assert (
-            any("Rivers that meet no polygon of water" in text for text in heard.warnings)
-            is is_told
-        )
+        progress = Heard()
+        highest(cloud, tmp_path / "a.tif", progress=progress, rivers=rivers, water=polygons)
+        told = any("Rivers that meet no polygon of water" in text for text in progress.warnings)
+        assert told is is_told
 
 
 def test_without_a_library_one_sentence_tells_what_to_install(cloud, tmp_path, monkeypatch):
     path = geojson(tmp_path / "a.geojson", moved(CORNERS, "EPSG:4326"))
     monkeypatch.setattr("bare_earth.algorithms.survey.shapes.library", lambda: None)
     with pytest.raises(BareEarthError, match="pip install pyproj"):
-        highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(path))
+        highest(cloud, tmp_path / "a.tif", no_ground=path)
     same = geojson(tmp_path / "b.geojson", CORNERS, "EPSG:25832")
-    assert highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(same)) < 50.1
+    assert highest(cloud, tmp_path / "a.tif", no_ground=same) < 50.1
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
-    by = tmp_path / "a.gpkg"
-    by.write_bytes(b"")
+    (tmp_path / "a.gpkg").write_bytes(b"")
     with pytest.raises(BareEarthError, match="pip install pyogrio"):
-        read_boundary(by)
+        highest(cloud, tmp_path / "a.tif", no_ground=tmp_path / "a.gpkg")
 
 
 def test_a_crs_that_is_not_known_is_one_sentence(cloud, tmp_path):
     path = geojson(tmp_path / "a.geojson", CORNERS, "EPSG:999999")
     with pytest.raises(BareEarthError, match="cannot be transformed from EPSG:999999"):
-        highest(cloud, tmp_path / "a.tif", no_ground=read_boundary(path))
+        highest(cloud, tmp_path / "a.tif", no_ground=path)
 
 
 def test_a_layer_of_several_must_be_named(cloud, tmp_path):
     path = by_library(tmp_path / "a.gpkg", CORNERS, UTM, layer="huts")
     by_library(path, FAR, UTM, layer="ponds", append=True)
     by_library(path, CORNERS[:2], UTM, "LineString", layer="lines", append=True)
-    assert len(read_lines(path)) == 1
+    target = tmp_path / "a.tif"
+    highest(cloud, target, breaklines=path)  # of lines there is one layer
     with pytest.raises(
         BareEarthError, match=r"polygons in the layers huts, ponds.*\|layername=huts"
     ):
-        read_boundary(path)
-    chosen = read_boundary(f"{path}|layername=huts")
-    assert highest(cloud, tmp_path / "a.tif", no_ground=chosen) < 50.1
+        highest(cloud, target, no_ground=path)
+    assert highest(cloud, target, no_ground=f"{path}|layername=huts") < 50.1
     with pytest.raises(BareEarthError, match="has no layer roads"):
-        read_boundary(f"{path}|layername=roads")
+        highest(cloud, target, no_ground=f"{path}|layername=roads")
 
 
 def test_longitude_and_latitude_come_in_this_order():
@@ -285,29 +262,23 @@ def test_longitude_and_latitude_come_in_this_order():
 
 @pytest.mark.parametrize("name", ["square-lonlat.geojson", "square-25833.geojson"])
 def test_squares_from_the_field(tmp_path, name):
-    source, shape = real("field/ground-25832.laz"), real(f"field/{name}")
-    request = TerrainRequest(
-        rasters=RasterFiles(dtm=tmp_path / "o.tif"),
-        constraints=Constraints(no_ground=read_boundary(shape)),
-    )
-    all_of_it = TerrainRequest(rasters=RasterFiles(dtm=tmp_path / "o.tif"))
-    assert terrain(source, request).ground_count < terrain(source, all_of_it).ground_count - 1000
+    source, dtm = real("field/ground-25832.laz"), tmp_path / "o.tif"
+    all_of_them = bare_earth.terrain(source, dtm=dtm).ground_count
+    without = bare_earth.terrain(source, dtm=dtm, no_ground=real(f"field/{name}")).ground_count
+    assert without < all_of_them - 1000
 
 
 def test_the_area_of_classes_above_the_ground_is_transformed_for_one_file(cloud, tmp_path):
     las = laspy.read(cloud)
-    las.classification[np.asarray(las.z) > 52.0] = 1
+    x, is_high = np.asarray(las.x), np.asarray(las.z) > 52.0
+    las.classification[is_high] = 1
     las.write(str(cloud))
     west = np.minimum(CORNERS, (500_060.0, np.inf))
-    area = read_boundary(geojson(tmp_path / "area.geojson", moved(west, "EPSG:4326")))
-    write_with(
-        cloud, tmp_path / "out.laz", PointRequest(ClassifyAboveGround(area=Area(None, area)))
-    )
+    area = geojson(tmp_path / "area.geojson", moved(west, "EPSG:4326"))
+    bare_earth.above_ground(cloud, tmp_path / "out.laz", boundary=area)
     changed = np.asarray(laspy.read(tmp_path / "out.laz").classification) == 6
-    x = np.asarray(las.x)
-    assert changed[(np.asarray(las.z) > 52.0) & (x < 500_058.0)].mean() > 0.9
+    assert changed[is_high & (x < 500_058.0)].mean() > 0.9
     assert not changed[x > 500_060.1].any()
-    far = Area(None, (CORNERS[None] + 50_000.0,))
     with pytest.raises(BareEarthError, match="lies in the area"):
-        write_with(cloud, tmp_path / "far.laz", PointRequest(ClassifyAboveGround(area=far)))
+        bare_earth.above_ground(cloud, tmp_path / "far.laz", boundary=[CORNERS + 50_000.0])
     assert not (tmp_path / "far.laz").exists()
