@@ -5,15 +5,13 @@ import struct
 import laspy
 import numpy as np
 import pytest
-from runs import classify_file, write_height_above_ground
 
+import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.writing import write_changed
-from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.heights import HEIGHT_DIMENSION
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
@@ -106,9 +104,9 @@ def hut(las):
 def test_heights_are_those_of_the_product(hut, las):
     source, roof = hut
     once, classified, twice = (las.folder / f"{name}.laz" for name in ("once", "first", "twice"))
-    classify_file(source, once, GridMinimum(), output=Output(height_above_ground=True))
-    classify_file(source, classified, GridMinimum())
-    write_height_above_ground(classified, twice)
+    bare_earth.classify(source, once, method="grid-minimum", height_above_ground=True)
+    bare_earth.classify(source, classified, method="grid-minimum")
+    bare_earth.heights(classified, twice)
     assert once.read_bytes() == twice.read_bytes()
     heights = laspy.read(once)[HEIGHT_DIMENSION]
     assert np.allclose(heights[roof], 6.0, atol=0.05)
@@ -127,6 +125,6 @@ def test_the_command_writes_ground_alone_and_says_how_many_it_left_out(hut, las,
     assert np.array_equal(after.X, laspy.read(whole).X[ground])
     assert np.allclose(after[HEIGHT_DIMENSION], 0.0, atol=1e-3)
     assert f"{(~ground).sum():,} points that are not ground are left out" in capsys.readouterr().err
-    summary = classify_file(source, alone, GridMinimum(), output=Output(ground_only=True))
+    summary = bare_earth.classify(source, alone, method="grid-minimum", ground_only=True)
     assert summary.class_counts == {2: ground.sum()}
     assert summary.point_count == len(roof)

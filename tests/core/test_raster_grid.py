@@ -7,12 +7,9 @@ from realdata import real
 from runs import said
 from surveys import cut, strip, write
 
+import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.engine import blocks as blocks_module
-from bare_earth.algorithms.rasters.cell_grid import RasterTarget
-from bare_earth.algorithms.runs.entry import terrain
-from bare_earth.algorithms.runs.requests import TerrainRequest
-from bare_earth.algorithms.tools.rasters.step import RasterFiles
 
 rasterio = pytest.importorskip("rasterio")
 pytest.importorskip("pyproj")
@@ -158,13 +155,7 @@ def test_constraints_lie_where_they_are_on_any_grid(source, tmp_path):
 def test_unsuitable_rasters_are_refused_in_one_sentence(source, tmp_path, how, words):
     like = given(tmp_path / "like.tif", **how)
     with pytest.raises(BareEarthError, match=words) as caught:
-        terrain(
-            source,
-            TerrainRequest(
-                rasters=RasterFiles(dtm=tmp_path / "out.tif"), raster_target=RasterTarget(like),
-                crs=CRS,
-            ),
-        )  # fmt: skip
+        bare_earth.terrain(source, dtm=tmp_path / "out.tif", like=like, crs=CRS)
     assert "\n" not in str(caught.value)
     assert not (tmp_path / "out.tif").exists()
 

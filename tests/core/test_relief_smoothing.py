@@ -1,21 +1,17 @@
 """Pictures of the relief: smoothed where it is noisy, sharp elsewhere, and without seams."""
 
-import laspy
 import numpy as np
 import pytest
 from realdata import real
+from surveys import write_points
 
+import bare_earth
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.grids import outline
 from bare_earth.algorithms.grids.hillshade import hillshade
 from bare_earth.algorithms.grids.local_trend import local_trend
 from bare_earth.algorithms.grids.relief_smoothing import smoothing_reach, without_noise
-from bare_earth.algorithms.runs.entry import terrain
-from bare_earth.algorithms.runs.requests import TerrainRequest
 from bare_earth.algorithms.tools import relief as relief_module
-from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
-from bare_earth.algorithms.tools.relief import ReliefPictures, write_relief
 
 rasterio = pytest.importorskip("rasterio")
 CELL = 0.5
@@ -40,7 +36,7 @@ def test_noise_of_a_forest_is_smoothed():
     noisy = slope + noise(slope.shape, 0.1)
     found = without_noise(noisy, CELL)
     assert np.std(found - slope) < 0.35 * np.std(noisy - slope)
-    before, after = (np.std(hillshade(each, CELL).astype(float)) for each in (noisy, found))
+    before, after = (np.std(hillshade(heights, CELL).astype(float)) for heights in (noisy, found))
     assert after < 0.3 * before
 
 
@@ -93,14 +89,7 @@ def write(path, west=0.0, east=60.0, seed=5):
     x, y = random.uniform(0, 60, (2, 20_000))
     z = 100 + 0.2 * x + random.normal(0, 0.1, len(x)) - (np.abs(y - 30) < 1)
     keep = (x >= west) & (x < east)
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (500_000, 5_600_000, 0)
-    las = laspy.LasData(header)
-    las.x, las.y, las.z = x[keep] + 500_000, y[keep] + 5_600_000, z[keep]
-    las.classification[:] = 2
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(path))
-    return path
+    return write_points(path, x[keep], y[keep], z[keep], 2)
 
 
 def cells(path):
@@ -113,9 +102,8 @@ PICTURES = ("dtm", "hillshade", "relief")
 
 def drawn(source, folder, **how):
     folder.mkdir()
-    files = RasterFiles(**{name: folder / f"{name}.tif" for name in PICTURES})
-    model = TerrainModel(dtm_cell_size=CELL, relief_radius=4.0, **how)
-    terrain(source, TerrainRequest(rasters=files, terrain=model))
+    files = {name: folder / f"{name}.tif" for name in PICTURES}
+    bare_earth.terrain(source, **files, dtm_cell_size=CELL, relief_radius=4.0, **how)
     return {name: cells(folder / f"{name}.tif") for name in PICTURES}
 
 
@@ -166,7 +154,7 @@ def test_the_command_makes_the_relief_of_a_raster(tmp_path, monkeypatch):
     assert np.array_equal(known, found["relief"] > -9000)
     assert np.abs(relief - found["relief"])[known].max() < 1e-4
     monkeypatch.setattr(relief_module, "_CELLS", 500)
-    write_relief(source, tmp_path / "strips.tif", parameters=ReliefPictures(relief_radius=4.0))
+    bare_earth.relief(source, tmp_path / "strips.tif", relief_radius=4.0)
     assert np.array_equal(cells(tmp_path / "strips.tif"), relief)
     with rasterio.open(target) as raster:
         assert raster.descriptions == ("Local relief, m",)
@@ -177,10 +165,8 @@ def test_the_command_makes_the_relief_of_a_raster(tmp_path, monkeypatch):
     [pytest.param("hawaii_forest", 0.75, marks=pytest.mark.long), ("conifer_1", 0.75)],
 )
 def test_real_forests_are_less_speckled(tmp_path, name, most):
-    source = real(f"real/{name}.laz")
     path = tmp_path / "dtm.tif"
-    files = RasterFiles(dtm=path)
-    terrain(source, TerrainRequest(rasters=files, terrain=TerrainModel(dtm_cell_size=CELL)))
+    bare_earth.terrain(real(f"real/{name}.laz"), dtm=path, dtm_cell_size=CELL)
     with rasterio.open(path) as raster:
         heights = raster.read(1, masked=True).filled(np.nan)[:400, :400]
     before, after = (

@@ -1,8 +1,6 @@
 """Classes of ground points in water and beside its shore, of one file and of many."""
 
 import json
-from dataclasses import replace
-from pathlib import Path
 
 import laspy
 import numpy as np
@@ -11,24 +9,14 @@ from conftest import Heard
 from realdata import real
 from runs import CancelAt, said
 from scipy.spatial import cKDTree
+from surveys import classes_of, write_points
 from test_water import lake, lake_scene
 
 import bare_earth
 from bare_earth import BareEarthError, Cancelled
-from bare_earth.algorithms.crs.provider import wkt_of_epsg
-from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.grids.lines import along, near_rings
-from bare_earth.algorithms.las.extrabytes import REMEMBERED
-from bare_earth.algorithms.runs.entry import classify
-from bare_earth.algorithms.runs.entry import write as write_with
-from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest
-from bare_earth.algorithms.survey.ground_classes import GroundClasses
-from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.survey.shapes import Shapes
-from bare_earth.algorithms.survey.vector_files import read_boundary
-from bare_earth.algorithms.tools.water_classes import ClassifyWater, WaterClasses, WaterPolygons
 
-pytest.importorskip("pyproj")
+pyproj = pytest.importorskip("pyproj")
 EAST, NORTH, SIDE, DISTANCE = 500_000.0, 5_700_000.0, 80.0, 0.7
 UTM, FEET, US_FOOT = 25832, 2230, 1200 / 3937
 # Half the sides in metres of a lake that is turned by 30 degrees, and of the island in it.
@@ -67,8 +55,7 @@ def write(path, count=12_000, epsg=UTM, unit=1.0, west=0.0, east=SIDE, seed=1, c
     random = np.random.default_rng(seed)
     header = laspy.LasHeader(point_format=6, version="1.4")
     header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
-    header.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(wkt_of_epsg(epsg)))
-    header.global_encoding.wkt = True
+    header.add_crs(pyproj.CRS(epsg))
     las = laspy.LasData(header)
     x, y = random.uniform(west, east, count), random.uniform(0, SIDE, count)
     las.x, las.y, las.z = x / unit + EAST, y / unit + NORTH, (100.0 + 0.1 * x) / unit
@@ -85,21 +72,25 @@ def metres(las, unit=1.0):
     return (np.asarray(las.x) - EAST) * unit, (np.asarray(las.y) - NORTH) * unit
 
 
-def classes_of(path):
-    return np.asarray(laspy.read(path).classification)
+def geojson(path, crs=UTM):
+    """Write the lake as a file, which states no CRS."""
+    to = pyproj.Transformer.from_crs(UTM, crs, always_xy=True)
+    rings = [np.column_stack(to.transform(*corners[[*range(4), 0]].T)) for corners in polygons()[0]]
+    shape = {"type": "Polygon", "coordinates": [corners.tolist() for corners in rings]}
+    path.write_text(json.dumps(shape), encoding="utf-8")
+    return path
 
 
-def request(distance=DISTANCE, unit=1.0, shapes=None, **others):
-    water = WaterPolygons(polygons(unit) if shapes is None else shapes)
-    how = WaterClasses(shore_distance=distance)
-    return PointRequest(ClassifyWater(how, water=water), **others)
+def classify(source, target, water=None, **options):
+    water = polygons() if water is None else water
+    return bare_earth.water_classes(source, target, water=water, **options)
 
 
 @pytest.mark.parametrize(("epsg", "unit"), [(UTM, 1.0), (FEET, US_FOOT)])
 @pytest.mark.parametrize("distance", [DISTANCE, 3.0, 0.0])
 def test_each_ground_point_gets_the_class_of_its_place(tmp_path, epsg, unit, distance):
     source = write(tmp_path / "in.laz", epsg=epsg, unit=unit)
-    summary = write_with(source, tmp_path / "out.laz", request(distance, unit))
+    summary = classify(source, tmp_path / "out.laz", polygons(unit), shore_distance=distance)
     before, after = laspy.read(source), laspy.read(tmp_path / "out.laz")
     old, new = np.asarray(before.classification), np.asarray(after.classification)
     water, beside = truth(*metres(before, unit), distance)
@@ -117,11 +108,9 @@ def test_each_ground_point_gets_the_class_of_its_place(tmp_path, epsg, unit, dis
 
 def test_other_classes_are_given_if_the_user_asks(tmp_path):
     source, target = write(tmp_path / "in.las"), tmp_path / "out.las"
-    how = WaterClasses(shore_distance=2.0, water_class=41, ignored_class=45)
-    ground = GroundClasses(ground_classes=(2, 20))
-    water = WaterPolygons(polygons())
-    asked = PointRequest(ClassifyWater(how, ground, water))
-    write_with(source, target, asked)
+    classify(
+        source, target, shore_distance=2.0, water_class=41, ignored_class=45, ground_classes=(2, 20)
+    )
     before = laspy.read(source)
     is_water, is_beside = truth(*metres(before), 2.0)
     old = np.asarray(before.classification)
@@ -133,18 +122,17 @@ def test_other_classes_are_given_if_the_user_asks(tmp_path):
 
 def test_a_second_run_changes_nothing(tmp_path):
     source = write(tmp_path / "in.las")
-    write_with(source, tmp_path / "once.las", request())
-    again = write_with(tmp_path / "once.las", tmp_path / "twice.las", request())
+    classify(source, tmp_path / "once.las")
+    again = classify(tmp_path / "once.las", tmp_path / "twice.las")
     assert (tmp_path / "twice.las").read_bytes() == (tmp_path / "once.las").read_bytes()
     assert again.water_count == again.ignored_count == 0
 
 
 def test_points_on_disk_get_the_same_classes(tmp_path):
-    source, heard = write(tmp_path / "in.laz", 30_000), Heard()
-    write_with(source, tmp_path / "memory.laz", request())
-    few = request(resources=Resources(memory=0.001))
-    write_with(source, tmp_path / "disk.laz", few, heard)
-    assert any("wait in a temporary file" in text for text in heard.infos)
+    source, progress = write(tmp_path / "in.laz", 30_000), Heard()
+    classify(source, tmp_path / "memory.laz")
+    classify(source, tmp_path / "disk.laz", memory=0.001, progress=progress)
+    assert any("wait in a temporary file" in text for text in progress.infos)
     assert (tmp_path / "disk.laz").read_bytes() == (tmp_path / "memory.laz").read_bytes()
 
 
@@ -154,21 +142,13 @@ def test_many_files_have_no_seams_and_go_on(tmp_path, threads_for_processes):
     for number, name in enumerate(names):
         west = SIDE / 3 * number
         write(tmp_path / "in" / f"{name}.laz", 4000, west=west, east=west + SIDE / 3, seed=number)
-    corners = [[*each.tolist(), each[0].tolist()] for each in polygons()[0]]
-    shape = {"type": "Polygon", "coordinates": corners}
-    (tmp_path / "water.geojson").write_text(json.dumps(shape), encoding="utf-8")
-    words = (
-        "water-classes",
-        tmp_path / "in",
-        tmp_path / "out",
-        "--water",
-        tmp_path / "water.geojson",
-    )
+    water = geojson(tmp_path / "water.geojson")
+    words = "water-classes", tmp_path / "in", tmp_path / "out", "--water", water
     done = json.loads(said(*words, "--json")[1])
     assert done["done_count"] == 3 and done["kept_count"] == 0
     for name in names:
         source, alone = tmp_path / "in" / f"{name}.laz", tmp_path / f"{name}.laz"
-        write_with(source, alone, request())
+        classify(source, alone)
         assert (tmp_path / "out" / f"{name}.laz").read_bytes() == alone.read_bytes()
         assert (classes_of(alone) == 9).sum() > 300
     assert json.loads(said(*words, "--json", "--resume")[1])["kept_count"] == 3
@@ -179,12 +159,8 @@ def test_many_files_have_no_seams_and_go_on(tmp_path, threads_for_processes):
 def test_the_water_can_be_found_first(tmp_path):
     scene = lake_scene("sparse")
     scene.classes[scene.classes == 1] = 2  # a filter took the stray returns for ground
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales = (0.001,) * 3
-    las = laspy.LasData(header)
-    las.x, las.y, las.z, las.classification = scene.x, scene.y, scene.z, scene.classes
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(tmp_path / "in.las"))
+    place = 0.0, 0.0, 0.0
+    write_points(tmp_path / "in.las", scene.x, scene.y, scene.z, scene.classes, offset=place)
     words = tmp_path / "in.las", tmp_path / "out.las", "--water", "automatic"
     code, told, _ = said("water-classes", *words, "--crs", "EPSG:25832", "--json")
     assert code == 0 and json.loads(told)["water_count"] > 0
@@ -194,54 +170,45 @@ def test_the_water_can_be_found_first(tmp_path):
 
 
 def test_polygons_can_be_in_another_crs(tmp_path):
-    import pyproj
-
     source = write(tmp_path / "in.las")
-    to = pyproj.Transformer.from_crs(UTM, 4326, always_xy=True)
-    degrees = tuple(np.column_stack(to.transform(*each.T)) for each in polygons()[0])
-    shapes = Shapes((degrees,), "EPSG:4326", "lake.geojson")
-    write_with(source, tmp_path / "moved.las", request(shapes=shapes))
-    write_with(source, tmp_path / "out.las", request())
+    classify(source, tmp_path / "moved.las", geojson(tmp_path / "lake.geojson", 4326))
+    classify(source, tmp_path / "out.las")
     assert np.array_equal(classes_of(tmp_path / "moved.las"), classes_of(tmp_path / "out.las"))
 
 
 def test_remembered_classes_follow(tmp_path):
     source, ground, target = (tmp_path / f"{name}.las" for name in ("in", "ground", "out"))
     write(source, classes=1)
-    selection = Selection(remember_classes=True)
-    classify(source, ground, ClassifyRequest(selection=selection))
-    write_with(ground, target, request())
+    bare_earth.classify(source, ground, remember_classes=True)
+    classify(ground, target)
     las = laspy.read(target)
     assert (np.asarray(las.classification) == 9).sum() > 1000
     # So that the next run does not take them for changes by hand.
-    assert np.array_equal(las[REMEMBERED], las.classification)
+    assert np.array_equal(las["BareEarthClass"], las.classification)
 
 
 def test_without_polygons_nothing_changes_and_the_user_is_told(tmp_path):
-    source, heard = write(tmp_path / "in.las"), Heard()
-    write_with(source, tmp_path / "out.las", PointRequest(ClassifyWater()), heard)
+    source, progress = write(tmp_path / "in.las"), Heard()
+    classify(source, tmp_path / "out.las", (), progress=progress)
     assert (tmp_path / "out.las").read_bytes() == source.read_bytes()
-    assert heard.warnings == ["There is no polygon of water, so that no class changes."]
+    assert progress.warnings == ["There is no polygon of water, so that no class changes."]
 
 
 def test_what_cannot_be_done_is_a_sentence(tmp_path):
     source, target = write(tmp_path / "in.las"), tmp_path / "out.las"
-    far = WaterPolygons(polygons(origin=(0.0, 0.0)))
     with pytest.raises(BareEarthError, match=r"lies in the polygons of water .* Give the polygons"):
-        write_with(source, target, PointRequest(ClassifyWater(water=far)))
+        classify(source, target, polygons(origin=(0.0, 0.0)))
     with pytest.raises(BareEarthError, match="has no ground points: none is of class 90,"):
-        step = replace(request().step, ground=GroundClasses(ground_classes=(90,)))
-        write_with(write(tmp_path / "no.las", classes=1), target, PointRequest(step))
+        classify(write(tmp_path / "no.las", classes=1), target, ground_classes=(90,))
     with pytest.raises(BareEarthError, match="not a finite number"):
-        WaterPolygons(((np.full((4, 2), np.nan),),))
+        classify(source, target, ((np.full((4, 2), np.nan),),))
     old = laspy.LasData(laspy.LasHeader(point_format=1, version="1.2"))
     old.x, old.y, old.z, old.classification = [EAST], [NORTH], [0.0], [2]
     old.write(str(tmp_path / "old.las"))
-    how = WaterClasses(ignored_class=45)
     with pytest.raises(BareEarthError, match=r"holds classes up to 31, not 45.* ignored ground"):
-        write_with(tmp_path / "old.las", target, PointRequest(ClassifyWater(how)))
+        classify(tmp_path / "old.las", target, (), ignored_class=45)
     with pytest.raises(Cancelled):
-        write_with(source, target, request(), CancelAt(0.5))
+        classify(source, target, progress=CancelAt(0.5))
     (tmp_path / "empty.geojson").write_text('{"type": "FeatureCollection", "features": []}')
     code, _, told = said("water-classes", source, target, "--water", tmp_path / "empty.geojson")
     assert code == 1 and "holds no polygon" in told
@@ -266,8 +233,7 @@ def test_water_of_real_tiles_gets_its_class_back(tmp_path, name, least):
     water = np.asarray(las.classification) == 9
     las.classification[water] = 2
     las.write(str(ground))
-    shapes = read_boundary(Path(tmp_path / "water.geojson"))
-    write_with(ground, target, request(shapes=shapes))
+    classify(ground, target, tmp_path / "water.geojson")
     assert (classes_of(target)[water] == 9).mean() > least
 
 
