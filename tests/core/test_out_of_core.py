@@ -8,32 +8,23 @@ from types import SimpleNamespace
 import laspy
 import numpy as np
 import pytest
+from conftest import Heard
 from fulldisks import TELLS, become_full
 from realdata import real
-from runs import CancelAt, classify_file, environment, write_height_above_ground
+from runs import CancelAt, environment
 
+import bare_earth
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.engine import disk_store
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import copc, copc_octree, copc_points, reading
-from bare_earth.algorithms.las.reading import inspect
-from bare_earth.algorithms.las.writing import write_classified
-from bare_earth.algorithms.survey.area import Area
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground import step
-from bare_earth.algorithms.tools.ground.output import Output
-from bare_earth.algorithms.tools.heights import HeightOutput
-from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 
-PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
+METHODS = "tin-densification", "grid-minimum", "slope"
 # The least that can be given: 8,000 points do not fit.
-LITTLE = Resources(threads=2, memory=0.001)
-MUCH = Resources(threads=2, memory=4.0)
+LITTLE = {"threads": 2, "memory": 0.001}
+MUCH = {"threads": 2, "memory": 4.0}
+SIZES = {"much": MUCH, "little": LITTLE}
 EAST, NORTH = 500_000.0, 5_700_000.0
 LONG = pytest.mark.long
 
@@ -84,67 +75,66 @@ def write(path, count=9000, east=EAST, stray=(), seed=3, shape=(160.0, 90.0), fi
     return path
 
 
-def run(source, folder, parameters, resources, *policy, **options):
+def run(source, folder, method, resources, rasters=(), **options):
+    """Classify a file; return the summary and the bytes of all outputs by their names."""
     folder.mkdir()
-    names = {name: folder / f"{name}.tif" for name in options.pop("rasters", ())}
-    summary = classify_file(
-        source, folder / "out.laz", parameters, *policy, resources=resources, **names, **options
+    files = {name: folder / f"{name}.tif" for name in rasters}
+    summary = bare_earth.classify(
+        source, folder / "out.laz", method=method, **resources, **files, **options
     )
     return summary, {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
+def same_in_memory_and_on_disk(source, folder, method, **options):
+    """Return the summary of runs with much and with little memory, whose outputs are the same."""
+    much, little = (
+        run(source, folder / name, method, resources, **options)
+        for name, resources in SIZES.items()
+    )
+    assert much == little
+    return much[0]
+
+
 @pytest.mark.parametrize(
-    ("parameters", "selection", "area"),
+    ("method", "options"),
     [
         # The methods by themselves are left to the long tests where another line has them.
-        (PARAMETERS[0], Selection(low_noise_class=True), None),
-        *(
-            pytest.param(each, Selection(low_noise_class=True), None, marks=LONG)
-            for each in PARAMETERS[1:]
-        ),
-        (SlopeFilter(), Selection(seed_classes=(9,), returns="all", others="unclassified"), None),
-        (SlopeFilter(), Selection(seed_classes=(9,), from_classes=(1, 2, 7)), None),
-        (GridMinimum(), Selection(), Area((EAST + 20, NORTH + 10, EAST + 110, NORTH + 60))),
+        ("tin-densification", {"low_noise_class": True}),
+        pytest.param("grid-minimum", {"low_noise_class": True}, marks=LONG),
+        pytest.param("slope", {"low_noise_class": True}, marks=LONG),
+        ("slope", {"seed_classes": (9,), "returns": "all", "others": "unclassified"}),
+        ("slope", {"seed_classes": (9,), "from_classes": (1, 2, 7)}),
+        ("grid-minimum", {"extent": (EAST + 20, NORTH + 10, EAST + 110, NORTH + 60)}),
     ],
 )
-def test_the_same_bytes_in_memory_and_on_disk(small, las, tmp_path, parameters, selection, area):
+def test_the_same_bytes_in_memory_and_on_disk(small, tmp_path, method, options):
     source = write(tmp_path / "in.las", 8000, shape=(130.0, 70.0))
-    heard = las.Heard(), las.Heard()
+    progress = much, little = Heard(), Heard()
     results = [
         run(
-            source, tmp_path / name, parameters, resources, selection, TerrainModel(2.0),
-            rasters=("dtm", "hillshade"), area=area, progress=progress,
+            source, tmp_path / name, method, SIZES[name], ("dtm", "hillshade"), dtm_cell_size=2.0,
+            progress=told, **options,
         )
-        for name, resources, progress in (("much", MUCH, heard[0]), ("little", LITTLE, heard[1]))
+        for name, told in zip(SIZES, progress)
     ]  # fmt: skip
     assert results[0] == results[1]
     assert results[0][0].ground_count > 500 and len(results[0][1]) == 3
-    assert not any("read twice" in each for each in heard[0].infos)
-    said = [each for each in heard[1].infos if "read twice" not in each]
-    assert said == heard[0].infos and len(said) == len(heard[1].infos) - 1
-    assert heard[0].warnings == heard[1].warnings
-    assert heard[1].fractions[-1] == 1.0 and heard[1].fractions == sorted(heard[1].fractions)
+    assert not any("read twice" in text for text in much.infos)
+    infos = [text for text in little.infos if "read twice" not in text]
+    assert infos == much.infos and len(infos) == len(little.infos) - 1
+    assert much.warnings == little.warnings
+    assert little.fractions[-1] == 1.0 and little.fractions == sorted(little.fractions)
 
 
 @pytest.mark.parametrize("name", [pytest.param("isprs/samp52.laz", marks=LONG), "real/ign_pf8.las"])
 def test_real_points_give_the_same_bytes_in_memory_and_on_disk(name, tmp_path):
-    source = real(name)
-    results = [
-        run(source, tmp_path / str(each.memory), GridMinimum(), each, rasters=("dtm",))
-        for each in (MUCH, LITTLE)
-    ]
-    assert results[0] == results[1]
+    same_in_memory_and_on_disk(real(name), tmp_path, "grid-minimum", rasters=("dtm",))
 
 
 def test_ground_points_only_in_memory_and_on_disk(small, tmp_path):
     source = write(tmp_path / "in.las", 8000, shape=(130.0, 70.0))
-    only = Output(ground_only=True)
-    results = [
-        run(source, tmp_path / str(each.memory), GridMinimum(), each, output=only)
-        for each in (MUCH, LITTLE)
-    ]
-    assert results[0] == results[1]
-    assert results[0][0].class_counts == {2: results[0][0].ground_count}
+    summary = same_in_memory_and_on_disk(source, tmp_path, "grid-minimum", ground_only=True)
+    assert summary.class_counts == {2: summary.ground_count}
 
 
 @pytest.mark.parametrize(
@@ -155,33 +145,27 @@ def test_heights_above_ground_in_memory_and_on_disk(small, tmp_path, monkeypatch
     # A compressed file is kept on a disk with room, so that it is decompressed once.
     monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=free))
     source = write(tmp_path / name, 8000, shape=(130.0, 70.0))
-    heights = Output(height_above_ground=True)
-    results = [
-        run(source, tmp_path / str(each.memory), GridMinimum(), each, output=heights)
-        for each in (MUCH, LITTLE)
-    ]
-    assert results[0] == results[1]
-    classified = next((tmp_path / str(MUCH.memory)).glob("*.la[sz]"))
+    same_in_memory_and_on_disk(source, tmp_path, "grid-minimum", height_above_ground=True)
     for form in ("z", "dimension"):
-        for name, each in (("much.las", MUCH), ("little.las", LITTLE)):
-            how = HeightOutput(output_as=form)
-            write_height_above_ground(classified, tmp_path / name, output=how, resources=each)
+        for size, resources in SIZES.items():
+            classified, target = tmp_path / "much" / "out.laz", tmp_path / f"{size}.las"
+            bare_earth.heights(classified, target, output_as=form, **resources)
         assert (tmp_path / "much.las").read_bytes() == (tmp_path / "little.las").read_bytes()
 
 
 # Stray points
 
 
-@pytest.mark.parametrize("resources", [MUCH, LITTLE], ids=["much", "little"])
-@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-def test_a_stray_point_far_away_stops_nothing(parameters, resources, tmp_path):
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("method", METHODS)
+def test_a_stray_point_far_away_stops_nothing(method, size, tmp_path):
     source = write(tmp_path / "in.las", 8000, stray=(1e6, 1e6, 1e6))
-    summary, _ = run(source, tmp_path / "out", parameters, resources)
+    summary, _ = run(source, tmp_path / "out", method, SIZES[size])
     assert 1000 < summary.ground_count < 7900
-    if parameters != SlopeFilter():
+    if method != "slope":
         return  # a raster knows no method
     with pytest.raises(BareEarthError, match="larger cell size, or remove points with stray"):
-        run(source, tmp_path / "dtm", parameters, resources, rasters=("dtm",))
+        run(source, tmp_path / "dtm", method, SIZES[size], rasters=("dtm",))
     assert os.listdir(tmp_path / "dtm") == []
 
 
@@ -191,16 +175,16 @@ def test_a_stray_point_far_away_stops_nothing(parameters, resources, tmp_path):
 @pytest.mark.parametrize("kind", ["las", "laz"])
 def test_a_copc_file_is_made_of_points_that_do_not_fit(small, small_nodes, kind, tmp_path):
     source, sorted_on_disk = write(tmp_path / f"in.{kind}"), []
-    for name, resources in (("much.copc.laz", MUCH), ("little.copc.laz", LITTLE)):
-        classify_file(source, tmp_path / name, GridMinimum(), resources=resources)
-        height = tmp_path / f"height-{name}"
-        write_height_above_ground(tmp_path / name, height, resources=resources)
+    for size, resources in SIZES.items():
+        copc_file = tmp_path / f"{size}.copc.laz"
+        bare_earth.classify(source, copc_file, method="grid-minimum", **resources)
+        bare_earth.heights(copc_file, tmp_path / f"height-{copc_file.name}", **resources)
         sorted_on_disk.append(len(small_nodes))
     assert sorted_on_disk[0] == 0 < sorted_on_disk[1]
     for name in ("", "height-"):
-        much, little = (tmp_path / f"{name}{each}.copc.laz" for each in ("much", "little"))
+        much, little = (tmp_path / f"{name}{size}.copc.laz" for size in SIZES)
         assert much.read_bytes() == little.read_bytes()
-        assert inspect(little).encoding == "COPC"
+        assert bare_earth.info(little).encoding == "COPC"
     with laspy.CopcReader.open(little) as reader:
         assert len(reader.query()) == 9000 > len(reader.query(level=0))
     assert len(os.listdir(tmp_path)) == 5
@@ -208,13 +192,13 @@ def test_a_copc_file_is_made_of_points_that_do_not_fit(small, small_nodes, kind,
 
 def test_a_copc_file_stays_one_though_it_does_not_fit(tmp_path):
     plain, source = write(tmp_path / "in.las", 8000), tmp_path / "in.copc.laz"
-    write_classified(plain, source, np.zeros(8000, np.uint8))
-    for name, resources in (("much.copc.laz", MUCH), ("little.copc.laz", LITTLE)):
-        classify_file(source, tmp_path / name, SlopeFilter(), resources=resources)
-    much, little = (tmp_path / f"{name}.copc.laz" for name in ("much", "little"))
+    bare_earth.classify(plain, source, method="slope")
+    for size, resources in SIZES.items():
+        bare_earth.classify(source, tmp_path / f"{size}.copc.laz", method="slope", **resources)
+    much, little = (tmp_path / f"{size}.copc.laz" for size in SIZES)
     assert much.read_bytes() == little.read_bytes()
-    assert inspect(little).encoding == "COPC"
-    assert 1000 < inspect(little).classes[2] < 7900
+    assert bare_earth.info(little).encoding == "COPC"
+    assert 1000 < bare_earth.info(little).classes[2] < 7900
 
 
 @TELLS
@@ -223,37 +207,34 @@ def test_a_full_disk_is_told_in_a_sentence(tmp_path, monkeypatch, small, tells, 
     source = write(tmp_path / "in.las")
     become_full(monkeypatch, 0, tells, spared)
     with pytest.raises(BareEarthError, match=r"Cannot write .*out\.laz: the disk is full"):
-        run(source, tmp_path / "out", SlopeFilter(), LITTLE, Selection(returns="all"))
+        run(source, tmp_path / "out", "slope", LITTLE, returns="all")
     assert not list((tmp_path / "out").iterdir())
 
 
 @pytest.mark.parametrize(
-    ("selection", "area", "word"),
+    ("options", "words"),
     [
-        (Selection(from_classes=(64,)), None, r"only the classes 1, 2, 5, 7, 9\. Choose the"),
-        (Selection(to_class=256 - 1), Area((0.0, 0.0, 1.0, 1.0)), "the points lie in x 500000 to"),
+        ({"from_classes": (64,)}, r"only the classes 1, 2, 5, 7, 9\. Choose the"),
+        ({"to_class": 255, "extent": (0, 0, 1, 1)}, "the points lie in x 500000 to"),
     ],
 )
-def test_the_same_errors_on_disk(selection, area, word, tmp_path):
-    with pytest.raises(BareEarthError, match=word):
-        run(
-            write(tmp_path / "in.las", 8000), tmp_path / "out", SlopeFilter(), LITTLE, selection,
-            area=area,
-        )  # fmt: skip
+def test_the_same_errors_on_disk(options, words, tmp_path):
+    with pytest.raises(BareEarthError, match=words):
+        run(write(tmp_path / "in.las", 8000), tmp_path / "out", "slope", LITTLE, **options)
 
 
 # Ends
 
 
-@pytest.mark.parametrize("resources", [MUCH, LITTLE], ids=["much", "little"])
+@pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize(
-    "fraction", [0.05, 0.6, 0.95, *(pytest.param(each, marks=LONG) for each in (0.0, 0.3, 0.8))]
+    "fraction", [0.05, 0.6, 0.95, *(pytest.param(share, marks=LONG) for share in (0.0, 0.3, 0.8))]
 )
-def test_a_cancel_leaves_nothing(small, fraction, resources, tmp_path):
+def test_a_cancel_leaves_nothing(small, fraction, size, tmp_path):
     source = write(tmp_path / "in.las", 8000, shape=(130.0, 70.0))
     progress = CancelAt(fraction)
     with pytest.raises(Cancelled):
-        run(source, tmp_path / "out", GridMinimum(), resources, rasters=("dtm",), progress=progress)
+        run(source, tmp_path / "out", "grid-minimum", SIZES[size], ("dtm",), progress=progress)
     assert os.listdir(tmp_path / "out") == [] and progress.last >= fraction
 
 

@@ -1,33 +1,17 @@
 """What is made of many files in one go, and the public API."""
 
 import json
-from dataclasses import replace
 
 import laspy
 import numpy as np
 import pytest
-from runs import classify_file, classify_tiles, write_heights, write_key_points
 from surveys import bytes_of, cut, finished, strip, write
 
 import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.options import TileOutput
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
-from bare_earth.algorithms.runs import entry as runs_module
-from bare_earth.algorithms.runs.many_files import write_files
-from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
-from bare_earth.algorithms.survey.ground_classes import GroundClasses
-from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.tools import point_tool
-from bare_earth.algorithms.tools.ground.output import Output
-from bare_earth.algorithms.tools.heights import MeasureHeights
-from bare_earth.algorithms.tools.key_points import FindKeyPoints
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
-SLOPE = SlopeFilter(preset="whitebox")
+SLOPE = {"method": "slope", "preset": "whitebox"}
 
 
 @pytest.fixture
@@ -66,58 +50,49 @@ def test_classes_rasters_and_heights_of_many_files_in_one_go(
 
 
 def test_ground_alone_of_many_files_with_heights_and_without(survey, tmp_path):
-    classify_file(survey, tmp_path / "all.laz", SLOPE)
+    bare_earth.classify(survey, tmp_path / "all.laz", **SLOPE)
     ground = _rows([tmp_path / "all.laz"], "classification")
     ground = ground[ground[:, 3] == 2]
     for heights in (False, True):
-        output = Output(ground_only=True, height_above_ground=heights)
-        folder = tmp_path / f"{heights}"
-        summary = classify_tiles([tmp_path / "in"], folder, SLOPE, points=output)
+        folder, outputs = tmp_path / f"{heights}", {"height_above_ground": heights}
+        summary = bare_earth.classify(tmp_path / "in", folder, ground_only=True, **outputs, **SLOPE)
         assert np.array_equal(_rows(finished(folder), "classification"), ground)
         assert summary.ground_count == len(ground)
 
 
 def test_of_ground_alone_there_is_no_surface_of_many_files(survey, tmp_path):
+    dsm = tmp_path / "dsm.tif"
     with pytest.raises(BareEarthError, match="need all points"):
-        classify_tiles(
-            [tmp_path / "in"], tmp_path / "out", SLOPE, points=Output(ground_only=True),
-            rasters=RasterFiles(dsm=tmp_path / "dsm.tif"),
-        )  # fmt: skip
+        bare_earth.classify(tmp_path / "in", tmp_path / "out", dsm=dsm, ground_only=True, **SLOPE)
 
 
 def test_the_confidence_of_a_run_that_classifies_is_that_of_its_output(survey, tmp_path):
     # It is told from the points that are not ground as well.
     one, many, after = (tmp_path / f"{name}.tif" for name in ("one", "many", "after"))
-    request = ClassifyRequest(parameters=SLOPE, rasters=RasterFiles(confidence=one))
-    runs_module.classify(survey, tmp_path / "out.laz", request)
-    request = replace(request, rasters=RasterFiles(confidence=many))
-    runs_module.classify([tmp_path / "in"], tmp_path / "many", request)
-    again = TerrainRequest(rasters=RasterFiles(confidence=after))
-    runs_module.terrain(tmp_path / "out.laz", again)
+    bare_earth.classify(survey, tmp_path / "out.laz", confidence=one, **SLOPE)
+    bare_earth.classify(tmp_path / "in", tmp_path / "many", confidence=many, **SLOPE)
+    bare_earth.terrain(tmp_path / "out.laz", confidence=after)
     assert one.read_bytes() == many.read_bytes() == after.read_bytes()
 
 
 def test_heights_go_on_where_a_run_ended(survey, tmp_path):
-    classify_tiles([tmp_path / "in"], tmp_path / "classified", SLOPE)
-    sources, folder = [tmp_path / "classified"], tmp_path / "out"
-    write_heights(sources, folder)
+    sources, folder = tmp_path / "classified", tmp_path / "out"
+    bare_earth.classify(tmp_path / "in", sources, **SLOPE)
+    bare_earth.heights(sources, folder)
     before = bytes_of(folder)
     (folder / "3.laz").unlink()
-    request = PointRequest.of(point_tool("height"), [TileOutput(), GroundClasses()])
-    assert request == PointRequest(MeasureHeights())
-    resumed = PointRequest(MeasureHeights(), tiles=TileOutput(resume=True))
-    summary = write_files(sources, folder, [resumed.step], resumed)
+    summary = bare_earth.heights(sources, folder, resume=True)
     assert summary.kept_count == 5 and summary.done_count == 6
     assert bytes_of(folder) == before
-    assert [each.name for each in summary.tiles] == sorted(each.name for each in finished(folder))
+    assert [path.name for path in summary.tiles] == [path.name for path in finished(folder)]
 
 
 def test_key_points_of_many_files_are_as_good_as_those_of_one(
     survey, tmp_path, threads_for_processes
 ):
-    classify_tiles([tmp_path / "in"], tmp_path / "classified", SLOPE)
-    classify_file(survey, tmp_path / "classified.laz", SLOPE)
-    one = write_key_points(tmp_path / "classified.laz", tmp_path / "keys.laz")
+    bare_earth.classify(tmp_path / "in", tmp_path / "classified", **SLOPE)
+    bare_earth.classify(survey, tmp_path / "classified.laz", **SLOPE)
+    one = bare_earth.key_points(tmp_path / "classified.laz", tmp_path / "keys.laz")
     words = ["key-points", str(tmp_path / "classified"), str(tmp_path / "keys")]
     assert main(words) == 0
     # The blocks are the same, whatever the files.
@@ -125,20 +100,7 @@ def test_key_points_of_many_files_are_as_good_as_those_of_one(
     found = _rows(finished(tmp_path / "keys"), *names)
     assert np.array_equal(found, _rows([tmp_path / "keys.laz"], *names))
     assert one.key_point_count == np.count_nonzero(found[:, 3] == 8) > 100
-    resume = [*words, "--resume", "--json"]
-    assert main(resume) == 0
-
-
-def test_a_request_takes_parameter_sets_in_any_order():
-    sets = [Selection(returns="all"), Resources(threads=1), SLOPE, Output(ground_only=True)]
-    request = ClassifyRequest.of(sets)
-    assert request == ClassifyRequest.of(sets[::-1])
-    assert (request.parameters, request.selection.returns) == (SLOPE, "all")
-    assert request.output.ground_only and request.resources.threads == 1
-    sets = [GroundClasses((2, 8)), ModelKeyPoints(tolerance_above=1.0), Resources(threads=1)]
-    keys = PointRequest.of(point_tool("key-points"), sets, crs="EPSG:25832")
-    assert keys.step == FindKeyPoints(sets[1], sets[0])
-    assert keys.resources == sets[2] and keys.crs == "EPSG:25832"
+    assert main([*words, "--resume", "--json"]) == 0
 
 
 def test_the_public_functions_take_one_file_and_many(survey, tmp_path):

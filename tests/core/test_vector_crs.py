@@ -202,7 +202,7 @@ def test_a_river_that_meets_no_water_is_told(cloud, tmp_path):
     water = geojson(tmp_path / "water.geojson", moved(CORNERS, "EPSG:4326"))
     through, beside = (
         geojson(
-            tmp_path / f"{north:g}.geojson", moved(CORNERS[:2] + (0.0, north), "EPSG:4326"),
+            tmp_path / f"{north:g}.geojson", moved(np.add(CORNERS[:2], (0.0, north)), "EPSG:4326"),
             kind="LineString",
         )
         for north in (20.0, -20.0)
