@@ -138,8 +138,12 @@ def test_make_hands_the_job_to_the_demo():
 
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.stem)
 def test_the_command_line_knows_the_commands_of_a_page(path, pages, monkeypatch, capsys):
-    known = [each._replace(run=lambda options: 0) for each in cli._COMMANDS]
-    monkeypatch.setattr(cli, "_COMMANDS", known)
+    def idle(command):
+        return command._replace(run=lambda options: 0)
+
+    monkeypatch.setattr(cli, "_COMMANDS", [*map(idle, cli._COMMANDS)])
+    command_of = cli.tool_command
+    monkeypatch.setattr(cli, "tool_command", lambda name: idle(command_of(name)))
     page = path.read_text(encoding="utf-8")
     blocks = [block for block in pages.blocks_of(page) if block.kind == "sh"]
     commands = [words for block in blocks for words in pages.commands_of(block)]
