@@ -376,19 +376,6 @@ def test_one_run_finds_the_ground_and_what_is_above(file, classified, village, t
     assert _iou(classes_of(one) == 6, village.classes == 6) > 0.93
 
 
-def test_one_run_on_many_files_does_the_same(classified, village, tmp_path):
-    x, folder = village.points.x, tmp_path / "in"
-    folder.mkdir()
-    for number in range(2):
-        which = np.flatnonzero((x > np.median(x)) == number)
-        _write(folder / f"{number}.laz", village, _only_ground(village), which)
-    summary = classify([folder], tmp_path / "out", **IGN)
-    assert summary.class_counts[6] > 2000
-    made = sorted((tmp_path / "out").glob("*.laz"))
-    assert np.array_equal(points_of(made), points_of([classified[0]]))
-    assert classify([folder], tmp_path / "out", resume=True, **IGN).kept_count == 2
-
-
 def test_one_run_on_many_files_also_makes_heights_and_goes_on(file, village, tmp_path):
     how = {**IGN, "height_above_ground": True}
     classify(file, tmp_path / "one.laz", **how)

@@ -7,9 +7,7 @@ from realdata import real
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin import TinDensification
+from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.bridge_decks import bridge_decks
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.runs.one_file import classify_cloud
@@ -223,15 +221,15 @@ def test_without_ground_there_is_no_bridge():
 
 
 def cloud_of(points, **others):
-    return surveys.cloud_of(*(np.round(each * 100) for each in points), **others)
+    return surveys.cloud_of(*(np.round(values * 100) for values in points), **others)
 
 
-@pytest.mark.parametrize("parameters", [TinDensification(), GridMinimum(), SlopeFilter()])
-def test_a_bridge_is_other_or_of_the_class_that_is_wanted(parameters, las):
-    points, deck = SCENES["underpass"]
-    cloud, heard = cloud_of(points), las.Heard()
+@pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
+def test_a_bridge_is_other_or_of_the_class_that_is_wanted(method, las):
+    (points, deck), parameters = SCENES["underpass"], method.parameters()
+    cloud, progress = cloud_of(points), las.Heard()
     kept, _ = classify_cloud(cloud, parameters, Selection(bridges="keep"))
-    other, _ = classify_cloud(cloud, parameters, progress=heard)
+    other, _ = classify_cloud(cloud, parameters, progress=progress)
     marked, _ = classify_cloud(cloud, parameters, Selection(bridge_class=17))
     assert np.mean(kept[deck] == 2) > 0.5
     assert np.mean(other[deck] == 2) < 0.15
@@ -240,16 +238,13 @@ def test_a_bridge_is_other_or_of_the_class_that_is_wanted(parameters, las):
     assert np.mean(marked[deck] == 17) > 0.75
     assert np.mean(marked[~deck] == 17) < 0.006
     found = np.count_nonzero(marked == 17)
-    assert f"{found:,} points on decks of bridges are not ground." in heard.infos
+    assert f"{found:,} points on decks of bridges are not ground." in progress.infos
 
 
-@pytest.mark.parametrize(
-    "parameters",
-    [TinDensification(preset="lidar360"), GridMinimum(preset="paper"), SlopeFilter("whitebox")],
-)
-def test_a_classic_preset_knows_no_bridges_unless_told_to_find_them(parameters):
+@pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
+def test_a_classic_preset_knows_no_bridges_unless_told_to_find_them(method):
     points, deck = SCENES["underpass"]
-    cloud = cloud_of(points)
+    cloud, parameters = cloud_of(points), method.parameters(preset=method.classic)
     kept, usual, found = (
         classify_cloud(cloud, parameters, selection)[0] == 2
         for selection in (Selection(bridges="keep"), Selection(), Selection(bridges="find"))
@@ -266,24 +261,24 @@ def test_known_ground_and_low_outliers_stay_what_they_are():
     classes = np.where(deck, 8, 1).astype(np.uint8)
     cloud = cloud_of(Points(points.x, points.y, z), classes=classes)
     selection = Selection(seed_classes=(8,), low_noise_class=True, bridge_class=17)
-    found, _ = classify_cloud(cloud, TinDensification(), selection)
+    found, _ = classify_cloud(cloud, METHODS["tin-densification"].parameters(), selection)
     assert (found[deck] == 2).all()
     assert (found[low] == 7).all()
 
 
 def test_a_class_that_the_points_cannot_hold_is_refused():
-    points, _ = SCENES["underpass"]
+    cloud = cloud_of(SCENES["underpass"][0], point_format=0)
     with pytest.raises(BareEarthError, match="bridges"):
-        classify_cloud(cloud_of(points, point_format=0), SlopeFilter(), Selection(bridge_class=64))
+        classify_cloud(cloud, METHODS["slope"].parameters(), Selection(bridge_class=64))
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("parameters", [TinDensification(), GridMinimum(), SlopeFilter()])
-def test_the_bridges_of_a_real_survey_are_not_ground(parameters):
+@pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
+def test_the_bridges_of_a_real_survey_are_not_ground(method):
     cloud = read_cloud(real("real/ign_bridge.laz"))
     deck, ground = cloud.classification == 17, cloud.classification == 2
     cloud.classification[:] = 0
-    found, _ = classify_cloud(cloud, parameters, Selection(bridge_class=17))
+    found, _ = classify_cloud(cloud, method.parameters(), Selection(bridge_class=17))
     # 26.8 to 27.8 % by method; 24.5 to 25.5 % before halls on slopes and raised squares were told.
     assert np.mean(found[deck] == 2) <= 0.285
     assert np.count_nonzero(found[ground] == 17) < 20

@@ -24,14 +24,16 @@ def read(tmp_path, text, columns=None, name="p.csv"):
     return read_checkpoints(tmp_path / name, columns)
 
 
-VEGETATED = """Corn|Corn field|Maize|Wheat|Marsh|Swamp|Mangrove|Undergrowth|GRASS_TALL|Hecke
+VEGETATED = """Forest|Nadelwald|brush land|VVA|Vegetated|tall grass|Forêt
+    |Corn|Corn field|Maize|Wheat|Marsh|Swamp|Mangrove|Undergrowth|GRASS_TALL|Hecke
     |TallGrass|Tall weeds and crops|Brush lands and low trees|Woody Wetlands|Shrub/Scrub
     |Cultivated Crops|open woodland|Gravel/shrubs|under trees|VVA_12|Cornfield
     |Vegetated Vertical Accuracy|Tussock
     |hohes Gras|Gebuesch|Röhricht|Maisfeld|Waldboden|Weinberg|Fichtenwald|Weg unter Bäumen
     |herbes hautes|Roseaux|Sous-bois|haies|Culture de maïs|Végétation basse
     |Bomen|Naaldbos|Hoog gras|Struiken|Árboles|hierba alta|Maíz|Matorral denso|Olivar"""
-OPEN = """Woodward Street|Treeless|Wooden deck|Waldweg|Open terrain|Urban|OpenTerrain|Short grass
+OPEN = """NVA|non-vegetated|unvegetated|no trees|Street|asphalt|grass
+    |Woodward Street|Treeless|Wooden deck|Waldweg|Open terrain|Urban|OpenTerrain|Short grass
     |Forest road|Oak Avenue|Nonvegetated|Non-vegetated (bare earth)|NVA - short grass|FVA
     |Reed Street|road in forest|vegetation free|Developed, Open Space|Bush track
     |Non-Vegetated Vertical Accuracy|Straße|Forststraße|vegetationslos|unbewachsen
@@ -54,7 +56,9 @@ def test_land_covers_that_are_not(cover):
     assert LandCovers().kind("", cover) == "NVA"
 
 
-@pytest.mark.parametrize("cover", ["Moon", "GS", "12", "Woodward", "Hollywood", "Oakland"])
+@pytest.mark.parametrize(
+    "cover", ["Moon", "GS", "Metall", "12", "Woodward", "Hollywood", "Oakland"]
+)
 def test_land_covers_that_are_not_known(cover):
     assert LandCovers().kind("", cover) == ""
 
@@ -258,17 +262,17 @@ def test_units_of_columns_are_those_of_the_points(tmp_path):
         f"{a + 500_000:.4f},{b + 5_600_000:.4f},{up / 0.3048:.4f}\n"
         for (a, b), up in zip(xy, heights)
     )
-    heard = Heard()
+    progress = Heard()
     given = read(tmp_path, "East [m],North [m],Elev (ft)\n" + rows)
-    assert check([metres], given, progress=heard).nva.rmse < 0.05
-    assert any("states feet" in each for each in heard.infos)
+    assert check([metres], given, progress=progress).nva.rmse < 0.05
+    assert any("states feet" in each for each in progress.infos)
     # "ft" of points in US survey feet is this foot: coordinates of millions stay.
     rows = "".join(
         f"{a / foot + 500_000:.4f},{b / foot + 5_600_000:.4f},{up / foot:.4f}\n"
         for (a, b), up in zip(xy, heights)
     )
     given = read(tmp_path, "East (ft),North (ft),Elev (ft)\n" + rows)
-    found = check([feet], given, progress=heard)
+    found = check([feet], given, progress=progress)
     assert found.counted == 30 and found.nva.rmse < 0.05
 
 
@@ -281,11 +285,11 @@ def test_control_points_are_left_out_and_unknown_covers_are_told(survey, tmp_pat
     true = height(*xy.T)
     types = ["Control", "Control", "NVA", "NVA", "VVA", "check", "", ""]
     covers = ["", "", "", "", "", "forest", "Moon", "sand"]
-    heard = Heard()
-    found = check([survey], points_at(xy, true, covers=covers, types=types), progress=heard)
+    progress = Heard()
+    found = check([survey], points_at(xy, true, covers=covers, types=types), progress=progress)
     assert (found.counted, found.nva.count, found.vva.count) == (6, 4, 2)
     assert found.not_counted == {"control": ["1", "2"]} and found.unknown_covers == {"Moon": 1}
-    assert "Moon (1)" in " ".join(heard.warnings)
+    assert "Moon (1)" in " ".join(progress.warnings)
     none = points_at(xy, true, types=["VVA"] * 8)
     found = check([survey], none, Accuracy(accuracy_class=0.1))
     assert found.meets_class is None and "No checkpoint lies on land without" in found.statement
@@ -307,25 +311,25 @@ def test_names_say_the_kind_if_nothing_else_does(survey):
      (lambda z: z + 1.8, "antenna or a pole"), (lambda z: z + 400, "Another unit")],
 )  # fmt: skip
 def test_a_difference_of_metres_is_named_and_nothing_is_stated(survey, change, words):
-    xy, heard = places(40), Heard()
+    xy, progress = places(40), Heard()
     given = points_at(xy, change(height(*xy.T)))
-    found = check([survey], given, Accuracy(accuracy_class=0.1), progress=heard)
-    assert words in found.doubt and found.doubt in heard.warnings[-1]
+    found = check([survey], given, Accuracy(accuracy_class=0.1), progress=progress)
+    assert words in found.doubt and found.doubt in progress.warnings[-1]
     assert found.meets_class is None and found.shift is None
     assert "meet" not in found.statement and found.lines()[0].endswith(found.doubt)
 
 
 @pytest.mark.parametrize("in_feet", [False, True])
 def test_other_heights_that_fit_are_taken(survey, tmp_path, in_feet):
-    xy, heard = places(20), Heard()
+    xy, progress = places(20), Heard()
     true = height(*xy.T)
     names = "x,y,z,Altitude (ft)" if in_feet else "x,y,z,Altitude"
     rows = [(x + 500_000, y + 5_600_000, z + 47, z / (0.3048 if in_feet else 1))
             for (x, y), z in zip(xy.tolist(), true.tolist())]  # fmt: skip
     text = "\n".join([names, *(",".join(map(str, row)) for row in rows)])
-    found = check([survey], read(tmp_path, text), progress=heard)
+    found = check([survey], read(tmp_path, text), progress=progress)
     assert not found.doubt and found.nva.rmse < 0.05
-    assert "The heights in the column Altitude" in heard.warnings[-1]
+    assert "The heights in the column Altitude" in progress.warnings[-1]
     chosen = check([survey], read(tmp_path, text, "z=z"))
     assert chosen.doubt and chosen.nva.mean == pytest.approx(-47, abs=0.1)
 

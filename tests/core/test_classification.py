@@ -11,11 +11,8 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import file_points, memory_store
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.pipeline import Pipeline, PointRule, Stage
-from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.stages.outliers import below_ground
-from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import cloud as cloud_module
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.runs.one_file import classify_cloud
@@ -26,7 +23,8 @@ from benchmarks.scenes.simple import village
 
 EAST, NORTH = 500_000.0, 5_700_000.0
 FOOT = 0.3048
-PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
+PARAMETERS = [method.parameters() for method in METHODS.values()]
+TIN, _, SLOPE = PARAMETERS
 
 
 def cloud_of(points, classes=1, crs=None, unit=1.0):
@@ -83,11 +81,11 @@ def test_however_many_points_are_looked_at_together_the_result_is_the_same(
     for most in (1 << 19, 700):
         monkeypatch.setattr(cloud_module, "_PART", most)
         monkeypatch.setattr(memory_store, "_CHOSEN", most)
-        heard = las.Heard()
-        found = classify_cloud(cloud, TinDensification(), selection, heard, box(20, 5, 400, 35))
-        assert heard.fractions == sorted(heard.fractions)
-        results.append((*found, heard.infos, heard.warnings))
-        steps = len(heard.fractions)
+        progress = las.Heard()
+        found = classify_cloud(cloud, TIN, selection, progress, box(20, 5, 400, 35))
+        assert progress.fractions == sorted(progress.fractions)
+        results.append((*found, progress.infos, progress.warnings))
+        steps = len(progress.fractions)
     assert all(np.array_equal(*pair) for pair in zip(*results))
     assert steps > 3 * cloud.count / 700
     assert len(np.unique(results[0][0])) == 5
@@ -116,12 +114,16 @@ def watched(monkeypatch, result=None, takes_known_ground=False):
 @pytest.mark.parametrize("unit", [1.0, FOOT])
 def test_the_method_sees_what_lies_near_the_area_and_no_more(unit, long_scene, monkeypatch):
     given, cloud = watched(monkeypatch), cloud_of(long_scene, unit=unit)
-    classify_cloud(cloud, SlopeFilter(max_building_size=40.0), area=box(220, 5, 260, 35, unit))
+    classify_cloud(
+        cloud, METHODS["slope"].parameters(max_building_size=40.0), area=box(220, 5, 260, 35, unit)
+    )
     assert np.ptp(given["points"].x) == pytest.approx(240, abs=0.5)
     # Metres from the corner of the block.
     assert given["points"].x.min() == pytest.approx(EAST * unit % 2000 + 120, abs=0.5)
     # More where a parameter is larger.
-    classify_cloud(cloud, SlopeFilter(max_building_size=100.0), area=box(220, 5, 260, 35, unit))
+    classify_cloud(
+        cloud, METHODS["slope"].parameters(max_building_size=100.0), area=box(220, 5, 260, 35, unit)
+    )
     assert np.ptp(given["points"].x) == pytest.approx(440, abs=0.5)
 
 
@@ -130,7 +132,7 @@ def test_outside_an_area_even_old_ground_and_class_0_stay(scene):
     classes = np.arange(points.count, dtype=np.uint8) % 3
     cloud, area = cloud_of(points, classes), box(20, 20, 50, 60)
     for others in ("keep", "unclassified"):
-        found, _ = classify_cloud(cloud, SlopeFilter(), Selection(others=others), area=area)
+        found, _ = classify_cloud(cloud, SLOPE, Selection(others=others), area=area)
         inside = area.of(cloud)
         assert np.array_equal(found[~inside], classes[~inside])
         assert set(np.unique(found[inside])) == {1, 2}
@@ -140,14 +142,14 @@ def test_a_polygon_limits_too(scene):
     points, _ = scene
     cloud = cloud_of(points, 5)
     corners = np.array([(EAST, NORTH), (EAST + 60, NORTH), (EAST, NORTH + 60)])
-    found, _ = classify_cloud(cloud, SlopeFilter(), area=Area(polygons=((corners,),)))
+    found, _ = classify_cloud(cloud, SLOPE, area=Area(polygons=((corners,),)))
     changed = found != 5
     assert changed.any() and (points.x + points.y)[changed].max() <= 60.01
 
 
 def test_an_area_without_points_is_told_with_both_extents(scene):
     with pytest.raises(BareEarthError) as caught:
-        classify_cloud(cloud_of(scene[0]), SlopeFilter(), area=Area((9.0, 50.0, 9.1, 50.1)))
+        classify_cloud(cloud_of(scene[0]), SLOPE, area=Area((9.0, 50.0, 9.1, 50.1)))
     text = str(caught.value)
     assert "\n" not in text and "in.las lies in the area (x 9 to 9.1, y 50 to 50.1)" in text
     assert "the points lie in x 500000" in text and "CRS of the points" in text
@@ -158,7 +160,7 @@ def test_an_area_where_nothing_takes_part_is_told(scene):
     classes = np.where(points.x < 40, 9, 1).astype(np.uint8)
     with pytest.raises(BareEarthError, match=r"None of the [\d,]+ points in the area takes part"):
         classify_cloud(
-            cloud_of(points, classes), SlopeFilter(), Selection(from_classes=(1,)),
+            cloud_of(points, classes), SLOPE, Selection(from_classes=(1,)),
             area=box(0, 0, 30, 80),
         )  # fmt: skip
 
@@ -166,7 +168,7 @@ def test_an_area_where_nothing_takes_part_is_told(scene):
 def test_geographic_coordinates_are_told_before_an_area_without_points(scene):
     cloud = cloud_of(scene[0], crs=Crs(is_geographic=True))
     with pytest.raises(BareEarthError, match="not in a projected CRS"):
-        classify_cloud(cloud, SlopeFilter(), area=Area((0, 0, 1, 1)))
+        classify_cloud(cloud, SLOPE, area=Area((0, 0, 1, 1)))
 
 
 # Known ground
@@ -174,32 +176,32 @@ def test_geographic_coordinates_are_told_before_an_area_without_points(scene):
 
 def test_known_ground_stays_ground_whatever_the_method_finds(scene, monkeypatch, las):
     watched(monkeypatch)
-    heard, classes = las.Heard(), np.ones(scene[0].count, np.uint8)
+    progress, classes = las.Heard(), np.ones(scene[0].count, np.uint8)
     classes[::7], classes[::9] = 8, 5
     cloud, selection = cloud_of(scene[0], classes), Selection(seed_classes=(8,))
-    found, _ = classify_cloud(cloud, SlopeFilter(), selection, heard)
+    found, _ = classify_cloud(cloud, SLOPE, selection, progress)
     assert np.array_equal(found == 2, classes == 8)
     assert (found[classes == 5] == 5).all()
     count = np.count_nonzero(classes == 8)
-    assert f"{count:,} points of class 8 are known ground." in heard.infos
-    assert any("does not start from known ground" in each for each in heard.infos)
+    assert f"{count:,} points of class 8 are known ground." in progress.infos
+    assert any("does not start from known ground" in each for each in progress.infos)
 
 
 def test_a_method_that_takes_known_ground_gets_it(scene, monkeypatch, las):
-    given, heard = watched(monkeypatch, takes_known_ground=True), las.Heard()
+    given, progress = watched(monkeypatch, takes_known_ground=True), las.Heard()
     points = scene[0].take(~is_low(scene[0]))
     classes = np.ones(points.count, np.uint8)
     classes[::7], classes[::9] = 2, 9
     cloud = cloud_of(points, classes)
     # Of class 9, which takes no part, nothing is given.
     found, selected = classify_cloud(
-        cloud, SlopeFilter(), Selection(from_classes=(1,), seed_classes=(2,)), heard
+        cloud, SLOPE, Selection(from_classes=(1,), seed_classes=(2,)), progress
     )
     assert np.array_equal(given["known_ground"], classes[selected] == 2)
     assert given["points"].count == np.count_nonzero(selected) == np.count_nonzero(classes < 9)
     assert np.array_equal(found, np.where(classes == 1, 1, classes))
-    assert not any("does not start" in each for each in heard.infos)
-    classify_cloud(cloud, SlopeFilter(), Selection(from_classes=(1,)))
+    assert not any("does not start" in each for each in progress.infos)
+    classify_cloud(cloud, SLOPE, Selection(from_classes=(1,)))
     assert given["points"].count == np.count_nonzero(classes == 1)
 
 
@@ -207,17 +209,15 @@ def test_known_ground_is_context_outside_the_area_and_counts_there_only(scene, m
     given = watched(monkeypatch, takes_known_ground=True)
     classes = np.where(scene[0].x < 40, 2, 1).astype(np.uint8)
     cloud = cloud_of(scene[0], classes)
-    found, _ = classify_cloud(
-        cloud, SlopeFilter(), Selection(seed_classes=(2,)), area=box(50, 0, 80, 80)
-    )
+    found, _ = classify_cloud(cloud, SLOPE, Selection(seed_classes=(2,)), area=box(50, 0, 80, 80))
     assert np.count_nonzero(given["known_ground"]) == np.count_nonzero(classes == 2)
     assert np.array_equal(found, classes)
 
 
 def test_without_known_ground_there_is_a_warning(scene, las):
-    heard = las.Heard()
-    classify_cloud(cloud_of(scene[0]), SlopeFilter(), Selection(seed_classes=(2, 8)), heard)
-    assert heard.warnings == ["There are no points of known ground (class 2, 8)."]
+    progress = las.Heard()
+    classify_cloud(cloud_of(scene[0]), SLOPE, Selection(seed_classes=(2, 8)), progress)
+    assert progress.warnings == ["There are no points of known ground (class 2, 8)."]
 
 
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
@@ -242,13 +242,13 @@ def test_low_outliers_go_to_class_7_where_wanted(parameters, scene, las):
     points, truth = scene
     low = is_low(points)
     assert low.sum() == 6 and not truth[low].any()
-    cloud, heard = cloud_of(points), las.Heard()
+    cloud, progress = cloud_of(points), las.Heard()
     plain, _ = classify_cloud(cloud, parameters)
     assert (plain[low] == 1).all()
-    found, _ = classify_cloud(cloud, parameters, Selection(low_noise_class=True), heard)
+    found, _ = classify_cloud(cloud, parameters, Selection(low_noise_class=True), progress)
     assert (found[low] == 7).all() and (found == 7).sum() <= 8
     assert np.array_equal(found == 2, plain == 2)
-    assert any("lie more than 1 m below the ground" in each for each in heard.infos)
+    assert any("lie more than 1 m below the ground" in each for each in progress.infos)
     # What lies below ground all round it is low noise, however deep.
     deep, _ = classify_cloud(
         cloud, parameters, Selection(low_noise_class=True, low_noise_depth=100)
@@ -263,7 +263,7 @@ def test_low_outliers_outside_the_area_or_of_other_classes_stay(scene):
     classes[np.flatnonzero(low)[:2]] = 9
     selection = Selection(low_noise_class=True, from_classes=(1,))
     cloud, area = cloud_of(points, classes), box(0, 0, 80, 45)
-    found, _ = classify_cloud(cloud, SlopeFilter(), selection, area=area)
+    found, _ = classify_cloud(cloud, SLOPE, selection, area=area)
     expected = low & (classes == 1) & area.of(cloud)
     assert np.array_equal(found == 7, expected) and 0 < expected.sum() < 4
 

@@ -3,7 +3,6 @@ import os
 import subprocess
 import sys
 
-import laspy
 import numpy as np
 import pytest
 from runs import command, environment
@@ -318,55 +317,6 @@ def test_rasters_and_area_reach_the_classifier(monkeypatch, tmp_path):
 
 
 # What comes out
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_every_method_classifies(method, file, out, scene, capsys):
-    assert run("classify", file, out, "--method", method) == 0
-    assert np.mean((classes_of(out) == 2) != scene[1]) < 0.04
-
-
-def test_methods_and_parameters_make_a_difference(file, capsys):
-    found = {}
-    for name, words in {
-        "grid": ["--method", "grid-minimum"],
-        "small": ["--method", "grid-minimum", "--max-object-size", "4"],
-        "slope": ["--method", "slope"],
-        "whitebox": ["--method", "slope", "--preset", "whitebox"],
-        "low": ["--method", "slope", "--low-noise-class"],
-        "class 8": ["--method", "slope", "--to-class", "8"],
-    }.items():
-        target = file.with_name(f"{len(found)}.las")
-        assert run("classify", file, target, *words) == 0
-        found[name] = classes_of(target)
-    assert (found["small"] == 2).sum() > (found["grid"] == 2).sum()
-    assert (found["whitebox"] == 2).sum() > (found["slope"] == 2).sum()
-    assert np.array_equal(found["class 8"] == 8, found["slope"] == 2)
-    assert 0 < (found["low"] == 7).sum() < 10
-
-
-def test_an_area_limits_what_changes(file, out, scene, capsys):
-    x, y = scene[0].x, scene[0].y
-    boundary = file.with_name("a.geojson")
-    corners = [[EAST + a, NORTH + b] for a, b in ((5, 5), (55, 5), (5, 55), (5, 5))]
-    boundary.write_text(json.dumps({"type": "Polygon", "coordinates": [corners]}))
-    extent = [EAST, NORTH, EAST + 30, NORTH + 60]
-    words = ["--method", "slope", "--to-class", "9", "--boundary", boundary, "--extent", *extent]
-    assert run("classify", file, out, *words, "--verbose") == 0
-    changed = classes_of(out) != 1
-    assert changed.any()
-    assert ((x >= 5) & (y >= 5) & (x + y <= 60.01) & (x <= 30))[changed].all()
-    told = capsys.readouterr()
-    assert "points in the area are ground" in told.out and "points lie in the area." in told.err
-
-
-def test_known_ground_is_kept(file, out, scene, capsys):
-    las = laspy.read(file)
-    las.classification[:] = np.where(np.arange(len(las.x)) % 50 == 0, 2, 1)
-    las.write(str(file))
-    assert run("classify", file, out, "--method", "slope", "--seed-classes", "2", "--verbose") == 0
-    assert (classes_of(out)[::50] == 2).all()
-    assert "does not start from known ground" in capsys.readouterr().err
 
 
 def test_all_subcommands_are_documented(capsys):

@@ -362,9 +362,9 @@ def test_a_crs_too_long_for_copc_stays_where_it_is(las):
     text = f'LOCAL_CS["{"x" * 65_600}",UNIT["metre",1]]'.encode()
     record = las.evlr(b"LASF_Projection", 2112, text)
     source = las.make(version=4, point_format=6, encoding=0x10, evlrs=[record])
-    heard, target = las.Heard(), las.folder / "out.copc.laz"
-    write_classified(source, target, np.zeros(60, np.uint8), heard)
-    assert any("too long" in each for each in heard.warnings)
+    progress, target = las.Heard(), las.folder / "out.copc.laz"
+    write_classified(source, target, np.zeros(60, np.uint8), progress)
+    assert any("too long" in each for each in progress.warnings)
     assert open_las(target).vlr(("LASF_Projection", 2112)).data == text
 
 
@@ -402,9 +402,9 @@ def test_codes_that_are_none_are_left_out(code):
 
 @pytest.mark.parametrize("unit", ["1e308", "1e-308", "nan", "-1", "0", "1e7"])
 def test_units_that_are_none_are_told(las, unit):
-    heard = las.Heard()
-    crs = crs_of_wkt(f'PROJCS["p",UNIT["metre",{unit}]]', heard)
-    assert crs.horizontal_unit == 1.0 and "is not known" in heard.warnings[0]
+    progress = las.Heard()
+    crs = crs_of_wkt(f'PROJCS["p",UNIT["metre",{unit}]]', progress)
+    assert crs.horizontal_unit == 1.0 and "is not known" in progress.warnings[0]
 
 
 @pytest.mark.parametrize("value", [1e300, 1e17, float("inf"), float("nan")])

@@ -7,15 +7,10 @@ from surveys import cloud_of
 
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.tools.ground.labelling import label_ground
 
-PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
-METHODS_BY_TYPE = {method.parameters: method for method in METHODS.values()}
 EXTENT, LITTLE, OUTLIERS = "the points reach less than", "Hardly any ground", "low outliers"
 
 
@@ -26,51 +21,52 @@ def land(width, depth, outliers=0.0, density=2.0, seed=4):
     x, y = random.uniform(0, width, count), random.uniform(0, depth, count)
     z = random.normal(0, 0.03, count)
     z[random.random(count) < outliers] -= random.uniform(15, 60)
-    return cloud_of(*(np.round(each * 100) for each in (x, y, z)))
+    return cloud_of(*(np.round(values * 100) for values in (x, y, z)))
 
 
 def warnings_of(cloud, parameters, las):
-    heard = las.Heard()
-    classify_cloud(cloud, parameters, progress=heard)
-    return heard.warnings
+    progress = las.Heard()
+    classify_cloud(cloud, parameters, progress=progress)
+    return progress.warnings
 
 
-@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-def test_a_wide_and_clean_survey_is_not_doubted(parameters, las):
-    assert warnings_of(land(150, 150, outliers=0.001), parameters, las) == []
+@pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
+def test_a_wide_and_clean_survey_is_not_doubted(method, las):
+    assert warnings_of(land(150, 150, outliers=0.001), method.parameters(), las) == []
 
 
-@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-def test_an_extent_smaller_than_the_largest_object_is_told(parameters, las):
-    (warning,) = warnings_of(land(150, 30), parameters, las)
+@pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
+def test_an_extent_smaller_than_the_largest_object_is_told(method, las):
+    (warning,) = warnings_of(land(150, 30), method.parameters(), las)
     assert EXTENT in warning
-    declared = {each.name: each.label for each in parameters.declarations()}
-    assert declared[METHODS_BY_TYPE[type(parameters)].size_parameter] in warning
+    labels = {declared.name: declared.label for declared in method.parameters.declarations()}
+    assert labels[method.size_parameter] in warning
 
 
 @pytest.mark.parametrize(
-    ("parameters", "width"),
+    ("name", "values", "width"),
     [
-        (TinDensification(max_building_size=20.0), 20),
-        (GridMinimum(preset="city"), 120),
-        (SlopeFilter(search_radius=10.0), 20),
-        (SlopeFilter(max_building_size=25.0), 25),
-        (SlopeFilter(preset="whitebox"), 4),
+        ("tin-densification", {"max_building_size": 20.0}, 20),
+        ("grid-minimum", {"preset": "city"}, 120),
+        ("slope", {"search_radius": 10.0}, 20),
+        ("slope", {"max_building_size": 25.0}, 25),
+        ("slope", {"preset": "whitebox"}, 4),
     ],
 )
-def test_the_size_is_what_was_given(parameters, width, las):
-    assert METHODS_BY_TYPE[type(parameters)].largest_object(parameters) == width
+def test_the_size_is_what_was_given(name, values, width, las):
+    parameters = METHODS[name].parameters(**values)
+    assert METHODS[name].largest_object(parameters) == width
     told = [EXTENT in "".join(warnings_of(land(140, side), parameters, las)) for side in (3, 135)]
     assert told == [True, False]
 
 
 def test_the_same_warning_of_several_blocks_is_told_once(las):
-    cloud, heard = land(400, 30), las.Heard()
+    cloud, progress = land(400, 30), las.Heard()
     blocks = Blocks(100.0, 50.0)
     part = (cloud, np.ones(cloud.count, bool))
     store = memory_store([part], survey_frame(cloud.crs), blocks)
-    label_ground(store, GridMinimum(), blocks, progress=heard)
-    (warning,) = heard.warnings
+    label_ground(store, METHODS["grid-minimum"].parameters(), blocks, progress=progress)
+    (warning,) = progress.warnings
     assert EXTENT in warning and "blocks" not in warning
 
 
@@ -79,12 +75,12 @@ def test_hardly_any_ground_is_told(las):
     crowns = land(100, 100)
     crowns.z[:] = np.random.default_rng(1).uniform(0, 2000, crowns.count)
     values = {"search_radius": 8.0, "slope_threshold": 0.0, "height_threshold": 0.01}
-    strict = SlopeFilter(preset="whitebox", slope_norm=False, **values)
+    strict = METHODS["slope"].parameters(preset="whitebox", slope_norm=False, **values)
     (warning,) = warnings_of(crowns, strict, las)
     assert LITTLE in warning and "2 %" in warning
 
 
-@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-def test_many_low_outliers_are_told(parameters, las):
-    (warning,) = warnings_of(land(150, 150, outliers=0.04), parameters, las)
+@pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
+def test_many_low_outliers_are_told(method, las):
+    (warning,) = warnings_of(land(150, 150, outliers=0.04), method.parameters(), las)
     assert OUTLIERS in warning and "class 7" in warning

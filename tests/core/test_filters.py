@@ -11,9 +11,6 @@ from runs import CancelAt
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS, method_of
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.tools.assess import compare
@@ -25,14 +22,15 @@ from benchmarks.scenes.simple import error, scatter, surveyed, village
 make = functools.lru_cache(maxsize=4)(make_scene)
 PARAMETERS = [
     *(method.parameters() for method in METHODS.values()),
-    SlopeFilter(preset="whitebox"),
-    SlopeFilter(slope_norm=False),
+    METHODS["slope"].parameters(preset="whitebox"),
+    METHODS["slope"].parameters(slope_norm=False),
 ]
 CLASSIC = [
-    TinDensification(preset="lidar360"),
-    GridMinimum(preset="paper"),
-    SlopeFilter(preset="whitebox", min_neighbours=30),
+    METHODS["tin-densification"].parameters(preset="lidar360"),
+    METHODS["grid-minimum"].parameters(preset="paper"),
+    METHODS["slope"].parameters(preset="whitebox", min_neighbours=30),
 ]
+SMALL_CELLS = METHODS["grid-minimum"].parameters(cell_size=0.01)
 
 
 @pytest.mark.parametrize("parameters", PARAMETERS)
@@ -71,12 +69,12 @@ def test_the_order_and_the_place_of_the_points_do_not_matter(parameters):
     assert np.mean(classify(moved, parameters) != found) < 1e-3
 
 
-@pytest.mark.parametrize("parameters", [*PARAMETERS, GridMinimum(cell_size=0.01)])
+@pytest.mark.parametrize("parameters", [*PARAMETERS, SMALL_CELLS])
 def test_stray_coordinates_are_refused_with_a_sentence(parameters):
     ends = Points(np.array([0.0, 1e9]), np.array([0.0, 1e9]), np.zeros(2))
     # Cells grow with the distance of few points.
-    many = Points(*(np.concatenate((each, np.zeros(50_000))) for each in ends))
-    points = many if isinstance(parameters, GridMinimum) else ends
+    many = Points(*(np.concatenate((values, np.zeros(50_000))) for values in ends))
+    points = many if isinstance(parameters, type(SMALL_CELLS)) else ends
     with pytest.raises(BareEarthError, match="stray coordinates"):
         method_of(parameters).classify(points, parameters)
 
@@ -196,7 +194,7 @@ def test_scattered_low_outliers_do_not_take_the_ground_of_a_dense_cloud_away(met
     found = METHODS[method].ground(scene.points, METHODS[method].parameters(), told).ground
     assert found[scene.ground].mean() > 0.97
     assert found[lows].mean() < 0.02
-    assert any("Low outliers are scattered" in each for each in told.infos)
+    assert any("Low outliers are scattered" in text for text in told.infos)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -242,8 +240,8 @@ def test_the_isprs_samples_come_out_as_measured(method, samples, most_error, lea
         points = cloud.points(np.arange(cloud.count))
         ground = METHODS[method].classify(points, METHODS[method].parameters())
         found.append(compare(ground, reference))
-    assert np.mean([each.total_error for each in found]) <= most_error
-    assert np.mean([each.kappa for each in found]) >= least_kappa
+    assert np.mean([result.total_error for result in found]) <= most_error
+    assert np.mean([result.kappa for result in found]) >= least_kappa
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -2,24 +2,14 @@
 
 import numpy as np
 import pytest
+from conftest import Heard
 
-from bare_earth import BareEarthError, Progress
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters.grid_minimum import METHOD, PRESETS, GridMinimum
 from benchmarks.scenes.simple import error, scatter, surveyed, village
 
 classify = METHOD.classify
-
-
-class Log(Progress):
-    def __init__(self):
-        self.texts, self.warnings = [], []
-
-    def info(self, text):
-        self.texts.append(text)
-
-    def warning(self, text):
-        self.warnings.append(text)
 
 
 def flat(density: float = 8.0, size: float = 80.0) -> Points:
@@ -95,23 +85,23 @@ def test_cells_grow_with_the_distance_of_the_points_and_the_log_tells(density, c
     points = flat(density, size)
     roof = (np.abs(points.x - 40.0) < 15.0) & (np.abs(points.y - 40.0) < 15.0)
     points.z[roof] += 7.0
-    log = Log()
+    log = Heard()
     found = classify(points, GridMinimum(), log)
-    assert len(log.texts) == 1 and not log.warnings
-    assert f"preset automatic, cell size {cell}, " in log.texts[0]
+    assert len(log.infos) == 1 and not log.warnings
+    assert f"preset automatic, cell size {cell}, " in log.infos[0]
     assert error(found, ~roof) < 1.0
 
 
 def test_cells_stay_as_wanted_where_points_are_dense_enough_even_in_part_of_the_rectangle():
     points = flat(7.0)
-    log = Log()
+    log = Heard()
     classify(points.take(np.abs(points.x - points.y) < 15.0), GridMinimum(), log)
-    assert f"cell size {PRESETS['automatic'].cell_size:g} m" in log.texts[0]
+    assert f"cell size {PRESETS['automatic'].cell_size:g} m" in log.infos[0]
 
 
 @pytest.mark.parametrize("parameters", [GridMinimum(cell_size=0.5), GridMinimum(preset="paper")])
 def test_cells_given_by_hand_or_by_the_paper_stay_and_a_warning_tells_of_gaps(parameters):
-    log, points = Log(), flat(1.0)
+    log, points = Heard(), flat(1.0)
     assert parameters.resolve(points).cell_size == 0.5
     classify(points, parameters, log)
     assert len(log.warnings) == 1 and "too few for cells of 0.5 m" in log.warnings[0]
@@ -120,11 +110,11 @@ def test_cells_given_by_hand_or_by_the_paper_stay_and_a_warning_tells_of_gaps(pa
 
 def test_the_log_says_which_values_the_preset_chose_and_they_give_the_same_again():
     points, _ = village(0.2, density=1.0)
-    told, silent = Log(), Log()
+    told, silent = Heard(), Heard()
     found = classify(points, GridMinimum(preset="hilly"), told)
     chosen = GridMinimum(preset="hilly").resolve(points)
-    heights = ", ".join(f"{each:g}" for each in chosen.height_thresholds)
-    assert told.texts == [
+    heights = ", ".join(f"{height:g}" for height in chosen.height_thresholds)
+    assert told.infos == [
         f"Grid minimum: preset hilly, cell size {chosen.cell_size:g} m, height thresholds"
         f" {heights} m, final height {chosen.final_height:g} m, maximum object size"
         f" {chosen.max_object_size:g} m."
@@ -140,7 +130,7 @@ def test_the_log_says_which_values_the_preset_chose_and_they_give_the_same_again
     )
     assert by_hand == chosen == chosen.resolve(points)
     assert np.array_equal(classify(points, by_hand, silent), found)
-    assert not silent.texts and not silent.warnings
+    assert not silent.infos and not silent.warnings
 
 
 def test_a_preset_gives_what_is_left_empty_and_nothing_else():

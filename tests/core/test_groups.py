@@ -4,19 +4,17 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
+from surveys import classes_of, heights_of
 
+from bare_earth import classify, terrain
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.low_noise import BelowWater, LowGroups, WideLowGroups
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.high_groups import HighGroups
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.rasters.geotiff import read_raster
-from bare_earth.algorithms.runs.entry import classify, terrain
 from bare_earth.algorithms.runs.one_file import classify_cloud
-from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from benchmarks.peers import write_las
 from benchmarks.scenes import make
 
@@ -243,28 +241,22 @@ def test_surfaces_leave_out_what_is_high_noise_by_default():
 
 
 def test_birds_that_someone_reported_are_not_in_the_surface(tmp_path):
-    cloud = real("field/birds.laz")
-    request = ClassifyRequest(
-        selection=Selection(high_noise_class=True),
-        rasters=RasterFiles(dsm=tmp_path / "dsm.tif", chm=tmp_path / "chm.tif"),
-    )
-    classify(cloud, tmp_path / "out.laz", request)
-    assert np.count_nonzero(read_cloud(tmp_path / "out.laz").classification == 18) == 12
-    assert np.nanmax(read_raster(tmp_path / "chm.tif").heights) < 25.0
+    out, chm = tmp_path / "out.laz", tmp_path / "chm.tif"
+    classify(real("field/birds.laz"), out, chm=chm, high_noise_class=True)
+    assert np.count_nonzero(classes_of(out) == 18) == 12
+    assert np.nanmax(heights_of(chm)) < 25.0
 
 
 @pytest.mark.parametrize("classify_first", [True, False])
 def test_no_bird_is_in_a_surface_or_canopy_model(tmp_path, classify_first):
     scene, path = make("birds", seed=14, size=100.0), tmp_path / "birds.las"
     write_las(scene.cloud(), path)
-    rasters = RasterFiles(dsm=tmp_path / "dsm.tif", chm=tmp_path / "chm.tif")
+    chm = tmp_path / "chm.tif"
     if classify_first:
-        classify(path, tmp_path / "out.las", ClassifyRequest(rasters=rasters))
+        classify(path, tmp_path / "out.las", chm=chm)
     else:
-        with laspy.open(path) as reader:
-            content = reader.read()
+        content = laspy.read(path)
         content.classification = np.where(scene.classes == 18, 1, scene.classes)
         content.write(path)
-        terrain(path, TerrainRequest(rasters=rasters))
-    chm = read_raster(tmp_path / "chm.tif").heights
-    assert np.nanmax(chm) < 24.0
+        terrain(path, chm=chm)
+    assert np.nanmax(heights_of(chm)) < 24.0

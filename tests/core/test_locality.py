@@ -10,15 +10,13 @@ from surveys import cut, finished, points_of, strip, write
 
 from bare_earth import classify
 from bare_earth.algorithms.filters import METHODS, method_of
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.tools.ground.labelling import blocks_of, label_ground
 
-PARAMETERS, LONG = (TinDensification(), GridMinimum(), SlopeFilter()), pytest.mark.long
+PARAMETERS = [method.parameters() for method in METHODS.values()]
+LONG = pytest.mark.long
 COLUMNS = ("x", "y", "z", "classification", "return_number", "number_of_returns", "withheld")
 
 
@@ -73,7 +71,7 @@ def test_what_is_cut_off_changes_nothing_farther_away_than_the_filter_looks(para
 @pytest.mark.parametrize(
     ("name", "parameters"),
     [
-        pytest.param(name, how, marks=() if name[0] == "i" and how == SlopeFilter() else LONG)
+        pytest.param(name, how, marks=() if name[0] == "i" and how is PARAMETERS[-1] else LONG)
         for name in ("isprs/samp31.laz", "real/ahn3_urban.laz")
         for how in PARAMETERS
     ],
