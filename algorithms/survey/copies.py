@@ -28,7 +28,7 @@ def copies_in(tiles: Sequence[LasFile], are_named: Sequence[bool], progress: Pro
         if original is not tile and not is_named:
             copies[tile.path] = original.path.name
     if copies:
-        some = [f"{each.name} (as {copies[each]})" for each in sorted(copies)[:_MOST_NAMES]]
+        some = [f"{path.name} (as {copies[path]})" for path in sorted(copies)[:_MOST_NAMES]]
         more = f" and {len(copies) - len(some)} more" if len(copies) > len(some) else ""
         progress.info(
             f"Left out, since a file of the same name holds the same points: {', '.join(some)}"
@@ -51,4 +51,4 @@ def tell_of_twins(tiles: Sequence[LasFile], progress: Progress) -> None:
 
 def _content(tile: LasFile) -> tuple[float, ...]:
     """Return number and extent of the points of a file, which are equal for copies of it."""
-    return tile.count, *(round(each, 2) for each in (*tile.minimum, *tile.maximum))
+    return tile.count, *(round(coordinate, 2) for coordinate in (*tile.minimum, *tile.maximum))

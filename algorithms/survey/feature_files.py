@@ -7,6 +7,7 @@ import json
 import math
 import struct
 import warnings
+from itertools import islice
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple
 
@@ -105,11 +106,11 @@ def _by_pyogrio(
     try:
         for some in _in_steps(features, most):
             fields = [
-                np.array([each.values[place] for each in some], dtype=kinds[kind])
+                np.array([feature.values[place] for feature in some], dtype=kinds[kind])
                 for place, kind in enumerate(layer.fields.values())
             ]
             shapes = np.empty(len(some), dtype=object)
-            shapes[:] = [_wkb(layer.kind, each.corners) for each in some]
+            shapes[:] = [_wkb(layer.kind, feature.corners) for feature in some]
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # if there is no CRS
                 pyogrio.raw.write(
@@ -138,27 +139,27 @@ def _by_gdal(
     }  # fmt: skip
     with GdalErrors(gdal, "write") as errors:
         driver = ogr.GetDriverByName(FORMATS[target.suffix.lower()])
-        made = driver.CreateDataSource(str(target))
+        source = driver.CreateDataSource(str(target))
         errors.check(target)
         reference = osr.SpatialReference(layer.wkt) if layer.wkt else None
         if reference is not None:
             reference.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
-        into = made.CreateLayer(_layer_of(target, layer), reference, shapes[layer.kind])
+        into = source.CreateLayer(_layer_of(target, layer), reference, shapes[layer.kind])
         for name, kind in layer.fields.items():
             into.CreateField(ogr.FieldDefn(name, kinds[kind]))
         errors.check(target)
         # One transaction, since a GeoPackage would otherwise commit each feature.
         into.StartTransaction()
-        for each in features:
-            feature = ogr.Feature(into.GetLayerDefn())
-            for place, value in enumerate(map(_or_none, each.values)):
+        for feature in features:
+            record = ogr.Feature(into.GetLayerDefn())
+            for place, value in enumerate(map(_or_none, feature.values)):
                 if value is not None:
-                    feature.SetField(place, value)
-            feature.SetGeometry(ogr.CreateGeometryFromWkb(_wkb(layer.kind, each.corners)))
-            into.CreateFeature(feature)
+                    record.SetField(place, value)
+            record.SetGeometry(ogr.CreateGeometryFromWkb(_wkb(layer.kind, feature.corners)))
+            into.CreateFeature(record)
             count += 1
         into.CommitTransaction()
-        del into, made
+        del into, source
         errors.check(target)
     return count
 
@@ -197,17 +198,12 @@ def _coordinates(corners: np.ndarray) -> bytes:
 
 def _in_steps(features: Iterable[Feature], most: int | None) -> Iterator[list[Feature]]:
     """Yield lists of features; one empty list if there are none."""
-    some: list[Feature] = []
-    is_first = True
-    for each in features:
-        some.append(each)
-        if most is not None and len(some) >= most:
-            yield some
-            some, is_first = [], False
-    if some or is_first:
+    features = iter(features)
+    yield list(islice(features, most))
+    while some := list(islice(features, most)):
         yield some
 
 
 def files_beside(path: Path) -> list[str]:
     """Return the names of further files of a format; old ones would do harm to new features."""
-    return [f"{path.stem}{each}" for each in _BESIDE.get(path.suffix.lower(), ())]
+    return [f"{path.stem}{ending}" for ending in _BESIDE.get(path.suffix.lower(), ())]

@@ -69,7 +69,7 @@ class Survey:
         """Return the tiles whose extents touch a box, including borders."""
         west, south, east, north = self._boxes.T
         touches = (west <= box[2]) & (east >= box[0]) & (south <= box[3]) & (north >= box[1])
-        return [self.tiles[each] for each in np.flatnonzero(touches)]
+        return [self.tiles[number] for number in np.flatnonzero(touches)]
 
 
 def open_survey(
@@ -83,14 +83,14 @@ def open_survey(
     """
     sources = [Path(sources)] if isinstance(sources, (str, Path)) else [*map(Path, sources)]
     paths = find_files(sources, recursive, progress)
-    files = [each for each in sources if not each.is_dir()]
+    files = [source for source in sources if not source.is_dir()]
     named = set(map(_key, find_files(files, may_be_none=True)))
-    heard, tiles, found, broken = Notes(), [], [], []
+    notes, tiles, found, broken = Notes(), [], [], []
     for number, path in enumerate(paths, start=1):
         try:
             tile = open_las(path, stated)
             _check_extent(tile)
-            found.append(_crs_of(tile, heard))
+            found.append(_crs_of(tile, notes))
             tiles.append(tile)
         except BareEarthError as error:
             broken.append(BrokenTile(path, str(error)))
@@ -101,10 +101,10 @@ def open_survey(
             if len(broken) == 1
             else f"None of the {len(broken)} files can be read. The first: {broken[0].reason}"
         )
-    _tell(heard, progress)
-    copies = copies_in(tiles, [_key(each.path) in named for each in tiles], progress)
-    pairs = [each for each in zip(tiles, found) if each[0].path not in copies]
-    tiles, found = (list(each) for each in zip(*pairs))
+    _tell(notes, progress)
+    copies = copies_in(tiles, [_key(tile.path) in named for tile in tiles], progress)
+    pairs = [pair for pair in zip(tiles, found) if pair[0].path not in copies]
+    tiles, found = (list(column) for column in zip(*pairs))
     crs = _common_crs(tiles, found, progress)
     tell_of_twins(tiles, progress)
     return Survey(tuple(tiles), tuple(broken), crs, stated)
@@ -199,11 +199,11 @@ def _listed(source: Path) -> list[Path]:
     return [source.parent / name for name in names if name and not name.startswith("#")]
 
 
-def _crs_of(layout: LasFile, heard: Notes) -> Crs:
+def _crs_of(layout: LasFile, notes: Notes) -> Crs:
     """Return the CRS of a file; `_common_crs` warns of files that do not state one."""
     crs = read_crs(layout)
     if crs != Crs():
-        read_crs(layout, heard)
+        read_crs(layout, notes)
     return crs
 
 
@@ -220,7 +220,7 @@ def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> 
     groups: dict[Crs, list[LasFile]] = {}
     # Those that state a vertical datum first, since others can be of the same group as any of them.
     for tile, crs in sorted(zip(tiles, stated), key=lambda pair: pair[1].datum is None):
-        same = next((each for each in groups if is_same_crs(each, crs)), crs)
+        same = next((group for group in groups if is_same_crs(group, crs)), crs)
         groups.setdefault(same, []).append(tile)
     known, unstated = [crs for crs in groups if crs != Crs()], groups.get(Crs(), [])
     # Of one file the same words as when it is read.
@@ -278,8 +278,8 @@ def _names(tiles: list[LasFile]) -> str:
     return f"{names} and {more} more" if more > 0 else names
 
 
-def _tell(heard: Notes, progress: Progress) -> None:
+def _tell(notes: Notes, progress: Progress) -> None:
     """Pass on the messages of many files: equal ones once, with the number of files."""
-    for (kind, text), count in Counter(heard.messages).items():
+    for (kind, text), count in Counter(notes.messages).items():
         text = f"{text} (in {count} files)" if count > 1 else text
         (progress.warning if kind == "warning" else progress.info)(text)

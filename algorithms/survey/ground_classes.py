@@ -70,7 +70,7 @@ class GroundClasses(ParameterSet):
         """Refuse a file without ground."""
         if counts.ground:
             return
-        wanted = " or ".join(str(each) for each in self.ground_classes)
+        wanted = " or ".join(str(code) for code in self.ground_classes)
         if counts.classes[list(self.ground_classes)].any():
             why = "withheld. Clear that flag first."
             if self.overlap == "leave-out":

@@ -52,11 +52,10 @@ def tell_of_kept(counts: PointCounts, others: Collection[int], progress: Progres
 
 def _counted(counts: PointCounts, classes: Sequence[int]) -> str:
     """Return the numbers of points of some classes in words."""
-    first, *more = (int(counts.classes[each]) for each in classes)
-    found = [f"{counted(first, 'point')} of {named_class(classes[0])}"]
-    return ", ".join(
-        [*found, *(f"{count:,} of {named_class(each)}" for count, each in zip(more, classes[1:]))]
-    )
+    first, *others = classes
+    found = [f"{counted(int(counts.classes[first]), 'point')} of {named_class(first)}"]
+    found += [f"{int(counts.classes[code]):,} of {named_class(code)}" for code in others]
+    return ", ".join(found)
 
 
 def overlapping(cloud: PointCloud) -> np.ndarray:

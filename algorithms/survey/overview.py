@@ -48,15 +48,15 @@ def write_overview(vpc: Path, files: Sequence[LasFile], progress: Progress = SIL
     """
     # If a file is not COPC, viewers do not show its points at any scale, and other files must not
     # be overwritten.
-    target, filled = overview_of(vpc), [each for each in files if each.count]
-    is_one_of_them = any(each.path.resolve() == target.resolve() for each in files)
-    if not filled or is_one_of_them or not all(each.is_copc for each in files):
+    target, filled = overview_of(vpc), [file for file in files if file.count]
+    is_one_of_them = any(file.path.resolve() == target.resolve() for file in files)
+    if not filled or is_one_of_them or not all(file.is_copc for file in files):
         return None
-    total = sum(each.count for each in filled)
+    total = sum(file.count for file in filled)
     most = min(_MOST_POINTS, -(-total // _STEP))
     like, samples = filled[0], []
-    for number, each in enumerate(filled, start=1):
-        samples.append(_sample(each, like, max(most * each.count // total, 1)))
+    for number, file in enumerate(filled, start=1):
+        samples.append(_sample(file, like, max(most * file.count // total, 1)))
         progress(0.8 * number / len(filled))
     records = np.concatenate(samples)
     layout = with_count(like, len(records))
@@ -85,7 +85,7 @@ def _sample(layout: LasFile, like: LasFile, count: int) -> np.ndarray:
 def _as_records(layout: LasFile, like: LasFile, records: np.ndarray) -> np.ndarray:
     """Return points as records of another file, with its scale and offset."""
     old = named(layout, records)
-    extra = [extra_dimensions(each) for each in (layout, like)]
+    extra = [extra_dimensions(file) for file in (layout, like)]
     if layout.point_format == like.point_format and extra[0] == extra[1]:
         new = records.copy()
     else:

@@ -33,9 +33,9 @@ class Shapes(tuple):  # type: ignore[type-arg]
         cls, shapes: Sequence[Any] = (), crs: str | None = None, source: str = ""
     ) -> Shapes:
         """Return the shapes with their CRS."""
-        made = super().__new__(cls, shapes)
-        made.crs, made.source = crs, source
-        return made
+        new = super().__new__(cls, shapes)
+        new.crs, new.source = crs, source
+        return new
 
 
 class Geometry:
@@ -64,7 +64,7 @@ def located(
     if place.crs.is_geographic:  # the run refuses such points
         return tuple(shapes)
     found = _in_crs(shapes, place, progress) if isinstance(shapes, Shapes) else tuple(shapes)
-    boxes = np.array([_box_of(each) for each in found if len(each)]).reshape(-1, 4)
+    boxes = np.array([_box_of(shape) for shape in found if len(shape)]).reshape(-1, 4)
     if place.box is not None and len(boxes):
         reach = (near or 0.0) / place.crs.horizontal_unit
         west, south, east, north = place.box
@@ -108,7 +108,7 @@ def _in_crs(shapes: Shapes, place: Place, progress: Progress) -> tuple[Any, ...]
             f"{shapes.source} is in {named}, and the points are in {target.name or 'another CRS'}:"
             " pip install pyproj, which transforms it."
         )
-    corners = np.concatenate([np.zeros((0, 2)), *(each[:, :2] for each in _parts(shapes))])
+    corners = np.concatenate([np.zeros((0, 2)), *(part[:, :2] for part in _parts(shapes))])
     moved = transformed(source, target.wkt or f"EPSG:{target.epsg}", corners)
     if moved is None:
         raise BareEarthError(
@@ -119,9 +119,9 @@ def _in_crs(shapes: Shapes, place: Place, progress: Progress) -> tuple[Any, ...]
         named += ", as its numbers say"
     progress.info(f"{shapes.source} is transformed to the CRS of the points from {named}.")
     places = iter(
-        np.split(moved, np.cumsum([len(each) for each in _parts(shapes)], dtype=np.int64))
+        np.split(moved, np.cumsum([len(part) for part in _parts(shapes)], dtype=np.int64))
     )
-    return tuple(_moved(each, places) for each in shapes)
+    return tuple(_moved(shape, places) for shape in shapes)
 
 
 def _parts(shapes: Sequence[Any]) -> Iterator[np.ndarray]:
@@ -144,7 +144,7 @@ def _box_of(shape: Any) -> Box:
 
 def _are_degrees(shapes: Sequence[Any]) -> bool:
     """Return whether the coordinates can be longitudes and latitudes."""
-    boxes = [_box_of(each) for each in shapes if len(each)]
+    boxes = [_box_of(shape) for shape in shapes if len(shape)]
     return all(map(_is_in_degrees, boxes))
 
 

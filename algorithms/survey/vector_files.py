@@ -63,8 +63,8 @@ def read_points(path: Path) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
     return _shapes(path, "Point", lambda place, attributes: (_line([place])[0], attributes))
 
 
-def _shapes(path: Path, kind: str, made: Callable[[Any, dict], Any]) -> Shapes:
-    """Return what `made` returns for coordinates and attributes of each geometry of a kind."""
+def _shapes(path: Path, kind: str, shape_of: Callable[[Any, dict], Any]) -> Shapes:
+    """Return what `shape_of` returns for coordinates and attributes of each geometry of a kind."""
     what = _WORDS[kind]
     name = _TEXTS.get(Path(path).suffix.lower())
     if name is None:
@@ -74,7 +74,7 @@ def _shapes(path: Path, kind: str, made: Callable[[Any, dict], Any]) -> Shapes:
     try:
         if name is not None:
             found, crs = (_of_wkt if name == "WKT" else _of_geojson)(text, kind)
-        shapes = tuple(made(*each) for each in found)
+        shapes = tuple(shape_of(*feature) for feature in found)
     except _INVALID as error:
         as_what = f" {name}" if name else ""
         raise BareEarthError(f"{path} is not valid{as_what}: {_one_line(error)}.") from error
@@ -108,7 +108,7 @@ def _polygon_with_class(rings: Any, attributes: dict) -> tuple[Polygon, Any]:
 
 
 def _line(corners: Any) -> np.ndarray:
-    rows = [[float(each) for each in corner[:3]] for corner in corners]
+    rows = [[float(number) for number in corner[:3]] for corner in corners]
     return _finite(np.array([row + [np.nan] * (3 - len(row)) for row in rows]).reshape(-1, 3))
 
 
@@ -144,12 +144,12 @@ def _nodes_of(content: Any, kind: str) -> Iterator[tuple[Any, dict]]:
         if name == kind:
             yield node["coordinates"], attributes
         elif name == f"Multi{kind}":
-            yield from ((each, attributes) for each in node["coordinates"])
+            yield from ((coordinates, attributes) for coordinates in node["coordinates"])
         elif name == "Feature":
             nodes.append((node["geometry"], node.get("properties") or {}))
         elif name in ("FeatureCollection", "GeometryCollection"):
             some = node["features" if name == "FeatureCollection" else "geometries"]
-            nodes += [(each, attributes) for each in reversed(some)]
+            nodes += [(child, attributes) for child in reversed(some)]
 
 
 def _of_wkt(text: str, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:

@@ -40,8 +40,8 @@ def read_features(
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # on what is left out of geometries, such as M
-            layers = [each for each in reads(name, attribute) if wanted in ("", each.name)]
-        found = {each.name: (list(_of_kind(each, kind)), each.crs) for each in layers}
+            layers = [layer for layer in reads(name, attribute) if wanted in ("", layer.name)]
+        found = {layer.name: (list(_of_kind(layer, kind)), layer.crs) for layer in layers}
     except (BareEarthError, MemoryError):
         raise
     except ValueError as error:  # of a geometry
@@ -53,7 +53,7 @@ def read_features(
         ) from error
     if wanted and not found:
         raise BareEarthError(f"{name} has no layer {wanted}. Check its name.")
-    filled = [each for each in found if found[each][0]]
+    filled = [layer for layer in found if found[layer][0]]
     if len(filled) > 1:
         what = {"Polygon": "polygons", "Point": "points"}.get(kind, "lines")
         raise BareEarthError(
@@ -96,7 +96,7 @@ def _by_pyogrio(name: str, attribute: str | None) -> Iterator[_Layer]:
         about, _, shapes, values = pyogrio.raw.read(name, layer, columns=columns)
         # Before 0.13 the fields come in alphabetical order, not in that of the file.
         names = about["fields"].tolist()
-        rows = zip(*(each.tolist() for each in values)) if names else [()] * len(shapes)
+        rows = zip(*(column.tolist() for column in values)) if names else [()] * len(shapes)
         features = [(shape, dict(zip(names, row))) for shape, row in zip(shapes, rows)]
         yield _Layer(layer, about["crs"], features)
 
@@ -112,12 +112,12 @@ def _by_gdal(name: str, attribute: str | None) -> Iterator[_Layer]:
         for number in range(source.GetLayerCount()):
             layer, features = source.GetLayer(number), []
             known = layer.GetLayerDefn()
-            fields = [known.GetFieldDefn(each).GetName() for each in range(known.GetFieldCount())]
+            fields = [known.GetFieldDefn(place).GetName() for place in range(known.GetFieldCount())]
             columns = [field for field in fields if attribute in (None, field)]
             for feature in layer:
                 shape = feature.GetGeometryRef()
                 shape = shape.GetLinearGeometry() if shape is not None else None
-                values = {each: feature.GetField(each) for each in columns}
+                values = {column: feature.GetField(column) for column in columns}
                 features.append((bytes(shape.ExportToIsoWkb()) if shape else None, values))
             reference = layer.GetSpatialRef()
             yield _Layer(layer.GetName(), reference and reference.ExportToWkt(), features)

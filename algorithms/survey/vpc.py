@@ -88,11 +88,11 @@ def read_vpc(path: Path) -> list[Path]:
         raise _not_one(path, "it is not a feature collection")
     files = []
     try:
-        for number, each in enumerate(content["features"], start=1):
-            href = _href(each["assets"])
+        for number, feature in enumerate(content["features"], start=1):
+            href = _href(feature["assets"])
             files.append(_path_of(href, path.parent))
             if files[-1].is_dir():
-                name = each.get("id") or f"number {number}"
+                name = feature.get("id") or f"number {number}"
                 raise BareEarthError(
                     f'The entry {name} of {path} names no file, but "{printable(href)}". QGIS'
                     " writes this for files on another drive of Windows. Build it again in a folder"
@@ -126,19 +126,19 @@ def write_vpc(
     """
     # QGIS shows the points of COPC files, and outlines of others. Only the headers of the files are
     # read, and a few points for an overview.
-    path, files = Path(path), [Path(each) for each in files]
+    path, files = Path(path), [*map(Path, files)]
     check_vpc(path)
     if not files:
         raise BareEarthError(f"Cannot write {path}: there are no files to list. Give at least one.")
     check_output(path, tuple(files))
     layouts, features, unplaced = [open_las(file, stated) for file in files], [], 0
-    made = _overview(path, layouts, progress.part(0.0, 0.9)) if overview else None
+    overview_path = _overview(path, layouts, progress.part(0.0, 0.9)) if overview else None
     for number, layout in enumerate(layouts, start=1):
         feature = _feature(path, layout)
         unplaced += not feature["properties"]["proj:wkt2"]
-        if made is not None:
+        if overview_path is not None:
             feature["assets"]["overview"] = {
-                "href": _reference(made, path), "roles": ["overview"],
+                "href": _reference(overview_path, path), "roles": ["overview"],
             }  # fmt: skip
         features.append(feature)
         progress.part(0.9, 1.0)(number / len(files))
@@ -153,7 +153,7 @@ def write_vpc(
     )
     with replacing(path) as temporary:
         temporary.write_text(text + "\n", encoding="utf-8")
-    if made is None and overview_of(path) not in files:
+    if overview_path is None and overview_of(path) not in files:
         remove(overview_of(path))
 
 
@@ -177,7 +177,7 @@ def _href(assets: dict[str, dict[str, Any]]) -> str:
     """Return the reference to the points, not to an overview of them."""
     asset = assets.get("data")
     if asset is None:
-        asset = next(each for each in assets.values() if "overview" not in each.get("roles", ()))
+        asset = next(asset for asset in assets.values() if "overview" not in asset.get("roles", ()))
     if not isinstance(asset["href"], str) or "\0" in asset["href"]:
         raise TypeError
     os.fsencode(asset["href"])  # fails for texts that cannot be the name of a file
@@ -227,7 +227,7 @@ def _feature(target: Path, layout: LasFile) -> dict[str, Any]:
             "pc:count": layout.count,
             "pc:type": "lidar",
             "pc:encoding": "LASzip" if layout.is_compressed else "LAS",
-            "pc:schemas": [each._asdict() for each in _dimensions(layout)],
+            "pc:schemas": [dimension._asdict() for dimension in _dimensions(layout)],
             "proj:wkt2": wkt,
             "proj:geometry": _polygon(ring),
             "proj:bbox": extent,
@@ -253,10 +253,10 @@ def _creation(layout: LasFile) -> str:
     """Return the day on which the file was made; 1970 if it is not valid, as pdal_wrench does."""
     day, year = CREATION.get(layout.header)
     year = year if 1 <= year <= 9999 else 1970
-    made = datetime.date(year, 1, 1)
+    date = datetime.date(year, 1, 1)
     if 1 <= day <= datetime.date(year, 12, 31).timetuple().tm_yday:
-        made += datetime.timedelta(days=day - 1)
-    return f"{made.isoformat()}T00:00:00Z"
+        date += datetime.timedelta(days=day - 1)
+    return f"{date.isoformat()}T00:00:00Z"
 
 
 def _dimensions(layout: LasFile) -> list[Dimension]:
@@ -270,7 +270,7 @@ def _dimensions(layout: LasFile) -> list[Dimension]:
         found += _COLOURS
     if number in (8, 10):
         found.append(_INFRARED)
-    return found + [Dimension(*each) for each in extra_dimensions(layout)]
+    return found + [Dimension(*extra) for extra in extra_dimensions(layout)]
 
 
 def _reference(file: Path, target: Path) -> str:

@@ -110,8 +110,8 @@ def _joined(
     kept = []
     for part in parts:
         x, y = (
-            each * layout.scale[axis] + layout.offset[axis]
-            for axis, each in enumerate((part.x, part.y))
+            integers * layout.scale[axis] + layout.offset[axis]
+            for axis, integers in enumerate((part.x, part.y))
         )
         kept.append(part.take(np.flatnonzero(area.contains(x, y))))
     if not kept:
