@@ -86,4 +86,4 @@ def _is_one(paths: list[Path], as_survey: bool | None = None) -> bool:
 def _paths(sources: Sources) -> list[Path]:
     if isinstance(sources, (str, Path)):
         return [Path(sources)]
-    return [Path(each) for each in sources]
+    return [*map(Path, sources)]

@@ -58,8 +58,8 @@ class SurveySummary:
     def class_counts(self) -> dict[int, int]:
         """Points of each class in the finished files; empty if a step does not count them."""
         counts: Counter[int] = Counter()
-        for each in self.tiles:
-            counts.update(getattr(each, "class_counts", {}))
+        for tile in self.tiles:
+            counts.update(getattr(tile, "class_counts", {}))
         return dict(sorted(counts.items()))
 
     @property
@@ -119,7 +119,7 @@ def write_files(
     # process, and the virtual point cloud by default in the folder.
     run = _SurveyRun(folder, steps, request, rasters, vpc)
     with _finished_files_stay():
-        run.open([Path(each) for each in sources], progress)
+        run.open([*map(Path, sources)], progress)
         run.work(workers or Threads(request.resources), progress.part(0.02, 0.98))
         return run.finish(progress)
 
@@ -164,9 +164,9 @@ class _SurveyRun:
         recursive, stated = self._request.files.recursive, self._request.stated
         survey = open_survey(sources, recursive, progress.part(0.0, 0.02), stated)
         check_survey(survey, self._folder, self._vpc, sources if recursive else [])
-        made = [] if self._rasters is None else [self._rasters]
-        self._steps = located([*self._steps, *made], _place_of(survey), progress)
-        self._rasters = self._steps.pop() if made else None
+        rasters = [] if self._rasters is None else [self._rasters]
+        self._steps = located([*self._steps, *rasters], _place_of(survey), progress)
+        self._rasters = self._steps.pop() if rasters else None
         self._steps[0].check_survey(survey.box)
         self._targets = targets_of(survey, self._folder, self._request.tiles.format)
         if self._rasters is not None:
@@ -174,8 +174,8 @@ class _SurveyRun:
             others = self._vpc, *self._targets, *self._targets.values()
             check_rasters(self._rasters, survey, self._folder, others)
         self._survey = survey
-        self._inputs = {each.path.name: each.path for each in survey.tiles}
-        self._failures = {each.path.name: (each.path, each.reason) for each in survey.broken}
+        self._inputs = {tile.path.name: tile.path for tile in survey.tiles}
+        self._failures = {tile.path.name: (tile.path, tile.reason) for tile in survey.broken}
 
     def work(self, workers: Workers, progress: Progress) -> None:
         """Do what is to be done, in a folder of which no other run makes use meanwhile."""
@@ -210,19 +210,19 @@ class _SurveyRun:
         if self._done or self._empty_count:
             self._tell(queue.done, progress)
         if self._done and self._rasters is not None:
-            paths = [self._folder / each.name for each in self._done]
-            made = open_survey(paths, progress=progress.quiet(), stated=self._survey.stated)
-            results, part = plan.results(made), progress.part(end, 1.0)
-            make_rasters(made, waiting, self._rasters, workers, part, results, unpacking)
+            paths = [self._folder / summary.name for summary in self._done]
+            classified = open_survey(paths, progress=progress.quiet(), stated=self._survey.stated)
+            results, part = plan.results(classified), progress.part(end, 1.0)
+            make_rasters(classified, waiting, self._rasters, workers, part, results, unpacking)
 
     def _tell(self, done: Sequence[Any], progress: Progress) -> None:
         """Report on all files; remove the outputs of this run if they are refused together."""
         try:
             self._steps[0].tell_of_survey(self._done, progress)
         except BareEarthError:
-            for each in done:
-                remove(self._folder / each.name)
-                remove_record(self._folder / each.name)
+            for summary in done:
+                remove(self._folder / summary.name)
+                remove_record(self._folder / summary.name)
             raise
 
     def _clear(self, results: bool) -> None:
@@ -230,8 +230,8 @@ class _SurveyRun:
         folders = folders_of(self._folder)
         if results:
             remove(folders[2])
-        for each in folders:
-            remove_leftovers(each)
+        for folder in folders:
+            remove_leftovers(folder)
 
     def finish(self, progress: Progress) -> SurveySummary:
         """Report the files that are left out, and list the others in a virtual point cloud."""
@@ -250,15 +250,16 @@ class _SurveyRun:
                 f"{self._empty_count:,} files are not written: they have no points to write in the"
                 " area."
             )
-        made, part = [self._folder / each.name for each in self._done], progress.part(0.98, 1.0)
-        write_vpc(self._vpc, made, part, request.tiles.overview, request.stated)
+        paths = [self._folder / summary.name for summary in self._done]
+        part = progress.part(0.98, 1.0)
+        write_vpc(self._vpc, paths, part, request.tiles.overview, request.stated)
         unknown = self._failures.keys() - self._inputs.keys()
         return SurveySummary(
             tile_count=len(self._inputs) - self._empty_count + len(unknown),
             done_count=len(self._done),
             kept_count=self._kept_count,
-            point_count=sum(each.point_count for each in self._done),
-            ground_count=sum(getattr(each, "ground_count", 0) for each in self._done),
+            point_count=sum(summary.point_count for summary in self._done),
+            ground_count=sum(getattr(summary, "ground_count", 0) for summary in self._done),
             failures=reasons,
             vpc=str(self._vpc),
             tiles=tuple(self._done),
@@ -282,8 +283,8 @@ def rasters_of_files(
     check_outputs(request.rasters.outputs(per_file), [tile.path for tile in survey.tiles])
     if per_file:
         check_stems(survey)
-    for each in survey.broken:
-        progress.warning(f"{each.path} is left out. {each.reason}")
+    for tile in survey.broken:
+        progress.warning(f"{tile.path} is left out. {tile.reason}")
     beside = next(iter(request.rasters.wanted.values())).parent
     workers = workers or Threads(request.resources)
     with temporary_folder(beside) as folder:

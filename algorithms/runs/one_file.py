@@ -137,8 +137,8 @@ class _FileRun:
         frame = survey_frame(self.points.cloud.crs, step.origin)
         parts = with_values(self.points.parts(), self._values)
         step = step.seeing((part for _, part in parts), frame, progress)
-        made = step.work(store, self.points.resources, drawing)
-        return write_rasters(made, frame, step, self.outputs, writing)
+        drawn = step.work(store, self.points.resources, drawing)
+        return write_rasters(drawn, frame, step, self.outputs, writing)
 
     def found(self, progress: Progress) -> TileResult:
         """Return what the steps found for each point."""

@@ -95,11 +95,11 @@ class PointRequest(RunOptions, _OfStep):
         of_run = {type(value): name for name, value in vars(RunOptions()).items()}
         fields: dict[str, Any] = dict(inputs)
         options: dict[str, Any] = {}
-        for each in sets:
-            if type(each) in of_run:
-                options[of_run[type(each)]] = each
+        for values in sets:
+            if type(values) in of_run:
+                options[of_run[type(values)]] = values
             else:
-                fields[of_step[type(each)]] = each
+                fields[of_step[type(values)]] = values
         return cls(tool.step(**fields), crs=crs, **options)
 
 

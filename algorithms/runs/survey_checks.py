@@ -30,10 +30,10 @@ def check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Pat
             raise BareEarthError(
                 f"Input and output are in the same folder, {folder}. Choose another output."
             )
-    for each in filter(Path.is_dir, searched):
-        if each.resolve() in here.parents:
+    for source in filter(Path.is_dir, searched):
+        if source.resolve() in here.parents:
             raise BareEarthError(
-                f"The output {folder} is in the folder {each}, which is searched for inputs with"
+                f"The output {folder} is in the folder {source}, which is searched for inputs with"
                 " all its subfolders. Choose another output."
             )
     check_vpc(vpc)
@@ -60,10 +60,10 @@ def check_stems(survey: Survey) -> None:
     stems: dict[str, Path] = {}
     for tile in survey.tiles:
         stem = split_name(tile.path)[0]
-        other = stems.setdefault(os.path.normcase(stem).lower(), tile.path)
-        if other is not tile.path:
+        first = stems.setdefault(os.path.normcase(stem).lower(), tile.path)
+        if first is not tile.path:
             raise BareEarthError(
-                f"The rasters of {other} and of {tile.path} would both become {stem}.tif. Rename"
+                f"The rasters of {first} and of {tile.path} would both become {stem}.tif. Rename"
                 " one of the files, or make one raster of all."
             )
 
@@ -76,16 +76,16 @@ def targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path,
         name = path.name
         if format != "same":
             name = f"{split_name(path)[0]}.{format}"
-        other = inputs.setdefault(os.path.normcase(name).lower(), path)
-        if other is not path:
+        first = inputs.setdefault(os.path.normcase(name).lower(), path)
+        if first is not path:
             raise BareEarthError(
-                f"{other} and {path} would both become {folder / name}. Rename one of them, or"
+                f"{first} and {path} would both become {folder / name}. Rename one of them, or"
                 " write them into different folders."
             )
         targets[path] = folder / name
         check_writable(targets[path])
         check_free(targets[path])
-    longest = max((each.name for each in targets.values()), key=len, default="")
+    longest = max((target.name for target in targets.values()), key=len, default="")
     check_lengths(folder, names_beside(longest))
     return targets
 

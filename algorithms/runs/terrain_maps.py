@@ -44,7 +44,7 @@ class MapRequest(ClassifyRequest):
 
     def classify(self, rasters: RasterFiles) -> ClassifyRequest:
         """Return the request to classify and to make rasters in the same run."""
-        own = {each.name: getattr(self, each.name) for each in fields(ClassifyRequest)}
+        own = {declared.name: getattr(self, declared.name) for declared in fields(ClassifyRequest)}
         output = Output(area_only=self.area is not None)
         return ClassifyRequest(**{**own, "rasters": rasters, "output": output})
 
@@ -65,7 +65,7 @@ def make_maps(
     """Classify the ground of a file, or of those of a survey, and make maps of its terrain."""
     wanted = [files.cloud, *files.rasters.wanted.values(), files.contours]
     folders = [path.parent for path in wanted if path]
-    beside = next((each for each in folders if each.is_dir()), Path(tempfile.gettempdir()))
+    beside = next((folder for folder in folders if folder.is_dir()), Path(tempfile.gettempdir()))
     is_one = is_one_file(sources)
     # All or none: the outputs get their names when all of them are finished.
     with temporary_folder(beside) as waiting, Outputs() as outputs:
@@ -93,7 +93,9 @@ def _classified(
     """Classify into a file, or into a folder of this name without its ending."""
     if not is_one:
         name = target.name.lower()
-        kind = next((each for each in _FORMATS if name.endswith(f".{each}")), target.suffix[1:])
+        kind = next(
+            (ending for ending in _FORMATS if name.endswith(f".{ending}")), target.suffix[1:]
+        )
         target = target.with_name(target.name[: -len(kind) - 1])
         how = replace(how, tiles=TileOutput(kind if kind in _FORMATS else "same", overview=True))
     done = classify(sources, target, how, progress)
