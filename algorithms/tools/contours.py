@@ -90,7 +90,7 @@ class Contours(ParameterSet):
         wanted = max((high - low) / _LINES, _LEAST / unit)
         power = 10.0 ** math.floor(math.log10(wanted))
         # The step that is nearest by its factor.
-        step = min(_STEPS, key=lambda each: abs(math.log(each * power / wanted)))
+        step = min(_STEPS, key=lambda step: abs(math.log(step * power / wanted)))
         return float(f"{step * power:.6g}")
 
 
@@ -192,7 +192,7 @@ def _is_level(heights: np.ndarray, half: int) -> np.ndarray:
     """
     # Such squares are water that was flattened. Smoothing would draw the lines of its banks into
     # it.
-    low, high = (within_square(each, heights, half) for each in (np.minimum, np.maximum))
+    low, high = (within_square(extreme, heights, half) for extreme in (np.minimum, np.maximum))
     levels = np.where(low == high, heights, -np.inf)
     return within_square(np.maximum, levels, 2 * half) == heights
 

@@ -65,7 +65,7 @@ class ReliefPictures(ParameterSet):
     @property
     def terrain(self) -> TerrainModel:
         """The same as parameters of rasters of the terrain."""
-        return TerrainModel(**{each.name: getattr(self, each.name) for each in self.declarations()})
+        return TerrainModel(**vars(self))
 
 
 def write_relief(
@@ -120,8 +120,8 @@ def _strips(
     for start in range(0, count, rows):
         first = max(start - reach, 0)
         metres = raster.rows(first, start + rows + reach).astype(np.float64) * unit
-        made = row.rows(metres, how=how, unit=unit, nodata=nodata)
-        yield made[..., start - first : start - first + rows, :]
+        relief = row.rows(metres, how=how, unit=unit, nodata=nodata)
+        yield relief[..., start - first : start - first + rows, :]
         progress(0.05 + 0.85 * min(start + rows, count) / count)
 
 

@@ -34,14 +34,14 @@ def run(
         for output in tool.outputs
         if output.name in paths
     ]
-    with Outputs() as made:
+    with Outputs() as pending:
         for _, path, files in wanted:
             if path not in files.values():
-                made.enter_context(new_folder(path))
+                pending.enter_context(new_folder(path))
         kinds = [(one.file_kind, file) for one, _, files in wanted for file in files.values()]
         check_outputs(kinds, _sources(tool, inputs))
         for output, _, files in wanted:
-            places = {name: place(made, output.file_kind, file) for name, file in files.items()}
+            places = {name: place(pending, output.file_kind, file) for name, file in files.items()}
             given[output.name] = places if output.files else places[output.name]
         found = tool.work(**given, **_by_name(tool, sets), progress=progress)
         progress(1.0)  # the last moment to cancel: after this the files are there
@@ -53,11 +53,11 @@ def run(
 def _sources(tool: FileTool, inputs: Mapping[str, Any]) -> list[Path]:
     """Return the files and folders that are read, which no output may be."""
     sources: list[Path] = []
-    for each in tool.inputs:
-        value = inputs.get(each.name)
-        if each.kind == "clouds":
+    for declared in tool.inputs:
+        value = inputs.get(declared.name)
+        if declared.kind == "clouds":
             sources += value or ()
-        elif each.kind in _FILES and value:
+        elif declared.kind in _FILES and value:
             sources.append(Path(value))
     return sources
 

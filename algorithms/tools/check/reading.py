@@ -200,9 +200,9 @@ class _Rows(NamedTuple):
         """Return notes on heights above the ellipsoid, and on other columns of heights."""
         name, heights, notes = self.names[column], self._metres(column), []
         others = [
-            self.names[other]
-            for other in self.columns["z"]
-            if other != column and _differ(self._metres(other), heights)
+            self.names[place]
+            for place in self.columns["z"]
+            if place != column and _differ(self._metres(place), heights)
         ]
         if others:
             notes.append(

@@ -220,12 +220,12 @@ class _BlockMessages(Notes):
 
 def _tell(progress: Progress, blocks: list[_BlockMessages]) -> None:
     """Report each message of the blocks once, and the number of blocks that failed."""
-    failed = [each for each in blocks if each.failure is not None]
+    failed = [block for block in blocks if block.failure is not None]
     if failed and len(failed) == len(blocks):
         raise failed[0].failure
-    messages = collections.Counter(m for each in blocks for m in dict.fromkeys(each.messages))
-    for each in blocks:
-        for stage, seconds in each.seconds.items():
+    messages = collections.Counter(m for block in blocks for m in dict.fromkeys(block.messages))
+    for block in blocks:
+        for stage, seconds in block.seconds.items():
             progress.took(stage, seconds)
     for (kind, text), count in messages.items():
         if count < len(blocks):
@@ -234,5 +234,5 @@ def _tell(progress: Progress, blocks: list[_BlockMessages]) -> None:
     if failed:
         progress.warning(
             f"No ground was found in {len(failed)} of {len(blocks)} blocks: their"
-            f" {sum(each.count for each in failed):,} points are not ground. {failed[0].failure}"
+            f" {sum(block.count for block in failed):,} points are not ground. {failed[0].failure}"
         )

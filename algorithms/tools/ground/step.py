@@ -154,22 +154,22 @@ class LabelGround(PointStep):
         """Tell which classes stay, warn if no point lies in the area or in the corrections, and
         refuse files none of which has points that can be ground.
         """
-        if self.area is None and done and not any(each.found_ground for each in done):
+        if self.area is None and done and not any(summary.found_ground for summary in done):
             raise BareEarthError(
                 f"None of the {len(done):,} files could be done: no point of them can be"
                 " classified. Choose other classes to classify."
             )
-        counts = PointCounts(overlap=sum(each.overlap_count for each in done))
+        counts = PointCounts(overlap=sum(summary.overlap_count for summary in done))
         for summary in done:
             for value, count in summary.input_class_counts.items():
                 counts.classes[value] += count
         self.selection.tell_of_kept(counts, progress)
-        if self.area is not None and not any(each.area_count for each in done):
+        if self.area is not None and not any(summary.area_count for summary in done):
             progress.warning(
                 "No point lies in the area. Give the extent or the boundary in the CRS of the"
                 " points."
             )
-        elif not any(each.by_hand_count for each in done):
+        elif not any(summary.by_hand_count for summary in done):
             self.chooser.tell_of_corrections(progress)
 
     def work(self, store: Store, resources: Resources, progress: Progress) -> None:

@@ -287,7 +287,7 @@ class _Search:
         if levels.reaches is not None:
             # The level also changes between the corners.
             rings = [along(ring, STATION / cell) for ring in rings]
-        rings = [np.column_stack((ring[:, :2], levels.at(ring[:, :2]))) for ring in rings]
+        rings = [np.column_stack((ring[:, :2], levels.level_at(ring[:, :2]))) for ring in rings]
         rows, columns = region.window
         start = columns.start + grid.column, rows.start + grid.row
 
@@ -323,7 +323,7 @@ def _inner_returns(water: np.ndarray, lowest: np.ndarray) -> np.ndarray:
 def _is_free(inner: np.ndarray, levels: Levels) -> bool:
     """Return whether what lies in a region is at its level, away from its banks."""
     known = inner[~np.isnan(inner[:, 2])]
-    off = known[:, 2] - levels.at(known[:, :2])
+    off = known[:, 2] - levels.level_at(known[:, :2])
     few = _MOST_ABOVE * len(inner)
     above, elsewhere = np.count_nonzero(off > _ABOVE), np.count_nonzero(np.abs(off) > _MOST_OFF)
     return bool(above <= few and elsewhere <= max(few, len(off) / 2.0))

@@ -79,7 +79,7 @@ class Levels(NamedTuple):
     # int64: reaches of each branch, downstream, where no level rises
     chains: tuple[np.ndarray, ...] = ()
 
-    def at(self, places: np.ndarray) -> np.ndarray:
+    def level_at(self, places: np.ndarray) -> np.ndarray:
         """Return the level at rows and columns, shape (k, 2)."""
         if self.reaches is None:
             return np.full(len(places), self.heights[0])
