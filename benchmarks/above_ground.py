@@ -68,12 +68,12 @@ class Sample(NamedTuple):
         frame = survey_frame(cloud.crs)
         units = frame.horizontal_unit, frame.horizontal_unit, frame.vertical_unit
         columns = [
-            (np.asarray(each, dtype=float) * scale + offset) * unit
-            for each, scale, offset, unit in zip(
+            (np.asarray(column, dtype=float) * scale + offset) * unit
+            for column, scale, offset, unit in zip(
                 (cloud.x, cloud.y, cloud.z), cloud.scale, cloud.offset, units
             )
         ]
-        x, y = (each - np.floor(each.min() / 1000.0) * 1000.0 for each in columns[:2])
+        x, y = (column - np.floor(column.min() / 1000.0) * 1000.0 for column in columns[:2])
         several = cloud.number_of_returns > 1
         return cls(Points(x, y, columns[2]), several, np.asarray(cloud.classification)), cloud
 
@@ -134,13 +134,13 @@ def of_tiles() -> list[str]:
 def _row(name: str, ground: str, sample: Sample, found: np.ndarray) -> str:
     scores = [intersection(found == value, sample.classes == value) for value in _NAMES]
     scores = [
-        each if (sample.classes == value).any() else np.nan for each, value in zip(scores, _NAMES)
+        score if (sample.classes == value).any() else np.nan for score, value in zip(scores, _NAMES)
     ]
     both = np.count_nonzero((found == 6) & (sample.classes == 6))
     right = both / np.count_nonzero(found == 6), both / np.count_nonzero(sample.classes == 6)
     cells = np.unique(np.floor(np.array(sample.points[:2]) / 10.0), axis=1).shape[1]
     density = sample.points.count / (100.0 * cells)
-    shown = ["-" if np.isnan(each) else f"{each:.3f}" for each in (*scores, *right)]
+    shown = ["-" if np.isnan(score) else f"{score:.3f}" for score in (*scores, *right)]
     return f"| {name} | {density:.2g} | {ground} | " + " | ".join(shown) + " |"
 
 
@@ -154,7 +154,7 @@ def of_forests() -> list[str]:
         sample, _ = Sample.of_file(name)
         high = height_above_ground(sample.points, sample.classes == 2) > 2.0
         blind = sample.with_fewer_told(0.0)
-        shares = [np.mean(each.found()[high] == 6) for each in (sample, blind)]
+        shares = [np.mean(variant.found()[high] == 6) for variant in (sample, blind)]
         rows.append(f"| {name} | {high.sum():,} | {shares[0]:.2%} | {shares[1]:.2%} |")
     return rows
 
@@ -193,15 +193,15 @@ def of_constants() -> list[str]:
     named = {name: [_Case.of(Sample.of_file(name)[0])] for name in TILES if name != "ign_pf8.las"}
     named["scenes"] = [_Case.of(Sample.of_scene(k, s)) for k in KINDS for s in TUNING_SEEDS]
     forests = [_Case.of(Sample.of_file(name)[0]) for name in FORESTS]
-    titles = " | ".join(each.split(".")[0] for each in named)
+    titles = " | ".join(name.split(".")[0] for name in named)
     rows = [f"| Constant | Value | {titles} | forests |", "|---" * (3 + len(named)) + "|"]
 
     def scores(rule: buildings.Buildings) -> str:
         shown = []
         for cases in named.values():
-            found = [intersection(rule.find(*each.arguments), each.true) for each in cases]
+            found = [intersection(rule.find(*case.arguments), case.true) for case in cases]
             shown.append(f"{np.mean(found):.3f}")
-        false = [np.mean(rule.find(*each.arguments)[each.high]) for each in forests]
+        false = [np.mean(rule.find(*case.arguments)[case.high]) for case in forests]
         return " | ".join([*shown, f"{max(false):.2%}"])
 
     rows.append(f"| all as they are | | {scores(buildings.Buildings())} |")

@@ -63,7 +63,7 @@ def measure_isprs(
 def measure_real(filters: Sequence[GroundFilter]) -> tables.TileScores:
     """Measure the filters on the real tiles that are here and print the figures."""
     results: tables.TileScores = {}
-    filters = [each for each in filters if getattr(each, "is_for_tiles", True)]
+    filters = [method for method in filters if getattr(method, "is_for_tiles", True)]
     for tile in data.REAL:
         path = data.real(tile.name)
         if path.exists():
@@ -73,7 +73,7 @@ def measure_real(filters: Sequence[GroundFilter]) -> tables.TileScores:
                 tell(f"  {name}: {one.seconds:.1f} s {one.problem or one.dtm}")
     if results:
         show(tables.labels(results), tables.doubtful(results))
-        show(*(tables.dtm(results, *each) for each in tables.DTM_FIGURES))
+        show(*(tables.dtm(results, *figure) for figure in tables.DTM_FIGURES))
         show(tables.spikes(results))
         show(tables.seconds(results), tables.problems(results))
     return results
@@ -84,7 +84,7 @@ def measure_scenes(
 ) -> tables.SceneScores:
     """Measure filters of ours on generated scenes and print the figures, the worst kinds last."""
     tell(f"Scenes, {seeds} seeds ...")
-    filters = [Filter(each) for each in methods]
+    filters = [Filter(method) for method in methods]
     results = score_scenes(filters, SEEDS[seeds], kinds, with_dtm)
     for name, lines in tables.scenes(results).items():
         show([f"{METHODS[name].label}, {seeds} seeds"], lines)

@@ -122,15 +122,15 @@ def compared(points: Points, ground: np.ndarray, terrain: Terrain, seed: int = 0
         (first + np.arange(count) + 0.5) * cells.size
         for first, count in zip(cells.first, cells.shape)
     )
-    at = [each.ravel() for each in np.meshgrid(x, y)]
-    truth = terrain(*at).reshape(cells.shape)
+    centres = [axis.ravel() for axis in np.meshgrid(x, y)]
+    truth = terrain(*centres).reshape(cells.shape)
     allowed = TOLERANCE + RISE_SHARE * CELL * steepness(truth, CELL)
-    heights = _tin(points.take(ground))(*at).reshape(cells.shape)
+    heights = _tin(points.take(ground))(*centres).reshape(cells.shape)
     known = np.flatnonzero(np.isfinite(heights) & np.isfinite(allowed))
     random = np.random.default_rng(seed)
     drawn = random.choice(known, min(_CELLS, len(known)), replace=False)
     right = (np.abs(heights - truth) <= allowed).ravel()[drawn]
-    pieces = [each.ravel()[drawn] for each in evidence(cells, points.z, ground)]
+    pieces = [piece.ravel()[drawn] for piece in evidence(cells, points.z, ground)]
     return Seen("", False, np.column_stack(pieces), right)
 
 
@@ -152,13 +152,16 @@ def fitted(seen: Sequence[Seen]) -> Weights:
 
     Every scene counts alike, and every sample. Logistic regression by Newton's method.
     """
-    samples = sum(each.is_sample for each in seen)
+    samples = sum(sample.is_sample for sample in seen)
     shares = (1.0 - _SAMPLES_SHARE) / max(len(seen) - samples, 1), _SAMPLES_SHARE / max(samples, 1)
     weight = np.concatenate(
-        [np.full(len(each.right), shares[each.is_sample] / len(each.right)) for each in seen]
+        [
+            np.full(len(sample.right), shares[sample.is_sample] / len(sample.right))
+            for sample in seen
+        ]
     )
-    pieces = np.concatenate([each.evidence for each in seen]).astype(np.float64)
-    right = np.concatenate([each.right for each in seen])
+    pieces = np.concatenate([sample.evidence for sample in seen]).astype(np.float64)
+    right = np.concatenate([sample.right for sample in seen])
     spread = pieces.std(axis=0)
     design = np.column_stack([np.ones(len(pieces)), pieces / spread])
     best = np.zeros(design.shape[1])
@@ -168,7 +171,7 @@ def fitted(seen: Sequence[Seen]) -> Weights:
         curve = (design * (weight * stated * (1.0 - stated))[:, None]).T @ design
         best += np.linalg.solve(curve + _RIDGE * np.eye(len(best)), slope)
     best[1:] /= spread
-    return Weights(*(float(f"{each:.2g}") for each in best))
+    return Weights(*(float(f"{weight:.2g}") for weight in best))
 
 
 class Bin(NamedTuple):
@@ -189,16 +192,18 @@ class Bin(NamedTuple):
 
 def reliability(seen: Sequence[Seen], weights: Weights = Weights()) -> list[Bin]:
     """Return what came of the cells in each of the `BINS`; every scene or sample counts alike."""
-    stated = np.concatenate([probability(each.evidence.T, weights) for each in seen])
-    right = np.concatenate([each.right for each in seen])
-    weight = np.concatenate([np.full(len(each.right), 1.0 / len(each.right)) for each in seen])
+    stated = np.concatenate([probability(sample.evidence.T, weights) for sample in seen])
+    right = np.concatenate([sample.right for sample in seen])
+    weight = np.concatenate(
+        [np.full(len(sample.right), 1.0 / len(sample.right)) for sample in seen]
+    )
     place = np.clip(np.digitize(stated, BINS) - 1, 0, len(BINS) - 2)
     total, sure, true = (
-        np.bincount(place, weights=each, minlength=len(BINS) - 1)
-        for each in (weight, weight * stated, weight * right)
+        np.bincount(place, weights=values, minlength=len(BINS) - 1)
+        for values in (weight, weight * stated, weight * right)
     )
     some = np.where(total > 0, total, np.nan)
-    return [Bin(*each) for each in zip(total / total.sum(), sure / some, true / some)]
+    return [Bin(*row) for row in zip(total / total.sum(), sure / some, true / some)]
 
 
 def table(seen: Sequence[Seen], weights: Weights = Weights()) -> str:
@@ -216,7 +221,7 @@ def table(seen: Sequence[Seen], weights: Weights = Weights()) -> str:
         "|---" * (len(groups) + 1) + "|",
     ]
     for low, high, row in zip(BINS, BINS[1:], zip(*columns)):
-        cells = [f"{100 * each.right:.0f} ({100 * each.share:.1f})" for each in row]
+        cells = [f"{100 * cell.right:.0f} ({100 * cell.share:.1f})" for cell in row]
         lines.append(f"| {100 * low:.0f} to {100 * high:.0f} % | " + " | ".join(cells) + " |")
     return "\n".join(lines).replace("nan (0.0)", "")
 
@@ -237,7 +242,7 @@ def main() -> None:
 
 
 def _looked(where: list[Place]) -> list[Seen]:
-    return [each for some in side_by_side(look, where) for each in some]
+    return [sample for some in side_by_side(look, where) for sample in some]
 
 
 if __name__ == "__main__":

@@ -129,7 +129,7 @@ def score_scene(
     others = [int(value) for value in np.unique(scene.classes[~scene.ground])]
     kept = {value: 100.0 * float(np.mean(ground[scene.classes == value])) for value in others}
     high = found[~truth & (scene.classes[counted] != LOW_VEGETATION)]
-    shares = (100.0 * float(np.mean(each)) for each in (~found[truth], found[~truth], high))
+    shares = (100.0 * float(np.mean(cells)) for cells in (~found[truth], found[~truth], high))
     return SceneScore(*shares, rmse, wrong, kept)
 
 
@@ -185,7 +185,7 @@ def score_scenes(
 ) -> SceneScores:
     """Return the scores of filters of ours on the scenes of some kinds and seeds."""
     jobs = [SceneJob(kind, seed, tuple(filters), with_dtm) for kind in kinds for seed in seeds]
-    results: SceneScores = {each.name: {kind: [] for kind in kinds} for each in filters}
+    results: SceneScores = {method.name: {kind: [] for kind in kinds} for method in filters}
     for job, scores in zip(jobs, side_by_side(run, jobs)):
         for name, score in scores.items():
             results[name][job.kind].append(score)
@@ -197,15 +197,15 @@ def run(job: SceneJob) -> dict[str, SceneScore]:
     scene, model = remembered_scene(job.kind, job.seed)
     cloud = scene.cloud()
     scores = {}
-    for each in job.filters:
+    for method in job.filters:
         start = time.perf_counter()
         try:
-            ground = each.ground(cloud)
+            ground = method.ground(cloud)
         except BareEarthError:  # without any ground all of it is missed
             ground = np.zeros(cloud.count, dtype=bool)
         seconds = time.perf_counter() - start
-        scores[each.name] = score_scene(scene, ground, model, job.with_dtm)
-        scores[each.name] = scores[each.name]._replace(seconds=seconds)
+        scores[method.name] = score_scene(scene, ground, model, job.with_dtm)
+        scores[method.name] = scores[method.name]._replace(seconds=seconds)
     return scores
 
 
@@ -218,7 +218,7 @@ def worst_kinds(scores: dict[str, list[SceneScore]]) -> list[str]:
 
 def mean(scores: Sequence[SceneScore], figure: str) -> float:
     """Return the mean of one figure over the seeds; scenes without that figure do not count."""
-    values = np.array([getattr(each, figure) for each in scores])
+    values = np.array([getattr(score, figure) for score in scores])
     return (
         float(np.mean(values[np.isfinite(values)])) if np.isfinite(values).any() else float("nan")
     )

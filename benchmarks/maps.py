@@ -73,11 +73,11 @@ def relief_pair(
     step = max(-(-max(heights.shape) // _MOST_CELLS), 1)
     own = np.where(np.isfinite(heights), model.of(ground), np.nan)
     figure, axes = _figure(2, heights.shape[0] / heights.shape[1])
-    for each, values, title in zip(axes, (own, heights), titles):
+    for panel, values, title in zip(axes, (own, heights), titles):
         values = values[::step, ::step]
         shade = np.ma.masked_equal(hillshade(values, model.cell_size * step), 0)
-        each.imshow(shade, cmap="gray", vmin=1, vmax=255, interpolation="nearest")
-        each.set_title(title, fontsize=10, loc="left")
+        panel.imshow(shade, cmap="gray", vmin=1, vmax=255, interpolation="nearest")
+        panel.set_title(title, fontsize=10, loc="left")
     _save(figure, target)
 
 
@@ -122,9 +122,9 @@ def _figure(columns: int, ratio: float):
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.subplots(1, columns, squeeze=False)[0]
-    for each in axes:
-        each.set_axis_off()
-        each.set_aspect("equal")
+    for panel in axes:
+        panel.set_axis_off()
+        panel.set_aspect("equal")
     return figure, axes
 
 

@@ -71,16 +71,16 @@ def score(
     Ours are measured in each phase, peers once, as the points came: most begin their grids at the
     points, so that moving these changes nothing, and they are slow.
     """
-    results: Scores = {each.name: {} for each in filters}
-    ours = [each for each in filters if isinstance(each, Filter)]
-    jobs = [SampleJob(each, path, tuple(phases)) for path in samples for each in ours]
+    results: Scores = {method.name: {} for method in filters}
+    ours = [method for method in filters if isinstance(method, Filter)]
+    jobs = [SampleJob(method, path, tuple(phases)) for path in samples for method in ours]
     for job, phased in zip(jobs, side_by_side(assess_phases, jobs)):
         results[job.filter.name][job.path.stem] = phased
     for path in samples:
-        for each in filters:
-            if each not in ours:
-                job = SampleJob(each, path, tuple(phases[:1]))
-                results[each.name][path.stem] = assess_phases(job)
+        for method in filters:
+            if method not in ours:
+                job = SampleJob(method, path, tuple(phases[:1]))
+                results[method.name][path.stem] = assess_phases(job)
     return results
 
 
@@ -88,12 +88,12 @@ def assess_phases(job: SampleJob) -> Phased:
     """Return the assessment in each phase of a job."""
     cloud, reference = data.load(job.path)
     clouds = (shifted(cloud, *phase) if any(phase) else cloud for phase in job.phases)
-    return Phased(tuple(compare(job.filter.ground(each), reference) for each in clouds))
+    return Phased(tuple(compare(job.filter.ground(moved), reference) for moved in clouds))
 
 
 def mean(assessments: dict[str, Assessment | Phased], figure: str) -> float:
     """Return the mean of one figure over the samples."""
-    return float(np.mean([getattr(each, figure) for each in assessments.values()]))
+    return float(np.mean([getattr(assessment, figure) for assessment in assessments.values()]))
 
 
 def best(results: Scores) -> str:
@@ -212,18 +212,18 @@ def score_tile(
     model = ReferenceModel(cloud, reference)
     options = AssessmentOptions(ignored_classes=tile.left_out)
     results = {}
-    for each in filters:
+    for method in filters:
         start = time.perf_counter()
         try:
-            ground = each.ground(cloud)
+            ground = method.ground(cloud)
             seconds = time.perf_counter() - start
             assessment = compare(ground, reference, options) if tile.is_trusted else None
             shares = {
                 value: 100.0 * float(np.mean(ground[reference == value])) for value in tile.told
             }
-            results[each.name] = TileScore(assessment, model.error(ground), shares, seconds)
+            results[method.name] = TileScore(assessment, model.error(ground), shares, seconds)
         except Exception as error:
             # One filter that gives up on a tile must not end the benchmark: it is told.
             problem = f"{type(error).__name__}: {error}".splitlines()[0]
-            results[each.name] = TileScore(None, None, {}, time.perf_counter() - start, problem)
+            results[method.name] = TileScore(None, None, {}, time.perf_counter() - start, problem)
     return results

@@ -219,7 +219,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with tempfile.TemporaryDirectory(prefix="bare-earth-memory-", dir=cache.FOLDER) as place:
         every = scenarios(paths, one, Path(place), options.memory)
         chosen = [
-            each for each in every if not each.arguments or (options.only or "") in each.title
+            scenario
+            for scenario in every
+            if not scenario.arguments or (options.only or "") in scenario.title
         ]
         for number, scenario in enumerate(chosen):
             folder = Path(place) / str(number)

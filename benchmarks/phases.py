@@ -59,7 +59,7 @@ class Phased(NamedTuple):
 
     def values(self, figure: str) -> np.ndarray:
         """Return one figure of all phases."""
-        return np.array([getattr(each, figure) for each in self.assessments])
+        return np.array([getattr(assessment, figure) for assessment in self.assessments])
 
     def range(self, figure: str) -> Range:
         """Return one figure over the phases."""
@@ -73,4 +73,4 @@ class Phased(NamedTuple):
 
 def over_samples(results: dict[str, Phased], figure: str) -> Range:
     """Return the mean of one figure over the samples: over the phases, the least and the most."""
-    return Range.of(np.mean([each.values(figure) for each in results.values()], axis=0))
+    return Range.of(np.mean([phased.values(figure) for phased in results.values()], axis=0))

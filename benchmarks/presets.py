@@ -41,7 +41,7 @@ class Land:
     """Labelled data by its title, without a file if they are not here."""
 
     def __init__(self, name: str) -> None:
-        tile = next((each for each in data.REAL if each.title == name), None)
+        tile = next((real for real in data.REAL if real.title == name), None)
         path = data.real(tile.name) if tile else data.FOLDER / "isprs" / f"{name}.laz"
         self.is_here = path.exists()
         if self.is_here:
@@ -62,12 +62,13 @@ class Land:
 def rows(method: str, presets: Sequence[str], names: Sequence[str] = ()) -> Iterator[Row]:
     """Yield the figures of each preset where it is meant, or on the named data."""
     wanted = {preset: names or MEANT_FOR[preset] for preset in presets}
-    for where in dict.fromkeys(name for each in wanted.values() for name in each):
+    for where in dict.fromkeys(name for lands in wanted.values() for name in lands):
         land = Land(where)
         if land.is_here:
             base = land.figures(method, AUTOMATIC)
-            for preset in (each for each in wanted if where in wanted[each]):
-                yield Row(preset, where, (*land.figures(method, preset), *base))
+            for preset, lands in wanted.items():
+                if where in lands:
+                    yield Row(preset, where, (*land.figures(method, preset), *base))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -78,15 +79,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     for method in options.method:
         presets = next(
-            each.choices
-            for each in METHODS[method].parameters.declarations()
-            if each.name == "preset"
+            declaration.choices
+            for declaration in METHODS[method].parameters.declarations()
+            if declaration.name == "preset"
         )
         print(f"\n{method}\n")
         print("| Preset | Measured on | Total error | Kappa | Automatic: total error | Kappa |")
         print("|---|---|---|---|---|---|")
-        wanted = [each for each in presets if each in MEANT_FOR or options.data]
-        found = rows(method, [each for each in wanted if each != AUTOMATIC], options.data)
+        wanted = [preset for preset in presets if preset in MEANT_FOR or options.data]
+        found = rows(method, [preset for preset in wanted if preset != AUTOMATIC], options.data)
         for row in sorted(found, key=lambda row: wanted.index(row.preset)):
             print(row.text(), flush=True)
 

@@ -94,7 +94,7 @@ def pace_of(moments: list[tuple[float, float]], end: float) -> Pace:
     end : float
         When the run ended.
     """
-    times = [each for each, _ in moments] + [end]
+    times = [moment for moment, _ in moments] + [end]
     silence = max(later - sooner for sooner, later in zip(times, times[1:]))
     highest, grown = -1.0, []
     for moment, fraction in moments:
@@ -102,7 +102,7 @@ def pace_of(moments: list[tuple[float, float]], end: float) -> Pace:
             highest = fraction
             grown.append(moment)
     rest = max(later - sooner for sooner, later in zip(grown, [*grown[1:], end]))
-    figures = [(figure, next(each)[0]) for figure, each in groupby(moments, _percent)]
+    figures = [(figure, next(reached)[0]) for figure, reached in groupby(moments, _percent)]
     starts = [start for _, start in figures] + [end]
     stays = [(later - start, figure) for (figure, start), later in zip(figures, starts[1:])]
     longest, figure = max(stays)
@@ -125,26 +125,32 @@ def runs(source: Path, folder: Path, resources: Resources) -> dict[str, Callable
     rasters["relief"] = folder / "relief.tif"
     maps = MapFiles(folder / "maps.laz", RasterFiles(**rasters), lines)
     found: dict[str, Callable[[Progress], Any]] = {
-        "TIN densification": lambda it: classify(source, ground, usual, it),
-        "TIN, DTM, hillshade, heights": lambda it: classify(source, folder / "a.laz", full, it),
+        "TIN densification": lambda progress: classify(source, ground, usual, progress),
+        "TIN, DTM, hillshade, heights": lambda progress: classify(
+            source, folder / "a.laz", full, progress
+        ),
     }
     for name in list(METHODS)[1:]:
         request = replace(usual, parameters=METHODS[name].parameters())
-        found[METHODS[name].label] = lambda it, request=request: classify(
-            source, folder / "b.laz", request, it
+        found[METHODS[name].label] = lambda progress, request=request: classify(
+            source, folder / "b.laz", request, progress
         )
     all_rasters = TerrainRequest(resources=resources, rasters=RasterFiles(**rasters))
     one_raster = TerrainRequest(resources=resources, rasters=RasterFiles(dtm=rasters["dtm"]))
-    found["Terrain model alone"] = lambda it: terrain(ground, one_raster, it)
-    found["All rasters"] = lambda it: terrain(ground, all_rasters, it)
+    found["Terrain model alone"] = lambda progress: terrain(ground, one_raster, progress)
+    found["All rasters"] = lambda progress: terrain(ground, all_rasters, progress)
     above = PointRequest(MeasureHeights(), resources=resources)
     keys = PointRequest(FindKeyPoints(), resources=resources)
-    found["Height above ground"] = lambda it: write_with(ground, folder / "h.laz", above, it)
-    found["Model key points"] = lambda it: write_with(ground, folder / "k.laz", keys, it)
+    found["Height above ground"] = lambda progress: write_with(
+        ground, folder / "h.laz", above, progress
+    )
+    found["Model key points"] = lambda progress: write_with(
+        ground, folder / "k.laz", keys, progress
+    )
     pages = folder / "report.html", folder / "errors.tif"
-    found["Assess"] = lambda it: assess_files(ground, ground, *pages, progress=it)
+    found["Assess"] = lambda progress: assess_files(ground, ground, *pages, progress=progress)
     request = MapRequest(resources=resources)
-    found["Point cloud to terrain"] = lambda it: make_maps([source], maps, request, it)
+    found["Point cloud to terrain"] = lambda progress: make_maps([source], maps, request, progress)
     return found
 
 
@@ -171,7 +177,7 @@ def main() -> None:
                 flush=True,
             )
             if given.steps:
-                firsts = [next(each) for _, each in groupby(recorder.moments, _percent)]
+                firsts = [next(reached) for _, reached in groupby(recorder.moments, _percent)]
                 print("  " + "  ".join(f"{100 * f:.0f}%:{t:.1f}s" for t, f in firsts))
 
 

@@ -98,7 +98,7 @@ def draw_scenes(chosen: GroundFilter, scores: tables.SceneScores, seeds: Sequenc
     """Draw terrain model and errors of the worst kinds of scenes, each on its worst seed."""
     pictures, own = [], scores[chosen.name]
     for rank, kind in enumerate(worst_kinds(own)[: -WORST_SCENES - 1 : -1], 1):
-        errors = [each.type_1 + each.type_2 for each in own[kind]]
+        errors = [score.type_1 + score.type_2 for score in own[kind]]
         seed = seeds[errors.index(max(errors))]
         scene, model = remembered_scene(kind, seed)
         name = f"{SCENE_NAME}{rank}.png"
@@ -125,10 +125,10 @@ def write(isprs: Scores, real: tables.TileScores) -> None:
             "labels": tables.labels(real),
             "doubtful": tables.doubtful(real),
             "dtm": _blocks(
-                [*(tables.dtm(real, *each) for each in tables.DTM_FIGURES), tables.spikes(real)]
+                [*(tables.dtm(real, *figure) for figure in tables.DTM_FIGURES), tables.spikes(real)]
             ),
             "relief": _pictures(pictures, RELIEF_NAME),
-            "problems": [f"- **What failed**: {each}." for each in tables.problems(real)],
+            "problems": [f"- **What failed**: {problem}." for problem in tables.problems(real)],
         },
     )
 
@@ -203,14 +203,17 @@ def _spread(rows: Sequence[Sensitivity]) -> str:
 
 def _pictures(pictures: Sequence[Picture], start: str) -> list[str]:
     lines = []
-    for each in pictures:
-        if each.name.startswith(start):
-            lines += [f"![{each.caption}](images/{each.name})", "", f"*{each.caption}*", ""]
+    for picture in pictures:
+        if picture.name.startswith(start):
+            image = f"![{picture.caption}](images/{picture.name})"
+            lines += [image, "", f"*{picture.caption}*", ""]
     return lines[:-1]
 
 
 def _blocks(blocks: Iterable[Sequence[str]]) -> list[str]:
     """Return tables one after the other, an empty line between two."""
     return [
-        line for at, block in enumerate(blocks) for line in (("",) if at else ()) + tuple(block)
+        line
+        for number, block in enumerate(blocks)
+        for line in (("",) if number else ()) + tuple(block)
     ]

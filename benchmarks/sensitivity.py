@@ -129,14 +129,14 @@ def _move(job: _Job) -> Sensitivity | None:
 def as_text(value: object) -> str:
     """Return a number or a list of numbers in few digits."""
     if isinstance(value, tuple):
-        return ", ".join(as_text(each) for each in value)
+        return ", ".join(as_text(number) for number in value)
     return f"{value:g}"
 
 
 def scaled(declaration: Declaration, value: object, factor: float) -> tuple[object, bool]:
     """Return a number, or a list as a whole, times a factor, and whether a limit cut it."""
     if isinstance(value, tuple):
-        parts = [scaled(declaration, each, factor) for each in value]
+        parts = [scaled(declaration, number, factor) for number in value]
         return tuple(part[0] for part in parts), any(part[1] for part in parts)
     wanted = value * factor
     least = -np.inf if declaration.minimum is None else declaration.minimum

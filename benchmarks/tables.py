@@ -48,7 +48,7 @@ TileScores = dict[str, dict[str, TileScore]]
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
     """Return the lines of a table; the first column is text, the others are figures."""
-    widths = [max(len(line[at]) for line in (head, *rows)) for at in range(len(head))]
+    widths = [max(len(line[column]) for line in (head, *rows)) for column in range(len(head))]
 
     def line(cells: Sequence[str]) -> str:
         first = cells[0].ljust(widths[0])
@@ -212,21 +212,21 @@ def _value(change: Change) -> str:
     return f"{text}, refused" if change.problem else text
 
 
-def scenes(results: SceneScores, other: SceneScores | None = None) -> dict[str, list[str]]:
+def scenes(results: SceneScores, tuning: SceneScores | None = None) -> dict[str, list[str]]:
     """Return the figures of every filter of ours on every kind of scene, the worst kinds last.
 
     Parameters
     ----------
     results : SceneScores
         What is told in full.
-    other : SceneScores, optional
+    tuning : SceneScores, optional
         Scores on other seeds, of which only type I and type II errors are told.
     """
     head = ["Kind", "type I, %", "II, %", "II without low plants, %", "DTM RMSE, m"]
     head += ["wrong by 1 m, %", "most kept, %"]
-    head += ["tuning: I", "II"] if other else []
+    head += ["tuning: I", "II"] if tuning else []
     return {
-        name: table(head, [_scene_row(kind, name, results, other) for kind in worst_kinds(kinds)])
+        name: table(head, [_scene_row(kind, name, results, tuning) for kind in worst_kinds(kinds)])
         for name, kinds in results.items()
     }
 
@@ -239,24 +239,26 @@ def scene_totals(results: SceneScores) -> list[str]:
         cells = [label(name)]
         for figure, digits in SCENE_FIGURES.values():
             values = [scene_mean(scores, figure) for scores in kinds.values()]
-            values = [each for each in values if math.isfinite(each)] or [math.nan]
+            values = [value for value in values if math.isfinite(value)] or [math.nan]
             cells += [number(sum(values) / len(values), digits), number(max(values), digits)]
         rows.append(cells)
     return table(head, rows)
 
 
-def _scene_row(kind: str, name: str, results: SceneScores, other: SceneScores | None) -> list[str]:
+def _scene_row(kind: str, name: str, results: SceneScores, tuning: SceneScores | None) -> list[str]:
     scores = results[name][kind]
     row = [kind]
     for figure, digits in SCENE_FIGURES.values():
         row.append(number(scene_mean(scores, figure), digits))
     kept: dict[int, list[float]] = {}
-    for value, share in (pair for each in scores for pair in each.kept.items()):
+    for value, share in (pair for score in scores for pair in score.kept.items()):
         if value in _TELLING:
             kept.setdefault(value, []).append(share)
     means = {value: sum(shares) / len(shares) for value, shares in kept.items()}
     worst = max(means, key=means.get, default=None)
     row.append(NONE if worst is None else f"{_TELLING[worst]} {means[worst]:.0f}")
-    if other:
-        row += [number(scene_mean(other[name][kind], each), 2) for each in ("type_1", "type_2")]
+    if tuning:
+        row += [
+            number(scene_mean(tuning[name][kind], figure), 2) for figure in ("type_1", "type_2")
+        ]
     return row

@@ -101,15 +101,15 @@ def complex_on_slope(site: Site) -> Landscape:
         inside = np.minimum(length / 2 + 10 - np.abs(along), width / 2 + 10 - np.abs(across))
         return yard(natural(x, y), level, inside, 8.0) if is_levelled else natural(x, y)
 
-    halls, at = [], -length / 2
-    while at < length / 2 - 15.0:
-        part = min(site.between(30.0, 60.0), length / 2 - at)
+    halls, position = [], -length / 2
+    while position < length / 2 - 15.0:
+        part = min(site.between(30.0, 60.0), length / 2 - position)
         wide = width * site.between(0.7, 1.0)
-        x, y = site.place(at + part / 2, (width - wide) / 2 * site.random.choice((-1.0, 1.0)))
+        x, y = site.place(position + part / 2, (width - wide) / 2 * site.random.choice((-1.0, 1.0)))
         tall = site.settings.height * site.between(0.85, 1.5)
         roof, pitch = (FLAT, 0.0) if site.random.random() < 0.6 else (GABLE, 0.08)
         halls.append(Box(x, y, part, wide, site.angle, level, tall, roof, pitch))
-        at += part
+        position += part
     cars = _cars(site, terrain, -40.0, site.half - 30.0)
     return Landscape(terrain, (Boxes(halls), cars), plants=(meadow(site),))
 
@@ -144,7 +144,7 @@ def _houses(
                 )
                 base = _at(terrain, x, y)
                 sheds.append(Box(x, y, 4.0, 3.0, turn, base, site.between(2.0, 2.6), SHED, 0.15))
-    return tuple(Boxes(each) for each in (houses, wings, sheds) if each)
+    return tuple(Boxes(group) for group in (houses, wings, sheds) if group)
 
 
 @kind(slope=0.3, height=4.0)

@@ -82,7 +82,7 @@ class Boxes:
         near, number = near[number >= 0], number[number >= 0]
         if not len(near):
             return heights, codes
-        box = Box(*(each[number] for each in self._columns))
+        box = Box(*(column[number] for column in self._columns))
         along, across = _turned(x[near] - box.x, y[near] - box.y, box.angle)
         heights[near] = _roof(box, along, across)
         codes[near] = box.code

@@ -96,7 +96,7 @@ def _trees(random: np.random.Generator, buildings: list[Box]) -> tuple[Trees, Tr
     stem = height * np.where(conifer, 0.12, random.uniform(0.2, 0.35, len(place)))
     x, y = place.T - SIDE / 2
     return tuple(
-        Trees(*(each[which] for each in (x, y, height, radius, stem)), is_conifer)
+        Trees(*(column[which] for column in (x, y, height, radius, stem)), is_conifer)
         for which, is_conifer in ((~conifer, False), (conifer, True))
     )
 

@@ -32,8 +32,8 @@ def wood(
         Of the crowns, as a share of the distance.
     """
     side = np.arange(-site.half - 5.0, site.half + 5.0, apart)
-    x, y = (each.ravel() for each in np.meshgrid(side, side))
-    x, y = (each + site.random.uniform(-0.45, 0.45, len(x)) * apart for each in (x, y))
+    x, y = (axis.ravel() for axis in np.meshgrid(side, side))
+    x, y = (axis + site.random.uniform(-0.45, 0.45, len(x)) * apart for axis in (x, y))
     if where is not None:
         kept = where(x, y)
         x, y = x[kept], y[kept]

@@ -31,14 +31,14 @@ class Pulses(NamedTuple):
     slant_y: np.ndarray
     classes: np.ndarray
 
-    def at(self, height: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
+    def places_at(self, height: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
         """Return where the pulses are at an absolute height."""
         rise = height - self.z
         return self.x + self.slant_x * rise, self.y + self.slant_y * rise
 
     def take(self, which: np.ndarray) -> Pulses:
         """Return some of the pulses."""
-        return Pulses(*(each[which] for each in self))
+        return Pulses(*(column[which] for column in self))
 
 
 def fly(landscape: Landscape, settings: Settings, random: np.random.Generator) -> Pulses:
@@ -55,9 +55,10 @@ def fly(landscape: Landscape, settings: Settings, random: np.random.Generator) -
         ratio = random.uniform(0.7, 1.4)
         spacing = np.sqrt(2.0 / settings.density)
         axes = (
-            np.arange(-1.45, 1.45, spacing * each / reach) * reach for each in (ratio, 1 / ratio)
+            np.arange(-1.45, 1.45, spacing * stretch / reach) * reach
+            for stretch in (ratio, 1 / ratio)
         )
-        u, v = (each.ravel() for each in np.meshgrid(*axes, indexing="ij"))
+        u, v = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
         u = u + random.normal(0, 0.15 * spacing, u.shape) + random.uniform(0, spacing)
         v = v + random.normal(0, 0.15 * spacing, v.shape) + random.uniform(0, spacing)
         skew = turn + side * random.uniform(0.02, 0.2)
@@ -65,7 +66,7 @@ def fly(landscape: Landscape, settings: Settings, random: np.random.Generator) -
         kept = (np.abs(x) < reach) & (np.abs(y) < reach)
         slant = tilt * np.clip(0.17 * (side + v[kept] / half), -_SLANT, _SLANT)
         columns.append((x[kept], y[kept], -slant * np.sin(skew), slant * np.cos(skew)))
-    x, y, slant_x, slant_y = (np.concatenate(each) for each in zip(*columns))
+    x, y, slant_x, slant_y = (np.concatenate(column) for column in zip(*columns))
     z = np.full(len(x), coarse.middle)
     pulses = Pulses(x, y, z, slant_x, slant_y, np.zeros(len(x), dtype=np.uint8))
     pulses = _fall(pulses, landscape, coarse)
@@ -91,7 +92,7 @@ class _Coarse(NamedTuple):
     @classmethod
     def of(cls, landscape: Landscape, half: float) -> _Coarse:
         side = np.arange(-half, half + _COARSE, _COARSE)
-        x, y = (each.ravel() for each in np.meshgrid(side, side, indexing="ij"))
+        x, y = (axis.ravel() for axis in np.meshgrid(side, side, indexing="ij"))
         z = landscape.surface(x, y)[0].reshape(len(side), -1)
         steep = maximum_filter(z, 3) - minimum_filter(z, 3) > 0.9 * _COARSE
         width = 2 * int(min(_SLANT * np.ptp(z), _FARTHEST) / _COARSE) + 7
@@ -108,25 +109,25 @@ class _Coarse(NamedTuple):
 
     def cell(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
         last = len(self.z) - 1
-        places = (((each + self.half) / _COARSE + 0.5).astype(int) for each in (x, y))
-        return tuple(np.clip(each, 0, last) for each in places)
+        places = (((axis + self.half) / _COARSE + 0.5).astype(int) for axis in (x, y))
+        return tuple(np.clip(place, 0, last) for place in places)
 
 
 def _fall(pulses: Pulses, landscape: Landscape, coarse: _Coarse) -> Pulses:
     """Follow pulses down to the first solid thing."""
     z = pulses.z
     for _ in range(5):
-        z = coarse.z[coarse.cell(*pulses.at(z))]
-    cell = coarse.cell(*pulses.at(z))
+        z = coarse.z[coarse.cell(*pulses.places_at(z))]
+    cell = coarse.cell(*pulses.places_at(z))
     is_near = coarse.near[cell] & (np.hypot(pulses.slant_x, pulses.slant_y) > 0)
     near, far = np.flatnonzero(is_near), np.flatnonzero(~is_near)
     codes = pulses.classes.copy()
     some = pulses.take(far)
     for _ in range(3 if len(near) < len(z) and some.slant_x.any() else 1):
-        z[far], codes[far] = landscape.surface(*some.at(z[far]))
-    low, high = (each[cell][near] for each in (coarse.lowest - 1.0, coarse.highest + 0.5))
+        z[far], codes[far] = landscape.surface(*some.places_at(z[far]))
+    low, high = (bound[cell][near] for bound in (coarse.lowest - 1.0, coarse.highest + 0.5))
     z[near], codes[near] = _march(pulses.take(near), landscape, low, high)
-    x, y = pulses.at(z)
+    x, y = pulses.places_at(z)
     return Pulses(x, y, z, pulses.slant_x, pulses.slant_y, codes)
 
 
@@ -138,18 +139,18 @@ def _march(
     falling = np.arange(len(low))
     for share in np.linspace(1.0, 0.0, 15)[1:-1]:
         z = (low + share * (high - low))[falling]
-        top, _ = landscape.surface(*pulses.take(falling).at(z))
+        top, _ = landscape.surface(*pulses.take(falling).places_at(z))
         met = top > z
         below[falling[met]] = z[met]
         falling = falling[~met]
         above[falling] = z[~met]
     for _ in range(8):
         middle = (above + below) / 2
-        top, _ = landscape.surface(*pulses.at(middle))
+        top, _ = landscape.surface(*pulses.places_at(middle))
         inside = top > middle
         below, above = np.where(inside, middle, below), np.where(inside, above, middle)
     # Just inside: so a wall is told from the ground in front of it.
-    top, codes = landscape.surface(*pulses.at(below))
+    top, codes = landscape.surface(*pulses.places_at(below))
     return np.where(np.abs(top - below) < 0.2, top, below), codes
 
 
@@ -159,7 +160,7 @@ def cross_decks(pulses: Pulses, decks: tuple[Deck, ...]) -> Pulses:
         # Where a pulse meets the deck depends on the deck's height there: twice is enough.
         on, z = deck.covers(pulses.x, pulses.y)
         for _ in range(2):
-            x, y = pulses.at(z)
+            x, y = pulses.places_at(z)
             on, z = deck.covers(x, y)
         on &= z > pulses.z - 0.3
         pulses = pulses._replace(

@@ -24,8 +24,8 @@ def waves(random: np.random.Generator, amplitude: float, length: float, count: i
 
     def height(x: np.ndarray, y: np.ndarray) -> np.ndarray:
         total = np.zeros(np.shape(x))
-        for each in range(count):
-            total += np.sin(east[each] * x + north[each] * y + phase[each])
+        for number in range(count):
+            total += np.sin(east[number] * x + north[number] * y + phase[number])
         return scale * total
 
     return height
@@ -62,9 +62,9 @@ def bank(distance: np.ndarray, run: float) -> np.ndarray:
     return np.clip(distance / run + 0.5, 0.0, 1.0)
 
 
-def blend(one: np.ndarray, other: np.ndarray, share: np.ndarray) -> np.ndarray:
-    """Return `other` where the share is 1, and `one` where it is 0."""
-    return one + (other - one) * share
+def blend(one: np.ndarray, another: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Return `another` where the share is 1, and `one` where it is 0."""
+    return one + (another - one) * share
 
 
 def yard(terrain: np.ndarray, level: float, inside: np.ndarray, margin: float) -> np.ndarray:

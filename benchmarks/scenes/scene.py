@@ -99,7 +99,7 @@ class Scene:
 
     def cloud(self) -> PointCloud:
         """Return the points as if they had been read from a file, all classes 0."""
-        integers = [np.rint(each / SCALE).astype(np.int32) for each in self.points]
+        integers = [np.rint(axis / SCALE).astype(np.int32) for axis in self.points]
         count = self.points.count
         return PointCloud(
             Path(f"{self.kind}-{self.seed}.las"), *integers,
@@ -133,7 +133,7 @@ class Kind(NamedTuple):
         returns = survey(landscape, settings, random)
         corner = tuple(np.round(random.uniform(200.0, 900.0, 2) + settings.size / 2, 3).tolist())
         moved = (returns.x + corner[0], returns.y + corner[1], returns.z)
-        points = Points(*(np.rint(each / SCALE) * SCALE for each in moved))
+        points = Points(*(np.rint(axis / SCALE) * SCALE for axis in moved))
         return Scene(
             points, returns.classes, returns.number, returns.count, self.name, seed, settings,
             corner, landscape.terrain,

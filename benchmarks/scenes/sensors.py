@@ -29,7 +29,7 @@ def multipath(site: Site) -> Landscape:
         *site.random.uniform(-site.half, site.half, (2, count)),
         site.random.uniform(0.7, 1.8, count), site.random.uniform(2.0, 8.0, count),
     )  # fmt: skip
-    return replace(land, echoes=tuple(tuple(map(float, each)) for each in echoes))
+    return replace(land, echoes=tuple(tuple(map(float, echo)) for echo in echoes))
 
 
 @kind(height=4.0, slope=0.02)
@@ -55,7 +55,7 @@ def water_gaps(site: Site) -> Landscape:
     houses = []
     for _ in range(40):
         x, y = site.random.uniform(-site.half + 10, site.half - 10, 2)
-        apart = [np.hypot(x - each.x, y - each.y) for each in houses]
+        apart = [np.hypot(x - house.x, y - house.y) for house in houses]
         if shore(np.array([x]), np.array([y]))[0] > 3.0 and min(apart, default=99.0) > 26.0:
             base = float(terrain(np.array([x]), np.array([y]))[0])
             sides = site.between(10.0, 30.0), site.between(8.0, 16.0)

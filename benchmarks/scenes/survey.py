@@ -76,12 +76,12 @@ def survey(landscape: Landscape, settings: Settings, random: np.random.Generator
     for wire in landscape.wires:
         echoes.append(_meet_wire(pulses, wire, random))
     pulses = _into_plants(pulses, landscape.plants, random)
-    pulse = np.concatenate([np.flatnonzero(ends), *(each.pulse for each in echoes)]).astype(int)
-    z = np.concatenate([pulses.z[ends], *(each.z for each in echoes)])
-    classes = np.concatenate([pulses.classes[ends], *(each.classes for each in echoes)])
+    pulse = np.concatenate([np.flatnonzero(ends), *(group.pulse for group in echoes)]).astype(int)
+    z = np.concatenate([pulses.z[ends], *(group.z for group in echoes)])
+    classes = np.concatenate([pulses.classes[ends], *(group.classes for group in echoes)])
     pulse, z, classes = _sorted(pulse, z, classes.astype(np.uint8))
     number, count = _numbers(pulse)
-    x, y = pulses.take(pulse).at(z)
+    x, y = pulses.take(pulse).places_at(z)
     returns = Returns(x, y, z, classes, number, count)
     return _finished(returns, landscape, settings, random)
 
@@ -104,7 +104,7 @@ def _through_crowns(
     """Return the echoes of leaves, and which pulses the crowns stop."""
     foot = landscape.terrain(trees.x, trees.y)
     middle = float(np.mean(trees.height + trees.stem)) / 2
-    x, y = pulses.at(pulses.z + middle)
+    x, y = pulses.places_at(pulses.z + middle)
     index = cKDTree(np.column_stack((trees.x, trees.y)))
     count = min(3, len(trees.x))
     distance, number = index.query(
@@ -115,7 +115,7 @@ def _through_crowns(
     for k in range(count):
         near = np.flatnonzero(number[:, k] < len(trees.x))
         tree = number[near, k]
-        near, tree = (each[distance[near, k] < trees.radius[tree]] for each in (near, tree))
+        near, tree = (places[distance[near, k] < trees.radius[tree]] for places in (near, tree))
         up, down, thick = trees.crown(tree, distance[near, k])
         top[near] = np.maximum(top[near], foot[tree] + up)
         bottom[near] = np.minimum(bottom[near], foot[tree] + down)
@@ -136,10 +136,10 @@ def _through_crowns(
 
 
 def _meet_wire(pulses: Pulses, wire: Wire, random: np.random.Generator) -> _Echoes:
-    x, y = pulses.at((wire.start[2] + wire.end[2]) / 2 - wire.sag * 0.67)
+    x, y = pulses.places_at((wire.start[2] + wire.end[2]) / 2 - wire.sag * 0.67)
     share, _ = wire.hangs(x, y)
     z = wire.height(share)
-    share, beside = wire.hangs(*pulses.at(z))
+    share, beside = wire.hangs(*pulses.places_at(z))
     met = (share >= 0) & (share <= 1) & (beside < _BEAM) & (z > pulses.z + _DEAD_ZONE)
     pulse = np.flatnonzero(met)
     return _Echoes(pulse, z[pulse], np.full(len(pulse), WIRE))
@@ -147,10 +147,10 @@ def _meet_wire(pulses: Pulses, wire: Wire, random: np.random.Generator) -> _Echo
 
 def _into_plants(pulses: Pulses, plants: tuple[Plants, ...], random: np.random.Generator) -> Pulses:
     """Lift echoes off the ground into low plants, too low for an echo of the ground below."""
-    for each in plants:
-        top = each.top(pulses.x, pulses.y)
-        hit = (pulses.classes == GROUND) & (top > 0.05) & (random.random(len(top)) < each.share)
-        rise = top * random.uniform(each.least, 1.0, len(top))
+    for layer in plants:
+        top = layer.top(pulses.x, pulses.y)
+        hit = (pulses.classes == GROUND) & (top > 0.05) & (random.random(len(top)) < layer.share)
+        rise = top * random.uniform(layer.least, 1.0, len(top))
         hit &= rise > _LOWEST_PLANT
         code = np.select([rise > 2.0, rise > 0.5], [HIGH_VEGETATION, MEDIUM_VEGETATION], 3)
         pulses = pulses._replace(
@@ -169,7 +169,7 @@ def _from_images(
         kept = ~((classes == GROUND) & landscape.water(x, y))
         x, y, z, classes = x[kept], y[kept], z[kept], classes[kept]
     # A match is a mean of what lies round about: the height is that of a place near by.
-    near_x, near_y = (each + random.normal(0, 0.12, len(x)) for each in (x, y))
+    near_x, near_y = (axis + random.normal(0, 0.12, len(x)) for axis in (x, y))
     near, codes = landscape.surface(near_x, near_y)
     if settings.blur:
         near, codes = _blurred(x, y, landscape, settings.blur, random)
@@ -238,7 +238,7 @@ def _finished(
     returns: Returns, landscape: Landscape, settings: Settings, random: np.random.Generator
 ) -> Returns:
     """Add the noise, the outliers and the echoes that come from nowhere."""
-    x, y, z, classes = (each.copy() for each in returns[:4])
+    x, y, z, classes = (column.copy() for column in returns[:4])
     count = len(x)
     _throw_down(x, y, z, classes, landscape, settings, random)
     for east, north, radius, depth in landscape.echoes:

@@ -86,7 +86,7 @@ def vines(site: Site) -> Landscape:
 @kind(height=2.5, density=5.0)
 def hedges(site: Site) -> Landscape:
     """Fields between hedges, dense from the ground up, and banks below some of them."""
-    apart, other = site.between(35.0, 55.0), site.between(45.0, 70.0)
+    apart, apart_along = site.between(35.0, 55.0), site.between(45.0, 70.0)
     bend, grain = waves(site.random, 3.0, 90.0), waves(site.random, 0.2, 4.0)
     raised = site.between(0.0, 0.8)
     base = _forest_floor(site, 1.5)
@@ -95,7 +95,7 @@ def hedges(site: Site) -> Landscape:
         along, across = site.axes(x, y)
         return np.minimum(
             np.abs(np.mod(across + bend(x, y), apart) - apart / 2),
-            np.abs(np.mod(along + bend(y, x), other) - other / 2),
+            np.abs(np.mod(along + bend(y, x), apart_along) - apart_along / 2),
         )
 
     def top(x, y):

@@ -53,30 +53,30 @@ def compete(
         target.parent.mkdir()
         classified = _classified(tile, takers, Path(folder))
         for number in range(rounds):
-            for each in takers:
-                if each.name in out or (each.is_peer and number >= peer_rounds):
+            for taker in takers:
+                if taker.name in out or (taker.is_peer and number >= peer_rounds):
                     continue
-                source = classified if each.needs_classes else tile.path
-                cost = measure(each.command(source, target), timeout)
-                if each.writes_points:
+                source = classified if taker.needs_classes else tile.path
+                cost = measure(taker.command(source, target), timeout)
+                if taker.writes_points:
                     cost = _checked(cost, tile, target)
-                runs.append(Run(tile.name, each.name, number, cost))
+                runs.append(Run(tile.name, taker.name, number, cost))
                 if cost.problem:
-                    out.add(each.name)
+                    out.add(taker.name)
                 tell(
-                    f"{tile.name}, round {number + 1}, {each.label}: {cost.wall:.2f} s,"
+                    f"{tile.name}, round {number + 1}, {taker.label}: {cost.wall:.2f} s,"
                     f" {cost.cpu:.2f} s CPU, {cost.memory / 1e6:.0f} MB {cost.problem}"
                 )
-                for made in target.parent.iterdir():
-                    made.unlink()
+                for file in target.parent.iterdir():
+                    file.unlink()
     return runs
 
 
 def _classified(tile: Tile, takers: Sequence[Contestant], folder: Path) -> Path:
     """Return the tile with classes, for those who need them."""
     target = folder / "classified.laz"
-    if any(each.needs_classes for each in takers):
-        first = next(each for each in contestants() if each.name == OURS[0])
+    if any(taker.needs_classes for taker in takers):
+        first = next(contestant for contestant in contestants() if contestant.name == OURS[0])
         measure(first.command(tile.path, target), None)
     return target
 
@@ -113,7 +113,9 @@ def measure_all(
                 pass
         found.runs += compete(tile, takers, rounds, peer_rounds, timeout)
         takers = [
-            each for each in takers if not found.problem(tile.name, each.name).startswith(STOPPED)
+            taker
+            for taker in takers
+            if not found.problem(tile.name, taker.name).startswith(STOPPED)
         ]
         found.facts["Load average at the end"] = _load()
         keep(found)
@@ -156,7 +158,7 @@ def _processor() -> str:
 
 def generated(sizes: Sequence[float]) -> list[Tile]:
     """Return tiles of so many million points, made by a process of their own if missing."""
-    made = []
+    found = []
     for size in sizes:
         count = round(size * 1e6)
         path = tiles.path_of(count)
@@ -165,8 +167,8 @@ def generated(sizes: Sequence[float]) -> list[Tile]:
             cost = measure([sys.executable, "-m", "benchmarks.speed.tiles", str(count), str(path)])
             if cost.problem:
                 raise SystemExit(f"The tile of {count:,} points was not made: {cost.problem}")
-        made.append(tiles.tile(path, tiles.title(count)))
-    return made
+        found.append(tiles.tile(path, tiles.title(count)))
+    return found
 
 
 def _parser(known: Sequence[Contestant]) -> argparse.ArgumentParser:
@@ -192,8 +194,8 @@ def _parser(known: Sequence[Contestant]) -> argparse.ArgumentParser:
         help="stop a run after so long, and leave larger tiles out (default: 1800)",
     )  # fmt: skip
     parser.add_argument(
-        "--only", nargs="+", metavar="NAME", choices=[each.name for each in known],
-        help=f"beside the floor: {' '.join(each.name for each in known if each.name != FLOOR)}",
+        "--only", nargs="+", metavar="NAME", choices=[taker.name for taker in known],
+        help=f"beside the floor: {' '.join(taker.name for taker in known if taker.name != FLOOR)}",
     )  # fmt: skip
     parser.add_argument(
         "--profile", action="store_true", help="tell where the time goes (pip install py-spy)"
@@ -228,9 +230,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def _measured(options: argparse.Namespace, known: Sequence[Contestant]) -> Results:
     takers = [
-        each
-        for each in known
-        if not each.missing and (each.name in (FLOOR, *(options.only or ())) or not options.only)
+        contestant
+        for contestant in known
+        if not contestant.missing
+        and (contestant.name in (FLOOR, *(options.only or ())) or not options.only)
     ]
     files = options.tile
     if files is None:
@@ -258,11 +261,11 @@ def _profiles(chosen: Sequence[Tile], takers: Sequence[Contestant]) -> dict:
     fitting = [tile for tile in chosen if tile.count <= profiling.MOST_POINTS] or chosen[:1]
     profiles = {}
     with tempfile.TemporaryDirectory(prefix="bare-earth-speed-") as folder:
-        for each in takers:
-            if each.name in OURS:
-                tell(f"{each.label} on {fitting[-1].name}, under py-spy ...")
-                command = each.command(fitting[-1].path, Path(folder) / "classified.laz")
-                profiles[each.name] = profiling.profile(command, fitting[-1])
+        for taker in takers:
+            if taker.name in OURS:
+                tell(f"{taker.label} on {fitting[-1].name}, under py-spy ...")
+                command = taker.command(fitting[-1].path, Path(folder) / "classified.laz")
+                profiles[taker.name] = profiling.profile(command, fitting[-1])
     return profiles
 
 

@@ -102,14 +102,14 @@ def _products() -> list[Contestant]:
         start = [sys.executable, "-m", "bare_earth.algorithms", "classify"]
         return lambda source, target: [
             *start, str(source), str(target), "--dtm", str(target.with_suffix(".dtm.tif")),
-            *(each.format(target) for each in options),
+            *(option.format(target) for option in options),
         ]  # fmt: skip
 
     def terrain(source: Path, target: Path) -> list[str]:
         rasters = (("--dtm", "dtm"), ("--dsm", "dsm"), ("--chm", "chm"))
-        words = [(name, str(target.with_suffix(f".{each}.tif"))) for name, each in rasters]
+        words = [(name, str(target.with_suffix(f".{ending}.tif"))) for name, ending in rasters]
         start = [sys.executable, "-m", "bare_earth.algorithms", "terrain", str(source)]
-        return [*start, *(each for pair in words for each in pair)]
+        return [*start, *(word for pair in words for word in pair)]
 
     def command(name: str) -> Callable[[Path, Path], list[str]]:
         start = [sys.executable, "-m", "bare_earth.algorithms", name]
@@ -124,8 +124,8 @@ def _products() -> list[Contestant]:
             classify("--hillshade", "{}.shade.tif", "--height-above-ground"),
         ),
         *(
-            replace(each, needs_classes=True)
-            for each in (
+            replace(contestant, needs_classes=True)
+            for contestant in (
                 Contestant("terrain", "DTM, DSM and canopy height", terrain, writes_points=False),
                 Contestant("height", "Heights above ground", command("height")),
                 Contestant("key-points", "Model key points", command("key-points")),

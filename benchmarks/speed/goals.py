@@ -139,8 +139,9 @@ def _memory(results: Results) -> Iterator[Goal]:
 def _qgis(results: Results) -> Iterator[Goal]:
     added = []
     for tile in results.tiles:
-        inside, beside = (results.costs(tile.name, each) for each in (QGIS, BESIDE_QGIS))
-        more = spread([inside[at].wall - beside[at].wall for at in inside if at in beside])
+        inside, beside = results.costs(tile.name, QGIS), results.costs(tile.name, BESIDE_QGIS)
+        common = inside.keys() & beside.keys()
+        more = spread([inside[number].wall - beside[number].wall for number in common])
         if more:
             added.append((more.median, tile.name))
     title = "QGIS: seconds more than the command takes with the same Python"

@@ -38,8 +38,10 @@ class Report:
 
     def __init__(self, results: Results, contestants: Sequence[Contestant]) -> None:
         self._results = results
-        self._contestants = [each for each in contestants if each.name in results.contestants()]
-        self._missing = [each for each in contestants if each.missing]
+        self._contestants = [
+            contestant for contestant in contestants if contestant.name in results.contestants()
+        ]
+        self._missing = [contestant for contestant in contestants if contestant.missing]
 
     def blocks(self) -> dict[str, list[str]]:
         """Return the lines of every part, by its name in the template."""
@@ -64,9 +66,15 @@ class Report:
         page.write_text(text.rstrip() + "\n", encoding="utf-8")
 
     def _notes(self) -> list[str]:
-        lines = [f"- {_label(each)}: {each.note}." for each in self._contestants if each.note]
-        return lines + [f"- Not measured: {each.label}: needs {each.missing}." for each in
-                        self._missing]  # fmt: skip
+        lines = [
+            f"- {_label(contestant)}: {contestant.note}."
+            for contestant in self._contestants
+            if contestant.note
+        ]
+        return lines + [
+            f"- Not measured: {contestant.label}: needs {contestant.missing}."
+            for contestant in self._missing
+        ]
 
     def _goals(self) -> list[str]:
         rows = []
@@ -84,22 +92,22 @@ class Report:
 
     def _ratios(self) -> list[str]:
         """Return the time of each contestant, measured by the floor of the same round."""
-        tiles = [each for each in self._results.tiles if self._results.costs(each.name, FLOOR)]
+        tiles = [tile for tile in self._results.tiles if self._results.costs(tile.name, FLOOR)]
         rows = [
-            [_label(each), *(self._ratio(tile, each) for tile in tiles)]
-            for each in self._contestants
+            [_label(contestant), *(self._ratio(tile, contestant) for tile in tiles)]
+            for contestant in self._contestants
         ]
         return table(["Time, as a multiple of reading and writing", *_heads(tiles)], rows)
 
     def _added(self) -> list[str]:
         """Return the seconds that each contestant takes beside reading and writing."""
-        tiles = [each for each in self._results.tiles if self._results.costs(each.name, FLOOR)]
+        tiles = [tile for tile in self._results.tiles if self._results.costs(tile.name, FLOOR)]
         rows = []
-        for each in self._contestants:
-            if each.name != FLOOR:
-                found = [self._results.added(tile.name, each.name) for tile in tiles]
+        for contestant in self._contestants:
+            if contestant.name != FLOOR:
+                found = [self._results.added(tile.name, contestant.name) for tile in tiles]
                 cells = [_ranged(one, 1) if one else NONE for one in found]
-                rows.append([_label(each), *cells])
+                rows.append([_label(contestant), *cells])
         return table(["Seconds beside reading and writing", *_heads(tiles)], rows)
 
     def _ratio(self, tile: Tile, contestant: Contestant) -> str:
@@ -117,28 +125,29 @@ class Report:
         lines: list[str] = []
         for tile in self._results.tiles:
             rows = []
-            for each in self._contestants:
+            for contestant in self._contestants:
                 found = [
-                    self._results.spread(tile.name, each.name, figure) for figure, *_ in _FIGURES
+                    self._results.spread(tile.name, contestant.name, figure)
+                    for figure, *_ in _FIGURES
                 ]
                 if all(found):
                     cells = [
                         number(one.median / unit, digits)
                         for one, (_, _, unit, digits) in zip(found, _FIGURES)
                     ]
-                    rounds = len(self._results.costs(tile.name, each.name))
+                    rounds = len(self._results.costs(tile.name, contestant.name))
                     per_point = number(found[-1].median / tile.count, 0)
-                    rows.append([_label(each), *cells, per_point, str(rounds)])
-            head = [f"{tile.name}, {tile.density:.1f} points/m²", *(each[1] for each in _FIGURES)]
+                    rows.append([_label(contestant), *cells, per_point, str(rounds)])
+            head = [f"{tile.name}, {tile.density:.1f} points/m²", *(row[1] for row in _FIGURES)]
             lines += [*table([*head, "bytes a point", "runs"], rows), ""] if rows else []
         return lines[:-1]
 
     def _exponents(self) -> list[str]:
         rows = []
-        for each in self._contestants:
-            found = [self._results.exponent(each.name, figure) for figure in ("wall", "cpu")]
+        for contestant in self._contestants:
+            found = [self._results.exponent(contestant.name, figure) for figure in ("wall", "cpu")]
             if None not in found:
-                rows.append([_label(each), *(number(one, 2) for one in found)])
+                rows.append([_label(contestant), *(number(one, 2) for one in found)])
         return table(["Exponent", "time", "CPU time"], rows)
 
     def _sizing(self) -> list[str]:
@@ -155,13 +164,13 @@ class Report:
             tile, cpu = done[-1], self._results.spread(done[-1].name, name, "cpu")
             seconds = cpu.median / tile.count * 1e6
             size = tile.path.stat().st_size / tile.count if tile.path.exists() else float("nan")
-            hours = (number(1000 * each * seconds / 3600, 1) for each in BILLIONS)
-            disk = (number(2 * each * size, 0) for each in BILLIONS)
+            hours = (number(1000 * count * seconds / 3600, 1) for count in BILLIONS)
+            disk = (number(2 * count * size, 0) for count in BILLIONS)
             rows.append([_bold(name), number(seconds, 2), *hours, number(size, 1), *disk])
             used = tile.name
         head = [f"Computed from {used}", "CPU s a million"]
-        head += [f"core hours, {each} billion" for each in BILLIONS] + ["LAZ bytes a point"]
-        return table(head + [f"GB in and out, {each} billion" for each in BILLIONS], rows)
+        head += [f"core hours, {count} billion" for count in BILLIONS] + ["LAZ bytes a point"]
+        return table(head + [f"GB in and out, {count} billion" for count in BILLIONS], rows)
 
     def _profiles(self) -> list[str]:
         profiles = self._results.profiles
@@ -171,22 +180,24 @@ class Report:
             ]
         tile = next(iter(profiles.values())).tile
         rows = [
-            [_bold(name), *(number(each.shares[part], 0) for part in SHARES)]
-            for name, each in profiles.items()
+            [_bold(name), *(number(profile.shares[part], 0) for part in SHARES)]
+            for name, profile in profiles.items()
         ]
         lines = table([f"Time on {tile}, %", *SHARES], rows)
-        for name, each in profiles.items():
-            heaviest = ", ".join(f"`{function}` {share:.0f} %" for function, share in each.heaviest)
+        for name, profile in profiles.items():
+            heaviest = ", ".join(
+                f"`{function}` {share:.0f} %" for function, share in profile.heaviest
+            )
             lines += ["", f"{METHODS[name].label}, most at work in: {heaviest}."]
         return lines
 
     def _problems(self) -> list[str]:
         lines = []
         for tile in self._results.tiles:
-            for each in self._contestants:
-                problem = self._results.problem(tile.name, each.name)
+            for contestant in self._contestants:
+                problem = self._results.problem(tile.name, contestant.name)
                 if problem:
-                    lines.append(f"- **{each.label}** on {tile.name}: {problem}.")
+                    lines.append(f"- **{contestant.label}** on {tile.name}: {problem}.")
         return lines
 
 
@@ -198,23 +209,27 @@ def draw(results: Results, contestants: Sequence[Contestant], target: Path) -> N
 
     figure = Figure(figsize=(10.5, 4.6), layout="constrained")
     FigureCanvasAgg(figure)
-    tiles = [each for each in results.tiles if each.is_generated]
+    tiles = [tile for tile in results.tiles if tile.is_generated]
     titles = (("wall", "Time, s", 1.0), ("memory", "Peak memory, MB", 1e6))
     for axes, (cost, title, unit) in zip(figure.subplots(1, 2), titles):
         # As many colours as there may be contestants; there are ten as a rule.
         axes.set_prop_cycle(color=colormaps["tab20"].colors[::2] + colormaps["tab20"].colors[1::2])
-        for each in contestants:
+        for contestant in contestants:
             found = [
                 (tile.count, *one)
                 for tile in tiles
-                if (one := results.spread(tile.name, each.name, cost))
+                if (one := results.spread(tile.name, contestant.name, cost))
             ]
             if not found:
                 continue
             counts, medians, least, most = zip(*found)
-            medians, least, most = ([one / unit for one in each] for each in (medians, least, most))
-            style = "k--" if each.name == FLOOR else ":" if each.is_peer else "-"
-            (line,) = axes.plot(counts, medians, style, marker="o", markersize=4, label=each.label)
+            medians, least, most = (
+                [one / unit for one in costs] for costs in (medians, least, most)
+            )
+            style = "k--" if contestant.name == FLOOR else ":" if contestant.is_peer else "-"
+            (line,) = axes.plot(
+                counts, medians, style, marker="o", markersize=4, label=contestant.label
+            )
             axes.fill_between(counts, least, most, alpha=0.15, color=line.get_color())
         axes.set(xscale="log", yscale="log", xlabel="Points", title=title)
         axes.grid(which="both", alpha=0.25)
@@ -234,10 +249,10 @@ def _bold(name: str) -> str:
 
 
 def _heads(tiles: Sequence[Tile]) -> list[str]:
-    return [each.name for each in tiles]
+    return [tile.name for tile in tiles]
 
 
 def _ranged(found: Spread, digits: int) -> str:
     """Return the median, and the range where there is one."""
-    middle, least, most = (number(each, digits) for each in found)
+    middle, least, most = (number(figure, digits) for figure in found)
     return middle if least == most else f"{middle} ({least} to {most})"

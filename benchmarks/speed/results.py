@@ -105,7 +105,9 @@ class Results:
     def largest(self, *contestants: str) -> Tile | None:
         """Return the largest tile that all of these finished."""
         done = [
-            tile for tile in self.tiles if all(self.costs(tile.name, each) for each in contestants)
+            tile
+            for tile in self.tiles
+            if all(self.costs(tile.name, contestant) for contestant in contestants)
         ]
         return done[-1] if done else None
 
@@ -157,9 +159,9 @@ def save(results: Results, path: Path) -> None:
     """Write all that was measured as JSON."""
     content = {
         "facts": results.facts,
-        "tiles": [each._asdict() | {"path": str(each.path)} for each in results.tiles],
-        "runs": [each._asdict() | {"cost": each.cost._asdict()} for each in results.runs],
-        "profiles": {name: each._asdict() for name, each in results.profiles.items()},
+        "tiles": [tile._asdict() | {"path": str(tile.path)} for tile in results.tiles],
+        "runs": [run._asdict() | {"cost": run.cost._asdict()} for run in results.runs],
+        "profiles": {name: profile._asdict() for name, profile in results.profiles.items()},
     }
     path.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
@@ -169,7 +171,7 @@ def load(path: Path) -> Results:
     content = json.loads(path.read_text(encoding="utf-8"))
     return Results(
         content["facts"],
-        [Tile(**each | {"path": Path(each["path"])}) for each in content["tiles"]],
-        [Run(**each | {"cost": Cost(**each["cost"])}) for each in content["runs"]],
-        {name: Profile(**each) for name, each in content["profiles"].items()},
+        [Tile(**tile | {"path": Path(tile["path"])}) for tile in content["tiles"]],
+        [Run(**run | {"cost": Cost(**run["cost"])}) for run in content["runs"]],
+        {name: Profile(**profile) for name, profile in content["profiles"].items()},
     )

@@ -58,7 +58,7 @@ def whitebox_tin(source: str, target: str) -> None:
 
     environment = whitebox_workflows.WbEnvironment()
     environment.verbose = False
-    others = [each for each in range(256) if each != 2]
+    others = [code for code in range(256) if code != 2]
     raster = environment.lidar_tin_gridding(
         environment.read_lidar(source), returns_included="all", cell_size=1.0,
         excluded_classes=others,
@@ -76,7 +76,7 @@ def whitebox_height(source: str, target: str) -> None:
 
 
 _ALL = (floor, cloth, morphological, whitebox, whitebox_tin, whitebox_height)
-SCRIPTS = {each.__name__: each for each in _ALL}
+SCRIPTS = {script.__name__: script for script in _ALL}
 
 
 def _read(source: str):
@@ -94,7 +94,7 @@ def _write(las, target: str) -> None:
 def _coordinates(las) -> np.ndarray:
     """Return x, y and z beside a local origin, shape (n, 3)."""
     columns = zip((las.X, las.Y, las.Z), las.header.scales)
-    return np.column_stack([(each - each.min()) * scale for each, scale in columns])
+    return np.column_stack([(column - column.min()) * scale for column, scale in columns])
 
 
 def _write_classified(las, ground: np.ndarray, target: str) -> None:

@@ -107,9 +107,9 @@ def test_the_whole_benchmark_writes_the_page(folder, capsys, monkeypatch):
     for method in METHODS.values():
         assert f"**{method.label}**" in printed
         assert f"### {method.label}" in page
-        for each in method.parameters.declarations():
-            moved = each.kind in ("number", "numbers") and each.default != 0
-            assert not moved or f"| {each.label} " in page
+        for declaration in method.parameters.declarations():
+            moved = declaration.kind in ("number", "numbers") and declaration.default != 0
+            assert not moved or f"| {declaration.label} " in page
     assert "| lowest " in page
     assert "PDAL SMRF (quoted)" in page
     assert "$" not in page

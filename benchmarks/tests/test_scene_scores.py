@@ -56,18 +56,18 @@ def test_points_on_water_do_not_count():
 
 def test_a_scene_is_remembered_whole(tmp_path, monkeypatch):
     monkeypatch.setattr(cache, "FOLDER", tmp_path)
-    made, model = generated.remembered_scene("drone_50", 3)
+    first, model = generated.remembered_scene("drone_50", 3)
     again, same = generated.remembered_scene("drone_50", 3)
     assert len(list(tmp_path.rglob("drone_50-3-*.npz"))) == 1
-    for one, other in zip((*made.points, made.classes), (*again.points, again.classes)):
-        np.testing.assert_array_equal(one, other)
-    for one, other in zip(model, same):
-        np.testing.assert_array_equal(one, other)
-    x, y = made.points.x[:50], made.points.y[:50]
-    np.testing.assert_array_equal(made.terrain(x, y), again.terrain(x, y))
-    one, other = made.cloud(), again.cloud()
+    for one, loaded in zip((*first.points, first.classes), (*again.points, again.classes)):
+        np.testing.assert_array_equal(one, loaded)
+    for one, loaded in zip(model, same):
+        np.testing.assert_array_equal(one, loaded)
+    x, y = first.points.x[:50], first.points.y[:50]
+    np.testing.assert_array_equal(first.terrain(x, y), again.terrain(x, y))
+    one, loaded = first.cloud(), again.cloud()
     for name in ("x", "y", "z", "return_number", "number_of_returns"):
-        np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+        np.testing.assert_array_equal(getattr(one, name), getattr(loaded, name))
 
 
 @pytest.mark.long
@@ -106,10 +106,10 @@ def test_a_shift_moves_the_points_against_the_cells_and_nothing_else():
         np.testing.assert_array_equal(getattr(cloud, name), getattr(moved, name))
     frame = cloud.frame
     assert moved.frame == frame  # where cells begin does not move along
-    still, other = (each.points(slice(None), frame) for each in (cloud, moved))
-    for one, two, by in zip(still, other, (0.26, 0.71, 0.0)):
+    still, displaced = (some.points(slice(None), frame) for some in (cloud, moved))
+    for one, two, by in zip(still, displaced, (0.26, 0.71, 0.0)):
         np.testing.assert_allclose(two - one, by, atol=1e-6)
-    ground = [Filter("grid-minimum").ground(each) for each in (cloud, moved)]
+    ground = [Filter("grid-minimum").ground(some) for some in (cloud, moved)]
     assert 0 < np.count_nonzero(ground[0] != ground[1]) < 0.2 * cloud.count
 
 
@@ -118,9 +118,9 @@ def test_ranges_are_those_of_the_phases():
         def __init__(self, total):
             self.total_error = total
 
-    one, other = Phased((Fake(1.0), Fake(3.0))), Phased((Fake(2.0), Fake(6.0)))
+    one, two = Phased((Fake(1.0), Fake(3.0))), Phased((Fake(2.0), Fake(6.0)))
     assert one.total_error == 2.0
     assert one.range("total_error") == (2.0, 1.0, 3.0)
-    assert over_samples({"a": one, "b": other}, "total_error") == (3.0, 1.5, 4.5)
+    assert over_samples({"a": one, "b": two}, "total_error") == (3.0, 1.5, 4.5)
     assert tables.ranged(one.range("total_error")) == "2.00 (1.0 to 3.0)"
     assert tables.ranged(Phased((Fake(2.5),)).range("total_error")) == "2.50"

@@ -36,14 +36,14 @@ def test_the_truth_of_every_kind_is_true(kind):
 @pytest.mark.parametrize("kind", ["village", "quarry", "open_forest", "photogrammetry"])
 def test_a_seed_decides_all_and_moves_more_than_the_noise(kind):
     size = 0.3 * KINDS[kind].defaults.size
-    one, again, other = (make(kind, seed, size=size) for seed in (1, 1, 2))
+    one, again, another = (make(kind, seed, size=size) for seed in (1, 1, 2))
     for mine, same in zip(one.points, again.points):
         np.testing.assert_array_equal(mine, same)
     np.testing.assert_array_equal(one.classes, again.classes)
     x, y = np.meshgrid(*2 * [np.linspace(-0.4, 0.4, 30) * size])
     mine, others = (
-        each.terrain(x.ravel() + each.corner[0], y.ravel() + each.corner[1])
-        for each in (one, other)
+        scene.terrain(x.ravel() + scene.corner[0], y.ravel() + scene.corner[1])
+        for scene in (one, another)
     )
     assert np.std(mine - others) > 0.1
 

@@ -47,7 +47,7 @@ def measured(*commands):
     done = subprocess.run(
         [*python(code), json.dumps(commands)], cwd=ROOT, stdout=subprocess.PIPE, check=True
     )
-    return [Cost(*each) for each in json.loads(done.stdout)]
+    return [Cost(*fields) for fields in json.loads(done.stdout)]
 
 
 def test_cost_is_that_of_the_process():
@@ -142,10 +142,10 @@ def test_all_take_turns_and_who_is_stopped_is_left_out(survey, tmp_path):
     ]
     kept = []
     found = speed.measure_all(
-        chosen, takers, 2, 1, 2.0, lambda found: kept.append([each.name for each in found.tiles])
+        chosen, takers, 2, 1, 2.0, lambda found: kept.append([tile.name for tile in found.tiles])
     )
     assert kept == [["small"], ["small", "large"]]
-    assert [each.name for each in found.tiles] == ["small", "large"]
+    assert [tile.name for tile in found.tiles] == ["small", "large"]
     order = [(run.tile, run.round, run.contestant) for run in found.runs]
     assert order == [
         *(("small", 0, name) for name in ("floor", "slow", "thief", "mute")),
@@ -203,7 +203,7 @@ def test_exponent_is_that_of_the_generated_tiles():
 
 
 def goal(found, start):
-    return next(each for each in goals.goals(found) if each.title.startswith(start))
+    return next(reached for reached in goals.goals(found) if reached.title.startswith(start))
 
 
 def test_goals_are_met_missed_or_not_measured():
@@ -295,14 +295,14 @@ def test_figures_come_back_from_json(tmp_path):
     again = results.load(tmp_path / "a.json")
     assert again.runs == found.runs
     assert again.facts == found.facts
-    assert [str(each.path) for each in again.tiles] == [each.path for each in found.tiles]
+    assert [str(tile.path) for tile in again.tiles] == [tile.path for tile in found.tiles]
     assert again.profiles["slope"].shares == found.profiles["slope"].shares
     assert list(map(tuple, again.profiles["slope"].heaviest)) == found.profiles["slope"].heaviest
 
 
 @pytest.mark.long
 def test_peers_that_are_there_write_every_point(survey, tmp_path):
-    peers = [each for each in contestants.contestants() if each.is_peer and not each.missing]
+    peers = [peer for peer in contestants.contestants() if peer.is_peer and not peer.missing]
     if not peers:
         pytest.skip("No peer is installed.")
     runs = speed.compete(tiles.tile(survey), peers, 1, 1, 60.0)
@@ -310,15 +310,15 @@ def test_peers_that_are_there_write_every_point(survey, tmp_path):
 
 
 def test_missing_peers_say_what_installs_them():
-    peers = [each for each in contestants.contestants() if each.is_peer]
-    assert len({each.name for each in peers}) == 6
-    assert all(not each.missing or each.missing.startswith("pip install ") for each in peers)
+    peers = [peer for peer in contestants.contestants() if peer.is_peer]
+    assert len({peer.name for peer in peers}) == 6
+    assert all(not peer.missing or peer.missing.startswith("pip install ") for peer in peers)
 
 
 def test_profile_of_a_run(survey):
     if not (profiling.program() or shutil.which("py-spy")):
         pytest.skip("py-spy is not installed")
-    each = next(each for each in contestants.contestants() if each.name == "slope")
-    found = profiling.profile(each.command(survey, survey.with_name("p.laz")), tiles.tile(survey))
+    slope = next(taker for taker in contestants.contestants() if taker.name == "slope")
+    found = profiling.profile(slope.command(survey, survey.with_name("p.laz")), tiles.tile(survey))
     assert sum(found.shares.values()) == pytest.approx(100.0)
     assert found.heaviest

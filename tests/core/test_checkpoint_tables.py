@@ -149,8 +149,8 @@ def survey(tmp_path_factory):
 
 @pytest.mark.parametrize("kind", TABLES)
 def test_tables_of_field_software(tmp_path, survey, kind):
-    from bare_earth.algorithms.tools.check.survey_ground import SurveyGround
     from bare_earth.algorithms.survey.ground_classes import GroundClasses
+    from bare_earth.algorithms.tools.check.survey_ground import SurveyGround
 
     given = read(tmp_path, TABLES[kind], name="gcp_list.txt")
     found = given.located(SurveyGround.of([survey], GroundClasses()).place, near=20.0)

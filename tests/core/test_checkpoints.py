@@ -13,8 +13,8 @@ from test_assessment import Tags
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.progress import SILENT
-from bare_earth.algorithms.tools.check import survey_ground
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
+from bare_earth.algorithms.tools.check import survey_ground
 from bare_earth.algorithms.tools.check.accuracy import Accuracy, Figures, statement
 from bare_earth.algorithms.tools.check.checking import TOOL, CheckOptions
 from bare_earth.algorithms.tools.check.checkpoints import Checkpoints
