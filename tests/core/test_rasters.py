@@ -2,38 +2,30 @@
 
 import json
 import os
+from types import SimpleNamespace
 
 import laspy
 import numpy as np
 import pytest
-from runs import CancelAt, classify_file, classify_tiles, memory_store, write_terrain_models
-from surveys import cloud_of, cut, strip, write
+from runs import CancelAt
+from surveys import cut, strip, write, write_points
 
+import bare_earth
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.files import Outputs
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import blocks as blocks_module
-from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.options import TileOutput
-from bare_earth.algorithms.engine.workers import Processes, Threads
-from bare_earth.algorithms.filters.slope import SlopeFilter
+from bare_earth.algorithms.engine.workers import Threads
 from bare_earth.algorithms.grids.tin import Tin, hull_corners
-from bare_earth.algorithms.las.cloud import survey_frame
-from bare_earth.algorithms.tools.rasters.block import LAYERS
 from bare_earth.algorithms.tools.rasters.jobs import RasterJob
-from bare_earth.algorithms.tools.rasters.output import write_rasters
-from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
-from bare_earth.algorithms.tools.rasters.rows import RASTERS, RasterFiles
-from bare_earth.algorithms.tools.rasters.step import MakeRasters
 
 rasterio = pytest.importorskip("rasterio")
 
-MUCH, LITTLE = Resources(threads=2, memory=2.0), Resources(threads=2, memory=0.001)
+SLOPE = {"method": "slope", "preset": "whitebox"}
 
 
 def _cloud(x, y, z):
-    return cloud_of(*(np.rint(each * 100) for each in (x, y, z)), classes=2)
+    """Return places in the steps of a file."""
+    return tuple(np.round(values, 2) for values in (x, y, z))
 
 
 def _hills(count, size=600.0, keep=None):
@@ -43,35 +35,31 @@ def _hills(count, size=600.0, keep=None):
     return _cloud(x, y, 100.0 + 8.0 * np.sin(x / 60.0) + 0.05 * y)
 
 
-def _made(cloud, folder, max_edge=None, files=("dtm",), cell=2.5, shown=True):
-    files = RasterFiles(**{name: folder / f"{name}.tif" for name in files})
-    step = MakeRasters(files, TerrainModel(cell), SurfaceModel(max_edge=max_edge))
-    every = np.full(cloud.count, shown)
-    files_of = [(cloud, every, every, every)]
-    store = memory_store(files_of, survey_frame(cloud.crs), step.blocks)
-    made = step.work(store, Resources(), SILENT)
-    with Outputs() as outputs:
-        write_rasters(made, survey_frame(cloud.crs), step, outputs)
-    with rasterio.open(next(iter(files.wanted.values()))) as raster:
+def _made(cloud, folder, max_edge=None, names=("dtm",), cell=2.5):
+    """Return the cells of the first raster of ground points, and x and y of their middles."""
+    source = write_points(folder / "in.las", *cloud, 2, offset=(0.0, 0.0, 0.0))
+    files = {name: folder / f"{name}.tif" for name in names}
+    bare_earth.terrain(source, **files, dtm_cell_size=cell, max_edge=max_edge)
+    with rasterio.open(files[names[0]]) as raster:
         values = raster.read(1, masked=True).filled(np.nan)
         rows, columns = np.mgrid[: raster.height, : raster.width]
-        x, y = (np.array(each) for each in raster.xy(rows.ravel(), columns.ravel()))
-    return values, x.reshape(values.shape), y.reshape(values.shape), len(made)
+        x, y = (np.array(places) for places in raster.xy(rows.ravel(), columns.ravel()))
+    return values, x.reshape(values.shape), y.reshape(values.shape)
 
 
-def _vertices_of(points, side):
+def _vertices_of(x, y, z, side):
     """Return the point nearest to the centre of each square that has any, and the hull."""
-    column, row = np.floor(points.x / side), np.floor(points.y / side)
-    distance = (points.x / side - column - 0.5) ** 2 + (points.y / side - row - 0.5) ** 2
-    order = np.lexsort((points.z, distance, column, row))
+    column, row = np.floor(x / side), np.floor(y / side)
+    distance = (x / side - column - 0.5) ** 2 + (y / side - row - 0.5) ** 2
+    order = np.lexsort((z, distance, column, row))
     first = np.append(True, (np.diff(column[order]) != 0) | (np.diff(row[order]) != 0))
-    return np.union1d(order[first], hull_corners(points.x, points.y))
+    return np.union1d(order[first], hull_corners(x, y))
 
 
 def _of_tin(cloud, x, y, cell=2.5):
-    points = cloud.points(slice(None), survey_frame(cloud.crs))
-    points = points.take(_vertices_of(points, cell / 2.0))
-    return Tin(*points).interpolate(x.ravel(), y.ravel()).reshape(x.shape)
+    vertices = _vertices_of(*cloud, cell / 2.0)
+    tin = Tin(*(values[vertices] for values in cloud))
+    return tin.interpolate(x.ravel(), y.ravel()).reshape(x.shape)
 
 
 @pytest.fixture
@@ -92,25 +80,16 @@ CLOUDS = {
 }
 
 
-def test_each_raster_can_be_asked_for():
-    assert {layer for row in RASTERS.values() for layer in row.layers} == set(LAYERS)
-    wanted = RasterFiles(**{name: f"{name}.tif" for name in reversed([*RASTERS])}).wanted
-    assert [*wanted] == [*RASTERS]
-    with pytest.raises(TypeError, match="no raster height, only dtm"):
-        RasterFiles(height="a.tif")
-
-
 @pytest.mark.parametrize("name", CLOUDS)
 def test_a_terrain_model_in_blocks_is_that_of_one_tin(small_blocks, tmp_path, name):
     cloud = CLOUDS[name]
-    found, x, y, count = _made(cloud, tmp_path)
-    assert count >= 4
+    found, x, y = _made(cloud, tmp_path)
     expected = _of_tin(cloud, x, y)
     lost = np.isnan(found) & ~np.isnan(expected)
     assert not (np.isnan(expected) & ~np.isnan(found)).any()
     # Cells along the border that only slivers of the hull reach have no value.
     reach, most = {"sparse": (100.0, 0.15), "uneven": (20.0, 0.03)}.get(name, (7.0, 0.03))
-    border = max(cloud.x.max(), cloud.y.max()) * 0.01 - np.maximum(np.abs(x), np.abs(y))
+    border = max(cloud[0].max(), cloud[1].max()) - np.maximum(np.abs(x), np.abs(y))
     assert lost.mean() < most and (border[lost] < reach).all()
     wrong = np.abs(found - expected)
     assert np.nanquantile(wrong, 0.5) < 0.001
@@ -120,7 +99,7 @@ def test_a_terrain_model_in_blocks_is_that_of_one_tin(small_blocks, tmp_path, na
 
 
 def test_gaps_wider_than_the_longest_edge_stay_open(small_blocks, tmp_path):
-    found, x, y, _ = _made(CLOUDS["lake"], tmp_path, max_edge=30.0)
+    found, x, y = _made(CLOUDS["lake"], tmp_path, max_edge=30.0)
     assert np.isnan(found[_is_lake(x, y, -20.0)]).all()
     inside = ~_is_lake(x, y, 10.0) & (np.abs(x) < 290.0) & (np.abs(y) < 290.0)
     assert np.isfinite(found[inside]).all()
@@ -128,28 +107,24 @@ def test_gaps_wider_than_the_longest_edge_stay_open(small_blocks, tmp_path):
 
 @pytest.mark.parametrize("max_edge", [None, 20.0])
 def test_blocks_of_any_size_give_the_same_rasters(tmp_path, monkeypatch, max_edge):
-    files = ("dtm", "dsm", "chm", "hillshade")
+    names = "dtm", "dsm", "chm", "hillshade"
     rasters = []
     for side in (2000.0, 100.0):
         monkeypatch.setattr(blocks_module, "_SIDE", side)
-        folder = tmp_path / str(side)
-        folder.mkdir()
-        _made(CLOUDS["dense"], folder, max_edge, files)
-        for name in files:
-            with rasterio.open(folder / f"{name}.tif") as raster:
-                rasters.append(raster.read(1))
+        _made(CLOUDS["dense"], tmp_path, max_edge, names)
+        rasters += [_values(tmp_path / f"{name}.tif")[0] for name in names]
     for one, other in zip(rasters[:4], rasters[4:]):
         assert one.shape == other.shape
         most = 1 if one.dtype == np.uint8 else 0.001
         assert np.mean(np.abs(one.astype(float) - other) > most) < 1e-4
 
 
-def _of_files(sources, folder, resources=MUCH, **options):
+def _of_files(sources, folder, **options):
     folder.mkdir()
     names = "dtm", "dsm", "chm", "hillshade", "confidence"
-    files = RasterFiles(**{name: folder / f"{name}.tif" for name in names})
-    write_terrain_models(sources, files, resources=resources, **options)
-    return [_values(path) for path in files.wanted.values()]
+    files = {name: folder / f"{name}.tif" for name in names}
+    bare_earth.terrain(sources, **files, **{"threads": 2, "memory": 2.0, **options})
+    return [_values(path) for path in files.values()]
 
 
 def _values(path):
@@ -157,8 +132,11 @@ def _values(path):
         return raster.read(1), raster.transform
 
 
-def _same(one, other):
-    return all(np.array_equal(a, b) and at == by for (a, at), (b, by) in zip(one, other))
+def _same(rasters, others):
+    return all(
+        np.array_equal(cells, other_cells) and transform == other_transform
+        for (cells, transform), (other_cells, other_transform) in zip(rasters, others)
+    )
 
 
 @pytest.fixture(scope="module")
@@ -183,69 +161,65 @@ def of_one(survey):
 
 def test_many_files_give_the_rasters_of_one_cell_by_cell(survey, small_blocks, tmp_path):
     one = _of_files(survey / "one.laz", tmp_path / "one")
-    many = _of_files([survey / "many"], tmp_path / "many", workers=Threads(MUCH))
+    many = _of_files(survey / "many", tmp_path / "many")
     assert _same(one, many)
-    names = [each.removesuffix(".tif") for each in sorted(os.listdir(tmp_path / "many"))]
-    assert names == ["chm", "confidence", "dsm", "dtm", "hillshade"]
+    names = "chm", "confidence", "dsm", "dtm", "hillshade"
+    assert sorted(os.listdir(tmp_path / "many")) == [f"{name}.tif" for name in names]
 
 
 def test_processes_give_the_rasters_of_threads(survey, of_one, tmp_path):
-    many = _of_files([survey / "many"], tmp_path / "more", workers=Processes(MUCH))
+    many = _of_files(survey / "many", tmp_path / "more", scheduler="processes")
     assert _same(of_one, many)
 
 
-class CountedRasters(Threads):
-    """One thread that counts the jobs of rasters, and cancels the run at one of them."""
+@pytest.fixture
+def raster_jobs(monkeypatch):
+    """How many jobs of rasters began; a run is cancelled by that which makes them `most`."""
+    jobs, submit = SimpleNamespace(count=0, most=None), Threads.submit
 
-    def __init__(self, last=None):
-        super().__init__(Resources(threads=1))
-        self.count, self._last = 0, last
+    def counting(workers, job):
+        jobs.count += isinstance(job, RasterJob)
+        if jobs.count == jobs.most:
+            raise Cancelled
+        return submit(workers, job)
 
-    def submit(self, job):
-        if isinstance(job, RasterJob):
-            self.count += 1
-            if self.count == self._last:
-                raise Cancelled
-        return super().submit(job)
+    monkeypatch.setattr(Threads, "submit", counting)
+    return jobs
 
 
-def test_a_cancelled_survey_goes_on_with_the_rasters_that_are_left(small_blocks, tmp_path):
+def test_a_cancelled_survey_goes_on_with_the_rasters_that_are_left(
+    small_blocks, tmp_path, raster_jobs
+):
     # Blocks 5 km apart are two jobs.
-    near = strip(3000, 60.0, 40.0)
-    (tmp_path / "in").mkdir()
+    near, source = strip(3000, 60.0, 40.0), tmp_path / "in"
+    source.mkdir()
     for number in range(2):
-        write(tmp_path / "in" / f"{number}.laz", near + np.array([500_000 * number, 0, 0]))
-
-    def run(name, workers, **output):
-        files = RasterFiles(dtm=tmp_path / f"{name}.tif")
-        classify_tiles(
-            [tmp_path / "in"], tmp_path / name, SlopeFilter(preset="whitebox"), rasters=files,
-            workers=workers, output=TileOutput(**output),
-        )  # fmt: skip
-        return _values(files.wanted["dtm"])
-
-    whole = CountedRasters()
-    expected = run("once", whole)
+        write(source / f"{number}.laz", near + np.array([500_000 * number, 0, 0]))
+    once, more = tmp_path / "once.tif", tmp_path / "more.tif"
+    bare_earth.classify(source, tmp_path / "once", dtm=once, threads=1, **SLOPE)
+    count = raster_jobs.count
+    raster_jobs.count, raster_jobs.most = 0, count
+    run = {"dtm": more, "threads": 1, **SLOPE}
     with pytest.raises(Cancelled):
-        run("more", CountedRasters(last=whole.count))
-    assert not (tmp_path / "more.tif").exists()
-    rest = CountedRasters()
-    assert _same([run("more", rest, resume=True)], [expected])
-    assert whole.count > 1 and rest.count == 1
+        bare_earth.classify(source, tmp_path / "more", **run)
+    assert not more.exists()
+    raster_jobs.count, raster_jobs.most = 0, None
+    bare_earth.classify(source, tmp_path / "more", resume=True, **run)
+    assert _same([_values(more)], [_values(once)])
+    assert count > 1 and raster_jobs.count == 1
     assert not list((tmp_path / "more").rglob("*.npz"))
 
 
 def test_a_file_that_does_not_fit_into_memory_gives_the_same_rasters(survey, of_one, tmp_path):
-    assert _same(of_one, _of_files(survey / "one.laz", tmp_path / "other", LITTLE))
+    assert _same(of_one, _of_files(survey / "one.laz", tmp_path / "other", memory=0.001))
 
 
 def test_classified_tiles_give_the_terrain_model_of_one_file(survey, tmp_path):
-    dtm, shade = tmp_path / "dtm.tif", tmp_path / "shade.tif"
-    files = RasterFiles(dtm=dtm, hillshade=shade)
-    many = tmp_path / "out"
-    classify_tiles([survey / "many"], many, SlopeFilter(), rasters=files)
-    classify_file(survey / "one.laz", tmp_path / "one.laz", SlopeFilter(), dtm=tmp_path / "1.tif")
-    assert _same([_values(dtm)], [_values(tmp_path / "1.tif")])
+    dtm, shade, many = tmp_path / "dtm.tif", tmp_path / "shade.tif", tmp_path / "out"
+    one = tmp_path / "1.tif"
+    bare_earth.classify(survey / "many", many, method="slope", dtm=dtm, hillshade=shade)
+    bare_earth.classify(survey / "one.laz", tmp_path / "one.laz", method="slope", dtm=one)
+    assert _same([_values(dtm)], [_values(one)])
     assert shade.exists() and not list(many.glob("*.npz"))
 
 
@@ -261,12 +235,12 @@ def test_the_terrain_command_takes_a_folder(survey, tmp_path, capsys, threads_fo
 @pytest.mark.parametrize("fraction", [0.1, 0.5, 0.9])
 def test_a_cancel_leaves_nothing(survey, tmp_path, fraction):
     with pytest.raises(Cancelled):
-        _of_files([survey / "many"], tmp_path / "out", progress=CancelAt(fraction))
+        _of_files(survey / "many", tmp_path / "out", progress=CancelAt(fraction))
     assert os.listdir(tmp_path / "out") == []
 
 
 def test_confidence_is_low_across_gaps_and_high_where_ground_is_dense(tmp_path):
-    found, x, y, _ = _made(CLOUDS["lake"], tmp_path, files=("confidence",), cell=1.0)
+    found, x, y = _made(CLOUDS["lake"], tmp_path, names=("confidence",), cell=1.0)
     within, beyond = _is_lake(x, y, -30.0), ~_is_lake(x, y, 30.0) & (np.abs(x) < 270)
     assert np.nanmedian(found[within]) < 0.7 * np.nanmedian(found[beyond])
     assert np.nanmin(found) >= 0.0 and np.nanmax(found) <= 1.0
@@ -275,9 +249,8 @@ def test_confidence_is_low_across_gaps_and_high_where_ground_is_dense(tmp_path):
 def test_confidence_has_no_data_where_the_terrain_has_none(tmp_path):
     along, off = np.mgrid[0:200.0, 0:60.0].reshape(2, -1)
     stripe = _cloud((along + off) / 2, (along - off) / 2, np.zeros(len(along)))
-    files = ("dtm", "confidence")
-    terrain, _, _, _ = _made(stripe, tmp_path, files=files[:1], cell=1.0)
-    found, _, _, _ = _made(stripe, tmp_path, files=files[1:], cell=1.0)
+    terrain, _, _ = _made(stripe, tmp_path, cell=1.0)
+    found, _, _ = _made(stripe, tmp_path, names=("confidence",), cell=1.0)
     assert 0.3 < np.isnan(terrain).mean() < 0.7
     assert np.array_equal(np.isnan(found), np.isnan(terrain))
 
@@ -290,50 +263,38 @@ def test_the_file_is_cloud_optimised(tmp_path):
         assert raster.tags(ns="IMAGE_STRUCTURE")["LAYOUT"] == "COG"
 
 
-def test_without_ground_there_is_a_sentence_and_no_file(tmp_path):
-    with pytest.raises(BareEarthError, match="no ground point"):
-        _made(CLOUDS["sparse"], tmp_path, shown=False)
-    assert not list(tmp_path.iterdir())
-
-
-def test_a_few_stray_points_do_not_make_a_huge_raster(tmp_path):
-    far = np.array([0.0, 1e7, 1e7]), np.array([0.0, 1e7, 1.0]), np.zeros(3)
-    with pytest.raises(BareEarthError, match="stray coordinates"):
-        _made(_cloud(*far), tmp_path, cell=1.0)
-
-
 # One raster for each file
 
 
 @pytest.fixture
 def named(tmp_path):
     names = "dtm", "hillshade", "chm"
-    return RasterFiles(**{name: tmp_path / f"{name}.tif" for name in names})
+    return {name: tmp_path / f"{name}.tif" for name in names}
 
 
 def test_the_rasters_of_single_files_are_cut_from_that_of_all(survey, named, tmp_path):
-    write_terrain_models([survey / "many"], named)
-    whole = {name: _values(path) for name, path in named.wanted.items()}
-    for path in named.wanted.values():
+    bare_earth.terrain(survey / "many", **named)
+    whole = {name: _values(path) for name, path in named.items()}
+    for path in named.values():
         path.unlink()
-    write_terrain_models([survey / "many"], named, per_file=True)
+    bare_earth.terrain(survey / "many", **named, raster_per_file=True)
     files = sorted(path.stem for path in (survey / "many").iterdir())
-    for name, (cells, at) in whole.items():
+    for name, (cells, transform) in whole.items():
         assert not (tmp_path / f"{name}.tif").exists()
         assert sorted(path.stem for path in (tmp_path / name).iterdir()) == files
         # Cells in gaps can differ by a rounding: they are interpolated in other groups.
         most = 1 if cells.dtype == np.uint8 else 1e-4
-        for each in files:
-            with laspy.open(survey / "many" / f"{each}.laz") as reader:
+        for file in files:
+            with laspy.open(survey / "many" / f"{file}.laz") as reader:
                 west, north = reader.header.mins[0], reader.header.maxs[1]
-            part, place = _values(tmp_path / name / f"{each}.tif")
+            part, place = _values(tmp_path / name / f"{file}.tif")
             assert 0 <= west - place.c < 1.0 and 0 <= place.f - north < 1.0
-            column, row = round(place.c - at.c), round(at.f - place.f)
+            column, row = round(place.c - transform.c), round(transform.f - place.f)
             expected = cells[row:, column:][: part.shape[0], : part.shape[1]]
             assert np.abs(part.astype(float) - expected).max() <= most
         # Programs see all of them as one.
         with rasterio.open(tmp_path / f"{name}.vrt") as joined:
-            assert joined.transform == at and joined.crs == part_crs(tmp_path / name)
+            assert joined.transform == transform and joined.crs == part_crs(tmp_path / name)
             seen, covered = joined.read(1), np.zeros(cells.shape, bool)
             covered[seen != joined.nodata] = True
             assert np.abs(seen.astype(float) - cells)[covered].max() <= most
@@ -362,17 +323,17 @@ def test_the_commands_make_one_raster_for_each_file(survey, tmp_path, threads_fo
 def test_rasters_of_single_files_that_would_do_harm_are_refused(survey, named, tmp_path):
     (tmp_path / "dtm").write_bytes(b"")
     with pytest.raises(BareEarthError, match="dtm: it is a file"):
-        write_terrain_models([survey / "many"], named, per_file=True)
+        bare_earth.terrain(survey / "many", **named, raster_per_file=True)
     (tmp_path / "dtm").unlink()
     alike = [write(tmp_path / f"a.{suffix}", strip(300), classes=2) for suffix in ("las", "laz")]
     with pytest.raises(BareEarthError, match=r"would both become a\.tif"):
-        write_terrain_models(alike, named, per_file=True)
+        bare_earth.terrain(alike, **named, raster_per_file=True)
     with pytest.raises(BareEarthError, match=r"would both become a\.tif"):
-        classify_tiles(alike, tmp_path / "out", SlopeFilter(), rasters=named, per_file=True)
+        bare_earth.classify(alike, tmp_path / "out", **named, raster_per_file=True, **SLOPE)
     assert sorted(os.listdir(tmp_path)) == ["a.las", "a.laz"]
 
 
 def test_a_cancel_leaves_no_raster_and_no_folder_of_single_files(survey, named, tmp_path):
     with pytest.raises(Cancelled):
-        write_terrain_models([survey / "many"], named, progress=CancelAt(0.97), per_file=True)
+        bare_earth.terrain(survey / "many", **named, progress=CancelAt(0.97), raster_per_file=True)
     assert os.listdir(tmp_path) == []
