@@ -6,18 +6,18 @@ import pickle
 
 import numpy as np
 import pytest
-from runs import said, write_terrain_models
+from runs import said
 from scipy import ndimage
 from scipy.spatial import cKDTree
 from surveys import ORIGIN, cut, write
 
+import bare_earth
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.grids import outline as outline_module
 from bare_earth.algorithms.grids.canopy import without_pits
 from bare_earth.algorithms.grids.morphology import closing
 from bare_earth.algorithms.grids.outline import Discs, Outline, strips, with_gaps_inside
-from bare_earth.algorithms.tools.rasters.parameters import SurfaceModel, TerrainModel
-from bare_earth.algorithms.tools.rasters.rows import RASTERS, RasterFiles
+from bare_earth.algorithms.tools.rasters.rows import RASTERS
 
 rasterio = pytest.importorskip("rasterio")
 
@@ -108,11 +108,11 @@ def _write(path, x, y, z, classes=2):
     return write(path, integers, classes=classes)
 
 
-def _terrain(folder, sources, surface=SurfaceModel(), cell=1.0, names=("dtm",), **more):
+def _terrain(folder, sources, cell=1.0, names=("dtm",), **options):
     folder.mkdir(exist_ok=True)
-    files = RasterFiles(**{name: folder / f"{name}.tif" for name in names})
-    write_terrain_models(sources, files, model=TerrainModel(cell), surface=surface, **more)
-    return [_values(path) for path in files.wanted.values()]
+    files = {name: folder / f"{name}.tif" for name in names}
+    bare_earth.terrain(sources, **files, dtm_cell_size=cell, **options)
+    return [_values(path) for path in files.values()]
 
 
 def _values(path):
@@ -270,7 +270,7 @@ def test_a_lake_is_filled_and_a_bay_is_not(tmp_path):
         assert np.isnan(values[bay]).all()
     # Nothing was measured on the lake, so nothing is known about trees there.
     assert np.isnan(rasters[2][0][lake]).all()
-    limited = _terrain(tmp_path / "b", path, SurfaceModel(max_edge=30.0), names=names)
+    limited = _terrain(tmp_path / "b", path, names=names, max_edge=30.0)
     for values, _, _ in limited:
         assert np.isnan(values[lake & (np.hypot(x - 90.0, y - 200.0) < 30.0)]).all()
 
@@ -416,7 +416,7 @@ def test_pits_of_the_canopy_are_filled_without_seams(tmp_path, monkeypatch):
     path, *_ = _cloud(tmp_path / "in", lambda x, y: x >= 0.0)
     names = ("dsm", "chm")
     plain = _terrain(tmp_path / "a", path, names=names, cell=2.0)
-    filled = _terrain(tmp_path / "b", path, SurfaceModel(pit_free=True), cell=2.0, names=names)
+    filled = _terrain(tmp_path / "b", path, 2.0, names, pit_free=True)
     assert np.array_equal(plain[0][0], filled[0][0], equal_nan=True)
     before, after = plain[1][0], filled[1][0]
     assert np.array_equal(np.isnan(before), np.isnan(after))
@@ -424,18 +424,8 @@ def test_pits_of_the_canopy_are_filled_without_seams(tmp_path, monkeypatch):
     monkeypatch.setattr(outline_module, "_CELLS_A_STRIP", 1)
     monkeypatch.setattr(outline_module, "_ROWS", 7)
     monkeypatch.setattr(blocks_module, "_SIDE", 100.0)
-    strips = _terrain(tmp_path / "c", path, SurfaceModel(pit_free=True), cell=2.0, names=names)
+    strips = _terrain(tmp_path / "c", path, 2.0, names, pit_free=True)
     assert np.nanmax(np.abs(strips[1][0] - after)) < 0.001
-
-
-def test_the_commands_fill_pits(tmp_path):
-    path, *_ = _cloud(tmp_path / "in", lambda x, y: x >= 0.0, side=120.0)
-    sums = []
-    for more in ([], ["--pit-free"]):
-        chm = tmp_path / "chm.tif"
-        assert said("terrain", path, "--chm", chm, *more)[0] == 0
-        sums.append(np.nansum(_values(chm)[0]))
-    assert sums[1] > 1.05 * sums[0]
 
 
 def test_a_survey_smaller_than_a_few_cells_has_terrain(tmp_path):

@@ -12,7 +12,7 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
-from runs import classify_file, classify_tiles, environment, memory_store, temporary_in
+from runs import classify_tiles, environment, temporary_in
 from surveys import (
     CountingJob,
     DeadlyJob,
@@ -29,37 +29,40 @@ from surveys import (
     write,
 )
 
+import bare_earth
 from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.jobs import PointJob
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.options import TileInput, TileOutput
+from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las import copc as copc_module
 from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.las import reading as reading_module
 from bare_earth.algorithms.las.cloud import survey_frame
-from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.survey.files import open_survey
-from bare_earth.algorithms.survey.point_counts import PointCounts
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
-from bare_earth.algorithms.tools.ground.labelling import Label, label_ground
+from bare_earth.algorithms.tools.ground import step as step_module
 from bare_earth.algorithms.tools.ground.method import TileMethod
 from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.ground.step import LabelGround
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
-PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
 BLOCKS = Blocks(80.0, 30.0, most_points=2500)
 FAST = SlopeFilter(preset="whitebox")
-RESUME = TileOutput(resume=True)
+
+
+def classify(sources, target, blocks=None, method="slope", **options):
+    """Classify with the fastest filter, or with another one, in blocks of its own or in others."""
+    if method == "slope":
+        options = {"preset": "whitebox", **options}
+    with pytest.MonkeyPatch.context() as patch:
+        if blocks:
+            patch.setattr(step_module, "blocks_of", lambda parameters: blocks)
+        return bare_earth.classify(sources, target, method=method, **options)
 
 
 @pytest.fixture
@@ -77,50 +80,26 @@ def many(tmp_path_factory):
     """Sixteen files, and the bytes that they become in one go."""
     folder = tmp_path_factory.mktemp("many")
     cut(folder / "in", strip(30_000, 600.0, 200.0), 16)
-    classify_tiles([folder / "in"], folder / "once", FAST)
+    classify(folder / "in", folder / "once")
     return folder / "in", bytes_of(folder / "once")
-
-
-def whole_classes(path, parameters, selection=Selection(), blocks=BLOCKS):
-    """Return the points of a file with the classes that they get as one cloud in these blocks."""
-    cloud = read_cloud(path)
-    selected = selection.choose(cloud, PointCounts())
-    store = memory_store(
-        [(cloud, selected, selection.known_ground(cloud, selected))],
-        survey_frame(cloud.crs),
-        blocks,
-    )
-    label_ground(store, parameters, blocks, selection)
-    labels = store.values(0)
-    rows = points_of([path])
-    unsorted = np.column_stack((cloud.x, cloud.y, cloud.z)).astype(np.int64)
-    shift = np.round((np.array(cloud.offset) - (500_000.0, 5_700_000.0, 0.0)) / cloud.scale)
-    low, decks = labels == Label.LOW, labels == Label.BRIDGE
-    classes = selection.classes(cloud, labels == Label.GROUND, low, decks=decks)
-    found = np.column_stack((unsorted + shift.astype(np.int64), classes))
-    found = found[np.lexsort(found.T[::-1])]
-    assert np.array_equal(found[:, :3], rows[:, :3])
-    return found
 
 
 # The same labels as those of one file
 
 
-@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-def test_tiles_get_the_labels_of_one_file_with_all_points(parameters, tmp_path, out):
-    integers, selection = strip(3500, 150.0, 75.0), Selection(low_noise_class=True)
+@pytest.mark.parametrize("method", METHODS)
+def test_tiles_get_the_labels_of_one_file_with_all_points(method, tmp_path, out):
+    integers = strip(3500, 150.0, 75.0)
+    run = {"method": method, "preset": None, "low_noise_class": True, "blocks": BLOCKS}
     whole = write(tmp_path / "whole.las", integers)
-    expected = whole_classes(whole, parameters, selection)
+    classify(whole, tmp_path / "done.las", **run)
+    expected = points_of([tmp_path / "done.las"])
     assert {1, 2, 7} == set(np.unique(expected[:, 3]))
     folder = cut(tmp_path / "in", integers, 6)
-    for threads in (1, 3) if parameters == SlopeFilter() else (2,):
-        summary = classify_tiles(
-            [folder], out, parameters, selection, blocks=BLOCKS,
-            workers=Threads(Resources(threads=threads)),
-        )  # fmt: skip
+    for threads in (1, 3) if method == "slope" else (2,):
+        summary = classify(folder, out, threads=threads, **run)
         assert not summary.failures and summary.done_count == summary.tile_count == 6
-        found = points_of(finished(out))
-        assert np.array_equal(found, expected)
+        assert np.array_equal(points_of(finished(out)), expected)
         assert summary.ground_count == np.count_nonzero(expected[:, 3] == 2)
         assert summary.point_count == len(integers)
 
@@ -132,28 +111,25 @@ def test_real_tiles_get_the_labels_of_the_file_they_were_cut_from(name, tmp_path
     las = laspy.read(real(name))
     x, y = np.asarray(las.x), np.asarray(las.y)
     near = (x < x.min() + 100) & (y < y.min() + 100)
-    integers = np.column_stack([np.round(each * 100) for each in (x, y, np.asarray(las.z))])
+    integers = np.column_stack([np.round(metres * 100) for metres in (x, y, np.asarray(las.z))])
     integers = (integers[near] - [25_000_000, 570_000_000, 0]).astype(np.int64)
     if len(integers) > 12_000:
         integers = integers[:: len(integers) // 12_000 + 1]
-    parameters, blocks = TinDensification(), Blocks(70.0, 50.0)
     whole = write(tmp_path / "whole.laz", integers)
     folder = cut(tmp_path / "in", integers, 8)
-    classify_tiles([folder], out, parameters, blocks=blocks)
-    found = points_of(finished(out))
-    assert np.array_equal(found, whole_classes(whole, parameters, blocks=blocks))
-    if "samp52" not in name:
-        return
-    # And with the blocks of the method, as a user runs both.
-    classify_file(whole, tmp_path / "done.laz", parameters)
-    classify_tiles([folder], out, parameters)
-    found = points_of(finished(out))
-    assert np.array_equal(found, points_of([tmp_path / "done.laz"]))
-    assert 0.2 < np.mean(found[:, 3] == 2) < 0.98
+    # In small blocks, and in those of the method, as a user runs both.
+    for blocks in (Blocks(70.0, 50.0), None):
+        for source, target in ((whole, tmp_path / "done.laz"), (folder, out)):
+            classify(source, target, blocks, method="tin-densification")
+        found = points_of(finished(out))
+        assert np.array_equal(found, points_of([tmp_path / "done.laz"]))
+        assert 0.2 < np.mean(found[:, 3] == 2) < 0.98
+        if "samp52" not in name:
+            return
 
 
 def test_a_tile_changes_in_nothing_but_its_classes(six, out):
-    classify_tiles([six], out, FAST)
+    classify(six, out)
     for path in six.iterdir():
         before, after = laspy.read(path), laspy.read(out / path.name)
         assert np.array_equal(before.X, after.X) and np.array_equal(before.Z, after.Z)
@@ -162,12 +138,12 @@ def test_a_tile_changes_in_nothing_but_its_classes(six, out):
 
 
 def test_processes_give_the_same_bytes_as_threads(many, out, las):
-    heard = las.Heard()
+    progress = las.Heard()
     workers = Processes(Resources(threads=2))
-    summary = classify_tiles([many[0]], out, FAST, progress=heard, workers=workers)
-    assert summary.done_count == 16 and heard.fractions == sorted(heard.fractions)
+    summary = classify_tiles([many[0]], out, FAST, progress=progress, workers=workers)
+    assert summary.done_count == 16 and progress.fractions == sorted(progress.fractions)
     assert bytes_of(out) == many[1]
-    assert sum(": " in each and "% ground" in each for each in heard.infos) == 16
+    assert sum(": " in text and "% ground" in text for text in progress.infos) == 16
 
 
 def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, out, las):
@@ -177,21 +153,19 @@ def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, 
         cloud.return_number[: 3 + int(path.stem)] = 0
         cloud.write(str(path))
     heard = las.Heard()
-    classify_tiles([folder], out, FAST, progress=heard, workers=Threads(Resources(threads=1)))
-    (told,) = (each for each in heard.warnings if "return number" in each)
+    classify(folder, out, progress=heard, threads=1)
+    (told,) = (text for text in heard.warnings if "return number" in text)
     assert told == (
         "0.laz: 3 points have no return number: they are taken as single returns."
         " The same, with other numbers: 1.laz, 2.laz, 3.laz."
     )
 
 
-def test_tiles_larger_than_memory_give_the_same_bytes(tmp_path, out, monkeypatch, las):
+def test_tiles_larger_than_memory_give_the_same_bytes(tmp_path, out, monkeypatch):
     cut(tmp_path / "in", strip(60_000, 400.0, 200.0), 6)
-    classify_tiles([tmp_path / "in"], tmp_path / "much", FAST)
+    classify(tmp_path / "in", tmp_path / "much")
     monkeypatch.setattr(reading_module, "_CHUNK", 2000)
-    workers, heard = Threads(Resources(threads=2, memory=0.001)), las.Heard()
-    classify_tiles([tmp_path / "in"], out, FAST, workers=workers, progress=heard)
-    assert workers.at_once == 1
+    classify(tmp_path / "in", out, threads=2, memory=0.001)
     assert bytes_of(out) == bytes_of(tmp_path / "much")
 
 
@@ -199,8 +173,7 @@ def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
     many, out, tmp_path, monkeypatch
 ):
     monkeypatch.setattr(copc_octree, "_LEAF_POINTS", 400)
-    copc = TileOutput(format="copc.laz")
-    classify_tiles([many[0]], tmp_path / "much", FAST, output=copc)
+    classify([many[0]], tmp_path / "much", format="copc.laz")
     waited, waiting_points = [], copc_module.WaitingPoints
 
     def noting(branch, parts, room):
@@ -209,8 +182,7 @@ def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
 
     monkeypatch.setattr(copc_octree, "_BYTES_TO_SORT", 3000)
     monkeypatch.setattr(copc_module, "WaitingPoints", noting)
-    workers = Threads(Resources(threads=2, memory=0.002))
-    classify_tiles([many[0]], out, FAST, workers=workers, output=copc)
+    classify(many[0], out, threads=2, memory=0.002, format="copc.laz")
     assert len(waited) == 16 and 400 <= min(waited) < max(waited) < 700
     assert bytes_of(out) == bytes_of(tmp_path / "much")
 
@@ -229,48 +201,48 @@ def test_blocks_are_read_in_groups_that_fit_into_memory(six):
 def test_copc_files_of_which_only_parts_are_read_give_the_same(tmp_path, out):
     integers, blocks = strip(5000, 150.0, 75.0), Blocks(40.0, 8.0)
     folder = cut(tmp_path / "in", integers, 4)
-    classify_tiles([folder], tmp_path / "copc", FAST, output=TileOutput(format="copc.laz"))
-    classify_tiles([tmp_path / "copc" / "classified.vpc"], out, FAST, blocks=blocks)
-    found = points_of(finished(out))
+    classify(folder, tmp_path / "copc", format="copc.laz")
+    classify(tmp_path / "copc" / "classified.vpc", out, blocks=blocks)
     whole = write(tmp_path / "whole.las", integers)
-    assert np.array_equal(found, whole_classes(whole, FAST, blocks=blocks))
+    classify(whole, tmp_path / "done.las", blocks=blocks)
+    assert np.array_equal(points_of(finished(out)), points_of([tmp_path / "done.las"]))
 
 
 # What is written
 
 
 def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
-    summary = classify_tiles([six], out, FAST)
+    summary = classify(six, out)
     assert [each.name for each in read_vpc(out / "classified.vpc")] == sorted(
         path.name for path in six.iterdir()
     )
     assert summary.vpc == str(out / "classified.vpc")
     # It is a survey again.
     other = tmp_path / "again"
-    classify_tiles([out / "classified.vpc"], other, FAST, vpc=tmp_path / "b.vpc")
+    classify(out / "classified.vpc", other, vpc=tmp_path / "b.vpc")
     assert bytes_of(other) == bytes_of(out)
     assert len(read_vpc(tmp_path / "b.vpc")) == 6
 
 
 @pytest.mark.parametrize("format", ["las", "laz", "copc.laz"])
 def test_the_format_can_be_chosen(format, six, out):
-    classify_tiles([six], out, FAST, output=TileOutput(format=format))
+    classify(six, out, format=format)
     assert {path.name for path in out.glob("*.la[sz]")} == {f"{n}.{format}" for n in range(6)}
     assert {tile.is_copc for tile in open_survey([out]).tiles} == {format == "copc.laz"}
 
 
 def test_outputs_that_would_do_harm_are_refused(six, out, tmp_path):
     with pytest.raises(BareEarthError, match="same folder"):
-        classify_tiles([six], six, FAST)
+        classify(six, six)
     with pytest.raises(BareEarthError, match="searched for inputs"):
-        classify_tiles([six], six / "out", FAST, files=TileInput(recursive=True))
+        classify(six, six / "out", recursive=True)
     with pytest.raises(BareEarthError, match=r"name it \.vpc"):
-        classify_tiles([six], out, FAST, vpc=tmp_path / "a.json")
+        classify(six, out, vpc=tmp_path / "a.json")
     with pytest.raises(BareEarthError, match="does not exist"):
-        classify_tiles([six], tmp_path / "no" / "where", FAST)
+        classify(six, tmp_path / "no" / "where")
     other = cut(tmp_path / "other", strip(500), 2)
     with pytest.raises(BareEarthError, match="would both become"):
-        classify_tiles([six, other], out, FAST)
+        classify([six, other], out)
     assert not out.exists() and not (six / "out").exists()
 
 
@@ -282,34 +254,34 @@ def changed_times(folder):
 
 
 def test_tiles_that_are_done_are_kept_when_a_run_goes_on(six, out, las):
-    classify_tiles([six], out, FAST, blocks=BLOCKS)
+    classify(six, out, blocks=BLOCKS)
     before = changed_times(out)
     (out / "3.laz").unlink()
     heard = las.Heard()
-    summary = classify_tiles([six], out, FAST, output=RESUME, blocks=BLOCKS, progress=heard)
+    summary = classify(six, out, resume=True, blocks=BLOCKS, progress=heard)
     after = changed_times(out)
     assert {name for name in after if after[name] != before[name]} == {"3.laz"}
     assert summary.kept_count == 5 and summary.done_count == 6
     assert "5 files are done already." in heard.infos
     assert summary.point_count == 4000
     # Without asking for it everything is done anew.
-    assert classify_tiles([six], out, FAST, blocks=BLOCKS).kept_count == 0
+    assert classify(six, out, blocks=BLOCKS).kept_count == 0
     assert all(changed_times(out)[name] != after[name] for name in after)
 
 
 def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out, las):
-    classify_tiles([six], out, FAST, blocks=Blocks(40.0, 5.0))
-    survey = dict(output=RESUME, blocks=Blocks(40.0, 5.0))
-    other, heard = dataclasses.replace(FAST, height_threshold=0.4), las.Heard()
-    assert classify_tiles([six], out, other, progress=heard, **survey).kept_count == 0
+    classify(six, out, blocks=Blocks(40.0, 5.0))
+    survey = dict(resume=True, blocks=Blocks(40.0, 5.0))
+    other, heard = {"height_threshold": 0.4}, las.Heard()
+    assert classify(six, out, **other, progress=heard, **survey).kept_count == 0
     assert any("6 finished files are made again" in each for each in heard.infos)
-    assert classify_tiles([six], out, other, **survey).kept_count == 6
-    selection = Selection(others="unclassified")
-    assert classify_tiles([six], out, other, selection, **survey).kept_count == 0
+    assert classify(six, out, **other, **survey).kept_count == 6
+    other["others"] = "unclassified"
+    assert classify(six, out, **other, **survey).kept_count == 0
     # One file at the end is written anew: those far from it stay.
     os.utime(six / "5.laz", ns=(1, 1))
     before = changed_times(out)
-    summary = classify_tiles([six], out, other, selection, **survey)
+    summary = classify(six, out, **other, **survey)
     assert 1 <= summary.kept_count < 6
     after = changed_times(out)
     assert after["5.laz"] != before["5.laz"] and after["0.laz"] == before["0.laz"]
@@ -327,11 +299,11 @@ def test_of_a_survey_to_which_tiles_are_added_only_their_neighbours_are_done_ane
         if path.stem not in added:
             shutil.copy2(path, tmp_path / "some")
     run = dict(blocks=Blocks(50.0, 8.0))
-    classify_tiles([tmp_path / "some"], out, FAST, **run)
+    classify(tmp_path / "some", out, **run)
     before = changed_times(out)
     for name in added:
         shutil.copy2(many[0] / f"{name}.laz", tmp_path / "some")
-    summary = classify_tiles([tmp_path / "some"], out, FAST, output=RESUME, **run)
+    summary = classify(tmp_path / "some", out, resume=True, **run)
     anew = {name for name, time in changed_times(out).items() if time != before.get(name)}
     extents = {path.name: laspy.read(path).header for path in every}
     for name in before:
@@ -350,11 +322,11 @@ def test_the_blocks_of_a_method_do_not_move_with_the_survey(tmp_path, out):
     folder.mkdir()
     for east in (0, 2100, 4200):
         write(folder / f"{east}.laz", integers + np.array([100 * east, 0, 0]))
-    classify_tiles([folder], out, FAST)
+    classify(folder, out)
     before = changed_times(out)
     # In the west, near the first block, and lower and higher than all others.
     write(folder / "new.laz", strip(400, 60.0, 300.0, 4) - [6100, 12_000, 0])
-    assert classify_tiles([folder], out, FAST, output=RESUME).kept_count == 2
+    assert classify(folder, out, resume=True).kept_count == 2
     anew = {name for name, time in changed_times(out).items() if time != before.get(name)}
     assert anew == {"0.laz", "new.laz"}
 
@@ -364,30 +336,30 @@ def test_runs_with_heights_go_on_and_repeat_only_what_changed(tmp_path, out):
     folder.mkdir()
     for east in (0, 2100, 4200):
         write(folder / f"{east}.laz", integers + np.array([100 * east, 0, 0]))
-    made = dict(points=Output(height_above_ground=True))
-    classify_tiles([folder], out, FAST, **made)
-    before, dtm = changed_times(out), RasterFiles(dtm=tmp_path / "dtm.tif")
-    summary = classify_tiles([folder], out, FAST, output=RESUME, rasters=dtm, **made)
+    made = dict(height_above_ground=True)
+    classify(folder, out, **made)
+    before, dtm = changed_times(out), tmp_path / "dtm.tif"
+    summary = classify(folder, out, resume=True, dtm=dtm, **made)
     assert summary.kept_count == summary.done_count == 3 and changed_times(out) == before
-    assert dtm.wanted["dtm"].exists()
+    assert dtm.exists()
     # A file in the west, and one that is written anew without a change.
     write(folder / "new.laz", strip(400, 60.0, 300.0, 4) - [6100, 12_000, 0])
     os.utime(folder / "4200.laz", ns=(1, 1))
-    summary = classify_tiles([folder], out, FAST, output=RESUME, **made)
+    summary = classify(folder, out, resume=True, **made)
     assert summary.kept_count == 1 and summary.done_count == 4
     anew = {name for name, time in changed_times(out).items() if time != before.get(name)}
     assert anew == {"0.laz", "4200.laz", "new.laz"}
-    classify_tiles([folder], tmp_path / "once", FAST, **made)
+    classify(folder, tmp_path / "once", **made)
     assert bytes_of(out) == bytes_of(tmp_path / "once")
     # Heights depend on the method that found the ground.
-    other = dataclasses.replace(FAST, height_threshold=0.4)
-    assert classify_tiles([folder], out, other, output=RESUME, **made).kept_count == 0
+    other = {"height_threshold": 0.4}
+    assert classify(folder, out, **other, resume=True, **made).kept_count == 0
     (folder / "new.laz").write_bytes(b"no cloud")
-    summary = classify_tiles([folder], out, other, output=RESUME, **made)
+    summary = classify(folder, out, **other, resume=True, **made)
     assert summary.kept_count == 2 and summary.done_count == 3 and len(summary.failures) == 1
     # What is not classified is written as well.
     write(folder / "new.laz", strip(400, 60.0, 60.0) - [60_000_000, 0, 0], classes=7)
-    summary = classify_tiles([folder], out, other, output=RESUME, **made)
+    summary = classify(folder, out, **other, resume=True, **made)
     assert summary.kept_count == 3 and summary.done_count == 4 and not summary.failures
 
 
@@ -423,7 +395,7 @@ def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
         assert not temporary_in(out)
     for path in finished(out):
         laspy.read(path)
-    summary = classify_tiles([folder], out, FAST, output=RESUME)
+    summary = classify(folder, out, resume=True)
     assert summary.done_count == 16
     assert not temporary_in(out)
     kept = [name for name in done if changed_times(out)[name] == done[name]]
@@ -442,7 +414,7 @@ def test_broken_tiles_are_told_at_the_end_and_the_others_done(
     (six / "1.laz").write_bytes(data[:900] + bytes(300) + data[1200:])
     (six / "9.laz").write_bytes(b"no cloud")
     heard = las.Heard()
-    summary = classify_tiles([six], out, FAST, blocks=BLOCKS, progress=heard)
+    summary = classify(six, out, blocks=BLOCKS, progress=heard)
     assert [Path(path).name for path in summary.failures] == ["1.laz", "9.laz"]
     assert summary.done_count == 5 and summary.tile_count == 7
     assert set(bytes_of(out)) == {"0.laz", "2.laz", "3.laz", "4.laz", "5.laz"}
@@ -455,7 +427,7 @@ def test_broken_tiles_are_told_at_the_end_and_the_others_done(
     # Once it is there again, it is done, and those beside it anew.
     (six / "1.laz").write_bytes(data)
     (six / "9.laz").unlink()
-    summary = classify_tiles([six], out, FAST, output=RESUME, blocks=BLOCKS)
+    summary = classify(six, out, resume=True, blocks=BLOCKS)
     assert summary.done_count == 6 and not summary.failures
 
 
@@ -463,7 +435,7 @@ def test_a_tile_without_points_that_can_be_ground_is_written_unchanged(six, out,
     high = np.array([[900_000 + 7 * n, 900_000 + 5 * n, 900] for n in range(30)])
     write(six / "water.laz", high, classes=9)
     heard = las.Heard()
-    summary = classify_tiles([six], out, FAST, progress=heard)
+    summary = classify(six, out, progress=heard)
     assert summary.done_count == 7 and not summary.failures
     assert (out / "water.laz").read_bytes() == (six / "water.laz").read_bytes()
     (told,) = [each for each in heard.warnings if "unchanged" in each]
@@ -475,7 +447,7 @@ def test_a_survey_of_which_nothing_can_be_classified_fails(tmp_path, out):
     (tmp_path / "in").mkdir()
     write(tmp_path / "in" / "a.laz", strip(500), classes=18)
     with pytest.raises(BareEarthError, match="None of the 1 files"):
-        classify_tiles([tmp_path / "in"], out, FAST)
+        classify(tmp_path / "in", out)
     assert not (out / "classified.vpc").exists() and not (out / "a.laz").exists()
 
 
@@ -486,7 +458,7 @@ def test_points_outside_of_the_extent_in_the_header_are_not_lost_silently(six, o
         box[0] = box[1] + 1.0  # largest x, near the smallest
         file.seek(179)
         file.write(box.tobytes())
-    summary = classify_tiles([six], out, FAST, blocks=Blocks(20.0, 5.0))
+    summary = classify(six, out, blocks=Blocks(20.0, 5.0))
     assert [Path(path).name for path in summary.failures] == ["2.laz"]
     assert "smaller extent" in str(summary.failures)
 
@@ -495,7 +467,7 @@ def test_a_stray_point_far_away_does_not_stop_a_survey(tmp_path, out):
     integers = np.vstack((strip(4000), [[100_000_000, 100_000_000, 6000]]))
     folder = cut(tmp_path / "in", integers[:-1], 4)
     write(folder / "stray.laz", integers[-40:])
-    summary = classify_tiles([folder], out, FAST, blocks=Blocks(100.0, 10.0))
+    summary = classify(folder, out, blocks=Blocks(100.0, 10.0))
     assert summary.done_count == 5 and not summary.failures
 
 
@@ -554,15 +526,15 @@ def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, tmp_p
             output = dataclasses.replace(job.output, grid=grid)
             return dataclasses.replace(job, output=output)
 
-    workers, output = replacing_jobs(Threads, failing), Output(height_above_ground=heights)
-    blocks = Blocks(20.0, 5.0)
-    summary = classify_tiles([six], out, FAST, blocks=blocks, workers=workers, points=output)
+    blocks, workers = Blocks(20.0, 5.0), replacing_jobs(Threads, failing)
+    points = Output(height_above_ground=heights)
+    summary = classify_tiles([six], out, FAST, blocks=blocks, workers=workers, points=points)
     assert 0 < len(summary.failures) < 6
     assert all("Unexpected ValueError: no" in each for each in summary.failures.values())
     assert summary.done_count == 6 - len(summary.failures)
     # Heights beside it lack its ground, so a later run makes them again.
-    run = dict(blocks=blocks, points=output)
-    summary = classify_tiles([six], out, FAST, output=RESUME, **run)
+    run = dict(blocks=blocks, points=points)
+    summary = classify_tiles([six], out, FAST, output=TileOutput(resume=True), **run)
     assert summary.done_count == 6 and (summary.kept_count > 0) == (not heights)
     classify_tiles([six], tmp_path / "once", FAST, **run)
     assert bytes_of(out) == bytes_of(tmp_path / "once")
@@ -603,14 +575,16 @@ def test_a_cancel_is_heard_and_finished_tiles_stay(kind, many, out):
     done = bytes_of(out)
     assert 1 <= len(done) < 16
     assert not temporary_in(out)
-    summary = classify_tiles([folder], out, FAST, output=RESUME)
+    summary = classify(folder, out, resume=True)
     assert summary.done_count == 16 and summary.kept_count >= 1
     assert bytes_of(out) == expected
 
 
 def test_blocks_labelled_before_a_cancel_are_not_labelled_again(many, out):
-    labels, run = out / ".bare-earth" / "work", dict(blocks=Blocks(50.0, 10.0), output=RESUME)
-    one = Threads(Resources(threads=1))
+    labels, run = (
+        out / ".bare-earth" / "work",
+        dict(blocks=Blocks(50.0, 10.0), resume=True, threads=1),
+    )
 
     class Watcher(Progress):
         def __init__(self):
@@ -621,10 +595,10 @@ def test_blocks_labelled_before_a_cancel_are_not_labelled_again(many, out):
                 assert self.seen.setdefault(name, when) == when
 
     with pytest.raises(Cancelled):
-        classify_tiles([many[0]], out, FAST, progress=Impatient(), workers=one, **run)
+        classify(many[0], out, progress=Impatient(), **run)
     watcher, waiting = Watcher(), states_of(labels)
     watcher.seen.update(waiting)
-    classify_tiles([many[0]], out, FAST, progress=watcher, workers=one, **run)
+    classify(many[0], out, progress=watcher, **run)
     assert waiting and len(watcher.seen) > len(waiting)
     assert bytes_of(out) == many[1]  # with this filter the blocks do not matter
     assert not labels.exists()
@@ -637,12 +611,12 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
         def report(self, fraction):
             if fraction > 0.1 and not refused:
                 with pytest.raises(BareEarthError, match="Another run writes into") as error:
-                    classify_tiles([six], tmp_path / "out", FAST)
+                    classify(six, tmp_path / "out")
                 refused.append(error)
 
-    first = classify_tiles([six], tmp_path / "out", FAST, progress=Second())
+    first = classify(six, tmp_path / "out", progress=Second())
     assert refused and first.done_count == 6
-    again = classify_tiles([six], tmp_path / "out", FAST, output=RESUME)
+    again = classify(six, tmp_path / "out", resume=True)
     assert again.kept_count == 6
 
 
@@ -673,7 +647,7 @@ def test_the_virtual_point_cloud_of_the_inputs_is_not_overwritten(six, tmp_path)
     write_vpc(listed, sorted(six.iterdir()))
     before = listed.read_bytes()
     with pytest.raises(BareEarthError, match=r"same file, .*in\.vpc"):
-        classify_tiles([listed], tmp_path / "out", FAST, vpc=tmp_path / "." / "in.vpc")
+        classify(listed, tmp_path / "out", vpc=tmp_path / "." / "in.vpc")
     assert listed.read_bytes() == before and not (tmp_path / "out").exists()
 
 
@@ -681,7 +655,7 @@ def test_the_virtual_point_cloud_of_the_inputs_is_not_overwritten(six, tmp_path)
 def test_a_name_that_is_not_utf_8_harms_nobody(six, tmp_path):
     files = sorted(six.iterdir())
     files[2].rename(six / "t\udcff\n.laz")
-    done = classify_tiles([six], tmp_path / "out", FAST)
+    done = classify(six, tmp_path / "out")
     assert done.done_count == 6 and not done.failures
     assert (tmp_path / "out" / "t\udcff\n.laz").exists()
     assert {each.name for each in read_vpc(Path(done.vpc))} == set(os.listdir(six))
