@@ -6,11 +6,10 @@ import laspy
 import numpy as np
 import pytest
 from conftest import Heard
-from runs import CancelAt, assess_files
+from runs import CancelAt
 
-from bare_earth import BareEarthError, Cancelled
+from bare_earth import BareEarthError, Cancelled, assess, water_classes
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.survey import common_points
 
 COUNT = 5000
@@ -55,23 +54,23 @@ def figures(assessment):
 def expected(tmp_path):
     """The figures of the clip, when its reference is cut in the same way."""
     files = write(tmp_path / "a.las", CLIP, FOUND), write(tmp_path / "b.las", CLIP, TRUTH)
-    return figures(assess_files(*files))
+    return figures(assess(*files))
 
 
 @pytest.mark.parametrize("order", [CLIP, MIXED], ids=["in order", "mixed"])
 @pytest.mark.parametrize("ending", [".las", ".laz", ".copc.laz"])
 def test_a_clip_is_assessed_against_the_whole_reference(tmp_path, expected, order, ending):
     found = write(tmp_path / "found.las", order, FOUND)
-    truth = write(tmp_path / "truth.las", slice(None), TRUTH)
-    whole = tmp_path / f"whole{ending}"
-    write_classified(truth, whole, TRUTH.astype(np.uint8))
-    heard = Heard()
-    result = assess_files(found, whole, report=tmp_path / "r.html", progress=heard)
+    truth, whole = tmp_path / "truth.las", tmp_path / f"whole{ending}"
+    write(truth, slice(None), TRUTH)
+    water_classes(truth, whole, water=())  # which changes no class
+    progress = Heard()
+    result = assess(found, whole, report=tmp_path / "r.html", progress=progress)
     assert figures(result) == expected
     assert (result.classified_only, result.reference_only) == (0, COUNT - len(CLIP))
-    (told,) = (each for each in heard.infos if "have no partner" in each)
-    assert told.startswith(f"{len(CLIP):,} points are in both files") and heard.fractions[-1] == 1
-    assert heard.fractions == sorted(heard.fractions)
+    (told,) = (text for text in progress.infos if "have no partner" in text)
+    assert told.startswith(f"{len(CLIP):,} points are in both files")
+    assert progress.fractions[-1] == 1 and progress.fractions == sorted(progress.fractions)
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     assert f"{COUNT - len(CLIP):,} of the reference have no partner" in page
 
@@ -79,7 +78,7 @@ def test_a_clip_is_assessed_against_the_whole_reference(tmp_path, expected, orde
 def test_the_reference_may_be_the_part(tmp_path, expected):
     found = write(tmp_path / "found.las", slice(None), FOUND)
     truth = write(tmp_path / "truth.las", MIXED, TRUTH)
-    result = assess_files(found, truth)
+    result = assess(found, truth)
     assert figures(result) == expected
     assert (result.classified_only, result.reference_only) == (COUNT - len(CLIP), 0)
 
@@ -88,7 +87,7 @@ def test_both_may_have_points_of_their_own(tmp_path, expected):
     rest = np.setdiff1d(np.arange(COUNT), CLIP)
     found = write(tmp_path / "found.las", np.concatenate([CLIP, rest[:700]]), FOUND)
     truth = write(tmp_path / "truth.las", np.concatenate([rest[700:1400], MIXED]), TRUTH)
-    result = assess_files(found, truth)
+    result = assess(found, truth)
     assert figures(result) == expected
     assert (result.classified_only, result.reference_only) == (700, 700)
 
@@ -96,13 +95,13 @@ def test_both_may_have_points_of_their_own(tmp_path, expected):
 def test_other_offsets_and_scales_are_the_same_places(tmp_path, expected):
     found = write(tmp_path / "found.las", CLIP, FOUND, 0.001, (1000.0, 2000.5))
     truth = write(tmp_path / "truth.las", slice(None), TRUTH, 0.01)
-    assert figures(assess_files(found, truth)) == expected
+    assert figures(assess(found, truth)) == expected
 
 
 def test_without_times_no_point_is_used_twice(tmp_path):
     found = write(tmp_path / "found.las", MIXED, FOUND, point_format=0, times=False)
     truth = write(tmp_path / "truth.las", slice(None), TRUTH, point_format=0, times=False)
-    result = assess_files(found, truth)
+    result = assess(found, truth)
     assert result.point_count == len(CLIP) and result.reference_only == COUNT - len(CLIP)
     # The classes of the reference are those of the clip, up to points at the same place.
     kinds, counts = np.unique(TRUTH[CLIP], return_counts=True)
@@ -116,7 +115,7 @@ def test_changed_times_do_not_keep_points_apart(tmp_path):
     las.gps_time = las.gps_time + 1e9
     las.write(str(tmp_path / "found.las"))
     truth = write(tmp_path / "truth.las", slice(None), TRUTH)
-    assert assess_files(tmp_path / "found.las", truth).point_count == len(CLIP)
+    assert assess(tmp_path / "found.las", truth).point_count == len(CLIP)
 
 
 def test_the_same_points_in_another_order_are_read_with_messages_once(tmp_path):
@@ -124,7 +123,7 @@ def test_the_same_points_in_another_order_are_read_with_messages_once(tmp_path):
     mixed = np.random.default_rng(5).permutation(COUNT)
     found = write(tmp_path / "found.las", mixed, FOUND)
     truth = write(tmp_path / "truth.las", slice(None), TRUTH)
-    result = assess_files(found, truth, progress=heard)
+    result = assess(found, truth, progress=heard)
     assert result.point_count == COUNT and not result.reference_only
     assert result.ground_as_other == np.count_nonzero((TRUTH == 2) & (FOUND != 2))
     assert heard.fractions == sorted(heard.fractions)
@@ -135,7 +134,7 @@ def test_strips_make_no_difference(tmp_path, expected, monkeypatch):
     monkeypatch.setattr(common_points, "_STRIP", 100)
     found = write(tmp_path / "found.las", MIXED, FOUND)
     truth = write(tmp_path / "truth.las", slice(None), TRUTH)
-    assert figures(assess_files(found, truth)) == expected
+    assert figures(assess(found, truth)) == expected
 
 
 def test_points_of_another_survey_are_refused(tmp_path):
@@ -144,7 +143,7 @@ def test_points_of_another_survey_are_refused(tmp_path):
     truth.write(str(tmp_path / "other.las"))
     found = write(tmp_path / "found.las", CLIP, FOUND)
     with pytest.raises(BareEarthError, match=r"do not hold the same points: .* 0 are in both"):
-        assess_files(found, tmp_path / "other.las")
+        assess(found, tmp_path / "other.las")
 
 
 def test_a_cancel_while_points_are_matched(tmp_path):
@@ -152,7 +151,7 @@ def test_a_cancel_while_points_are_matched(tmp_path):
     truth = write(tmp_path / "truth.las", slice(None), TRUTH)
     for share in (0.1, 0.3, 0.63):
         with pytest.raises(Cancelled):
-            assess_files(found, truth, report=tmp_path / "r.html", progress=CancelAt(share))
+            assess(found, truth, report=tmp_path / "r.html", progress=CancelAt(share))
     assert not (tmp_path / "r.html").exists()
 
 

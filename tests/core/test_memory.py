@@ -6,13 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from runs import classify_tiles, memory_store
+from runs import memory_store
 from surveys import cloud_of, cut, strip
 
+import bare_earth
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine.memory import Resources, give_back
-from bare_earth.algorithms.engine.workers import Processes
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.tools.heights import MeasureHeights
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
@@ -36,7 +35,7 @@ def test_a_block_takes_about_as_much_as_is_reckoned(name):
     random, step = np.random.default_rng(1), STEPS[name]
     x, y = random.uniform(0.0, SIDE, (2, COUNT))
     z = 100.0 + 8.0 * np.sin(x / 60.0) + random.uniform(0.0, 0.1, COUNT)
-    cloud = cloud_of(*(np.rint(each * 100) for each in (x, y, z)))
+    cloud = cloud_of(*(np.rint(axis * 100) for axis in (x, y, z)))
     ground, every = random.random(COUNT) < 0.9, np.ones(COUNT, dtype=bool)
     store = memory_store([(cloud, every, ground, every)], survey_frame(cloud.crs), step.blocks)
     reckoned = step.blocks.memory(COUNT, (SIDE + 2.0 * step.blocks.buffer) ** 2)
@@ -52,14 +51,13 @@ def test_a_block_takes_about_as_much_as_is_reckoned(name):
 @pytest.mark.skipif(sys.platform != "linux", reason="Only Linux tells the peak of a process")
 def test_jobs_in_processes_take_no_more_memory_than_was_planned(tmp_path):
     folder = cut(tmp_path / "in", strip(1_200_000, 700.0, 500.0), 4)
-    workers = Processes(Resources(threads=2, memory=2.0))
-    done = classify_tiles([folder], tmp_path / "out", GridMinimum(), workers=workers)
-    names = {each.name for each in folder.iterdir()}
-    assert {each.job for each in done.jobs} == {"blocks", *names}
-    for each in done.jobs:
-        assert each.seconds > 0 and each.memory is not None
-        assert each.memory < each.planned + LIBRARIES
-    assert max(each.memory for each in done.jobs) > 50_000_000
+    run = {"method": "grid-minimum", "scheduler": "processes", "threads": 2, "memory": 2.0}
+    done = bare_earth.classify(folder, tmp_path / "out", **run)
+    assert {job.job for job in done.jobs} == {"blocks", *(path.name for path in folder.iterdir())}
+    for job in done.jobs:
+        assert job.seconds > 0 and job.memory is not None
+        assert job.memory < job.planned + LIBRARIES
+    assert max(job.memory for job in done.jobs) > 50_000_000
 
 
 def _resident():
@@ -69,9 +67,9 @@ def _resident():
 @pytest.mark.skipif(sys.platform != "linux", reason="glibc alone keeps what is freed")
 def test_what_is_freed_goes_back():
     # Too small to be mapped one by one; the last one keeps the heap from shrinking by itself.
-    held = [np.ones(8_000) for _ in range(600)]
-    held = held[-1:]
+    arrays = [np.ones(8_000) for _ in range(600)]
+    arrays = arrays[-1:]
     before = _resident()
     give_back()
     assert before - _resident() > 20_000_000
-    assert len(held) == 1
+    assert len(arrays) == 1

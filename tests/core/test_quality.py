@@ -1,23 +1,19 @@
 """The quality of surveys whose densities, voids and strips are known."""
 
 import json
+import os
 
 import laspy
 import numpy as np
 import pytest
 from runs import CancelAt
+from surveys import heights_of
 
+import bare_earth
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.las.reading import read_parts
-from bare_earth.algorithms.rasters.geotiff import read_raster
-from bare_earth.algorithms.tools.quality import (
-    TOOL,
-    QualityOptions,
-    cells,
-)
-from bare_earth.algorithms.tools.quality.rasters import QUALITY_RASTERS
-from bare_earth.algorithms.tools.running import run
+from bare_earth.algorithms.tools.quality import cells
 
 pyproj = pytest.importorskip("pyproj")
 EAST, NORTH, SIZE = 500_000.0, 5_600_000.0, 100.0
@@ -50,8 +46,7 @@ def write(path, x, y, z, crs=True, version="1.4", point_format=6, **columns):
 
 
 def measured(*paths, **options):
-    outputs = {name: options.pop(name, None) for name in ("page", "folder")}
-    return run(TOOL, {"sources": paths}, outputs, [QualityOptions(**options)])
+    return bare_earth.quality(paths, **options)
 
 
 def states(found):
@@ -101,7 +96,7 @@ def test_only_first_returns_count_as_pulses_and_neither_noise_nor_withheld(tmp_p
     assert found.pulse_density == 2.0 and found.point_density == 4.0
     assert found.withheld == 1 and found.classes == {2: len(x) - 2, 18: 1}
     # All returns but withheld ones make the surface, noise included, as the specification says.
-    heights = read_raster(tmp_path / "rasters" / "surface_height.tif").heights
+    heights = heights_of(tmp_path / "rasters" / "surface_height.tif")
     assert np.nanmax(heights) == 400.0
 
 
@@ -110,11 +105,11 @@ def test_a_void_of_known_size(tmp_path):
     hole = (np.abs(x - 50) < 10) & (np.abs(y - 50) < 10)
     ground = write(tmp_path / "in.laz", x[~hole], y[~hole], terrain(x, y)[~hole])
     found = measured(ground, specification="lbs-ql2", folder=tmp_path / "rasters")
-    voids = read_raster(tmp_path / "rasters" / "voids.tif").heights
+    voids = heights_of(tmp_path / "rasters" / "voids.tif")
     # Farther than 3 m from ground points, whose cells begin at the edge of the void of 20 m.
     assert 13**2 <= np.nansum(voids == 1) <= 16**2
     assert found.void_count > 100 and states(found)["Voids of first returns"] == "look"
-    density = read_raster(tmp_path / "rasters" / "pulse_density.tif").heights
+    density = heights_of(tmp_path / "rasters" / "pulse_density.tif")
     assert np.count_nonzero(density == 0) == 20**2
     # Where the same land is water, its voids are no fault.
     lake = write(
@@ -142,10 +137,10 @@ def test_two_strips_with_a_known_offset(tmp_path, offset, state):
     assert states(found)["Differences between strips"] == state
     # Of 10 to 100 m: the second strip reaches into a square of its own in the east.
     assert found.overlap_share == pytest.approx(4 / 9, abs=0.02)
-    made = read_raster(tmp_path / "rasters" / "strip_differences.tif").heights
+    made = heights_of(tmp_path / "rasters" / "strip_differences.tif")
     assert np.nanmedian(made) == pytest.approx(offset, abs=0.003)
     assert np.count_nonzero(~np.isnan(made)) == pytest.approx(20 * 50, rel=0.06)
-    number = read_raster(tmp_path / "rasters" / "overlap.tif").heights
+    number = heights_of(tmp_path / "rasters" / "overlap.tif")
     assert np.nanmax(number) == 2 and number[25, 5] == 1 and number[25, 25] == 2
 
 
@@ -294,7 +289,7 @@ def test_low_vegetation_is_counted_on_a_slope(tmp_path):
     x, y = (np.concatenate((each, each[low], each[low])) for each in (x, y))
     path = write(tmp_path / "in.laz", x, y, z, classification=classes)
     measured(path, folder=tmp_path / "rasters")
-    made = read_raster(tmp_path / "rasters" / "low_vegetation.tif").heights
+    made = heights_of(tmp_path / "rasters" / "low_vegetation.tif")
     assert (made[:, 52:98] == 4.0).all() and (made[:, 2:48] == 0.0).all()
 
 
@@ -348,10 +343,14 @@ def test_many_files_equal_one(one_and_many, tmp_path):
     for name in ("points", "classes", "pulse_density", "filled_share", "void_count", "area"):
         assert getattr(first, name) == getattr(second, name)
     assert first.strip_rms == pytest.approx(second.strip_rms, abs=1e-6)
-    for name in QUALITY_RASTERS:
-        a, b = (read_raster(tmp_path / each / f"{name}.tif").heights for each in ("one", "many"))
-        assert a.shape == b.shape
-        np.testing.assert_allclose(a, b, atol=1e-5)
+    same_rasters(tmp_path / "one", tmp_path / "many", 1e-5)
+
+
+def same_rasters(one, other, tolerance):
+    paths = sorted(one.iterdir())
+    assert len(paths) > 5 and [path.name for path in paths] == sorted(os.listdir(other))
+    for path in paths:
+        np.testing.assert_allclose(heights_of(path), heights_of(other / path.name), atol=tolerance)
 
 
 def test_pieces_and_cells_on_disk_change_nothing(one_and_many, tmp_path, monkeypatch):
@@ -361,11 +360,7 @@ def test_pieces_and_cells_on_disk_change_nothing(one_and_many, tmp_path, monkeyp
     monkeypatch.setattr(cells, "_MOST_IN_MEMORY", 100)
     monkeypatch.setattr(cells, "_TOGETHER", 1_000)
     measured(one, folder=tmp_path / "pieces")
-    for name in QUALITY_RASTERS:
-        a, b = (
-            read_raster(tmp_path / each / f"{name}.tif").heights for each in ("whole", "pieces")
-        )
-        np.testing.assert_allclose(a, b, atol=1e-6)
+    same_rasters(tmp_path / "whole", tmp_path / "pieces", 1e-6)
 
 
 def test_too_many_cells_are_refused(one_and_many, monkeypatch):
@@ -375,12 +370,12 @@ def test_too_many_cells_are_refused(one_and_many, monkeypatch):
 
 
 def test_the_command_writes_a_page_and_prints_figures(one_and_many, tmp_path, capsys):
-    page = tmp_path / "page.html"
+    page, folder = tmp_path / "page.html", tmp_path / "rasters"
     command = ["quality", str(one_and_many[0]), "--specification", "lbs-ql2"]
-    assert main([*command, "--page", str(page), "--cell-size", "2"]) == 0
+    assert main([*command, "--page", str(page), "--folder", str(folder), "--cell-size", "2"]) == 0
     assert "first returns/m2" in capsys.readouterr().out
     html = page.read_text(encoding="utf-8")
-    assert html.count("<figure>") == len(QUALITY_RASTERS)
+    assert html.count("<figure>") == len(os.listdir(folder))
     assert "Spatial Distribution and Regularity" in html and "<script" not in html
     assert main([*command, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
@@ -406,22 +401,22 @@ def test_feet_are_converted(tmp_path):
     las.write(str(tmp_path / "in.laz"))
     found = measured(tmp_path / "in.laz", folder=tmp_path / "rasters")
     assert found.pulse_density == pytest.approx(4.0, rel=0.02)
-    heights = read_raster(tmp_path / "rasters" / "surface_height.tif").heights
+    heights = heights_of(tmp_path / "rasters" / "surface_height.tif")
     assert np.nanmax(heights) == pytest.approx(terrain(x, y).max() / foot, abs=0.01)
 
 
 @pytest.mark.parametrize("share", [0.5, 0.85, 0.9, 0.97, 1.0])
 def test_a_cancel_leaves_no_output_and_old_ones_as_they_were(one_and_many, tmp_path, share):
     page, folder = tmp_path / "page.html", tmp_path / "rasters"
-    given = TOOL, {"sources": [one_and_many[0]]}, {"page": page, "folder": folder}, ()
+    run = {"page": page, "folder": folder}
     with pytest.raises(Cancelled):
-        run(*given, CancelAt(share))
+        measured(one_and_many[0], **run, progress=CancelAt(share))
     assert not list(tmp_path.iterdir())
-    folder.mkdir()
-    old = [page, *(folder / f"{name}.tif" for name in QUALITY_RASTERS)]
-    for each in old:
-        each.write_bytes(b"old")
+    measured(one_and_many[0], **run)
+    old = [page, *folder.iterdir()]
+    for path in old:
+        path.write_bytes(b"old")
     with pytest.raises(Cancelled):
-        run(*given, CancelAt(share))
-    assert {each.read_bytes() for each in old} == {b"old"}
+        measured(one_and_many[0], **run, progress=CancelAt(share))
+    assert {path.read_bytes() for path in old} == {b"old"}
     assert sorted(folder.iterdir()) == sorted(old[1:])

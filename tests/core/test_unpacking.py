@@ -11,24 +11,19 @@ import laspy
 import lazrs
 import numpy as np
 import pytest
-from runs import classify_file, classify_tiles, write_terrain_models
 from surveys import bytes_of, cut, strip, write
 
+import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.engine import unpacking as unpacking_module
-from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.unpacking import Unpacking
-from bare_earth.algorithms.engine.workers import Processes, Threads
-from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.records import needed, read_records
 from bare_earth.algorithms.survey.window import read_window
-from bare_earth.algorithms.tools.ground.output import Output
-from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
-FAST = SlopeFilter(preset="whitebox")
+FAST = {"method": "slope", "preset": "whitebox"}
 COUNT = 400
 # The points of `las.make` lie from 399,990 on, one metre apart.
 BOX = (399_993.0, 5_000_002.0, 399_999.0, 5_000_011.0)
@@ -121,29 +116,28 @@ def test_jobs_that_need_a_file_at_the_same_time_unpack_it_once(source, tmp_path,
     assert len(begun) == 1 and [read_cloud(las).count for las in found] == [COUNT] * 3
 
 
-@pytest.mark.parametrize("output", [Output(), Output(height_above_ground=True)])
-def test_a_survey_is_decompressed_once(tmp_path, monkeypatch, decompressed, output):
-    six, names = cut(tmp_path / "in", strip(4000, 150.0, 40.0)), []
+@pytest.mark.parametrize("heights", [False, True])
+def test_a_survey_is_decompressed_once(tmp_path, monkeypatch, decompressed, heights):
+    six = cut(tmp_path / "in", strip(4000, 150.0, 40.0))
     names = sorted(path.name for path in six.iterdir())
-    workers = Threads(Resources(threads=2, memory=1.0))
-    classify_tiles([six], tmp_path / "once", FAST, workers=workers, points=output)
+    run = {"height_above_ground": heights, "threads": 2, "memory": 1.0, **FAST}
+    bare_earth.classify(six, tmp_path / "once", **run)
     assert sorted(decompressed) == names
     # Without room for it the files are read more often, and the results are the same.
     monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=0))
-    classify_tiles([six], tmp_path / "often", FAST, workers=workers, points=output)
+    bare_earth.classify(six, tmp_path / "often", **run)
     assert len(decompressed) >= 3 * 6
     assert bytes_of(tmp_path / "once") == bytes_of(tmp_path / "often")
 
 
 def test_one_file_that_does_not_fit_is_decompressed_once(tmp_path, decompressed, las):
     source = write(tmp_path / "one.laz", strip(60_000, 400.0, 200.0))
-    much, little, heard = tmp_path / "much.laz", tmp_path / "little.laz", las.Heard()
-    output = Output(height_above_ground=True)
-    classify_file(source, much, FAST, output=output)
+    much, little, progress = tmp_path / "much.laz", tmp_path / "little.laz", las.Heard()
+    run = {"height_above_ground": True, **FAST}
+    bare_earth.classify(source, much, **run)
     decompressed.clear()
-    resources = Resources(threads=2, memory=0.002)
-    classify_file(source, little, FAST, output=output, resources=resources, progress=heard)
-    assert any("do not fit into the memory" in each for each in heard.infos)
+    bare_earth.classify(source, little, threads=2, memory=0.002, progress=progress, **run)
+    assert any("do not fit into the memory" in text for text in progress.infos)
     assert decompressed == ["one.laz"]
     assert much.read_bytes() == little.read_bytes()
 
@@ -155,20 +149,19 @@ def test_rasters_unpack_only_files_that_several_jobs_read(
     # In the middle of a block, or where four of them meet.
     shift = 0 if is_shared else 50_000
     six = cut(tmp_path / "in", strip(4000, 150.0, 40.0) + np.array([shift, shift, 0]))
-    classify_tiles([six], tmp_path / "out", FAST)
+    bare_earth.classify(six, tmp_path / "out", **FAST)
     unpacked, unpack = [], unpacking_module.unpack
     monkeypatch.setattr(unpacking_module, "unpack", lambda *v: unpacked.append(1) or unpack(*v))
     decompressed.clear()
-    write_terrain_models([tmp_path / "out"], RasterFiles(dtm=tmp_path / "dtm.tif"))
+    bare_earth.terrain(tmp_path / "out", dtm=tmp_path / "dtm.tif")
     assert sorted(decompressed) == sorted(path.name for path in six.iterdir())
     assert bool(unpacked) == is_shared
 
 
 def test_processes_find_what_another_one_unpacked(tmp_path):
     six = cut(tmp_path / "in", strip(4000, 150.0, 40.0))
-    output = Output(height_above_ground=True)
-    classify_tiles([six], tmp_path / "a", FAST, points=output)
-    workers = Processes(Resources(threads=2))
-    classify_tiles([six], tmp_path / "b", FAST, workers=workers, points=output)
+    run = {"height_above_ground": True, **FAST}
+    bare_earth.classify(six, tmp_path / "a", **run)
+    bare_earth.classify(six, tmp_path / "b", scheduler="processes", threads=2, **run)
     assert bytes_of(tmp_path / "a") == bytes_of(tmp_path / "b")
     assert "HeightAboveGround" in laspy.read(tmp_path / "b" / "0.laz").point_format.dimension_names
