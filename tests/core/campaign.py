@@ -191,10 +191,10 @@ def answers_of(numbers, make, work):
 
 def clean(folder):
     """Remove what a mutant left."""
-    for each in folder.iterdir():
-        if each.name.startswith(("out", "mutant", ".")):
+    for path in folder.iterdir():
+        if path.name.startswith(("out", "mutant", ".")):
             with contextlib.suppress(OSError):
-                shutil.rmtree(each) if each.is_dir() else each.unlink()
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
 def load_all():

@@ -176,7 +176,7 @@ def split(path):
     if point_format & 0x80:
         import lazrs
 
-        laszip = next(each[54:] for each in vlrs if each[2:16] == b"laszip encoded")
+        laszip = next(record[54:] for record in vlrs if record[2:16] == b"laszip encoded")
         with open(path, "rb") as file:
             file.seek(start)
             lazrs.LasZipDecompressor(file, laszip).decompress_many(records.reshape(-1))

@@ -153,7 +153,9 @@ def meaning(points, point_format):
 def copc_nodes(cloud):
     """Return the nodes of a COPC file (where each begins, its bytes and points), and its pages."""
     info = next(
-        each[54:] for each in cloud.vlrs if each[2:7] == b"copc\0" and each[18:20] == b"\1\0"
+        record[54:]
+        for record in cloud.vlrs
+        if record[2:7] == b"copc\0" and record[18:20] == b"\1\0"
     )
     waiting, nodes, pages = [struct.unpack_from("<2Q", info, 40)], [], 0
     while waiting:

@@ -36,7 +36,7 @@ def features(path):
             "SELECT table_name, column_name FROM gpkg_geometry_columns"
         ).fetchone()
         rows = file.execute(f'SELECT * FROM "{table}"')
-        names = [each[0] for each in rows.description]
+        names = [row[0] for row in rows.description]
         for row in rows:
             fields = dict(zip(names, row))
             geometry = fields.pop(column)
@@ -125,6 +125,6 @@ def _inside(rings, heights, to):
 def _cells(line, to, shape):
     """Return row and column of the cells that hold the corners of a line, inside a raster."""
     columns, rows = ~to @ line[:, :2].T
-    rows, columns = (np.floor(each).astype(int) for each in (rows, columns))
+    rows, columns = (np.floor(places).astype(int) for places in (rows, columns))
     last = np.array(shape) - 1
     return np.clip(rows, 0, last[0]), np.clip(columns, 0, last[1])

@@ -60,7 +60,9 @@ def counts_of(kind, method, preset):
     elif preset == "confidence":
         sure = confidence(points, found)
         found = (sure.values >= _SURE).ravel()[sure.cells.index]
-    x, y = (np.floor((each - each.min()) / _SQUARE).astype(int) for each in (points.x, points.y))
+    x, y = (
+        np.floor((values - values.min()) / _SQUARE).astype(int) for values in (points.x, points.y)
+    )
     counts = np.zeros((y.max() + 1, x.max() + 1), dtype=int)
     np.add.at(counts, (y[found], x[found]), 1)
     return counts.ravel().tolist()

@@ -17,17 +17,13 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_store import MemoryStore
 from bare_earth.algorithms.engine.options import TileInput, TileOutput
 from bare_earth.algorithms.engine.store import Marks
-from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
 from bare_earth.algorithms.runs import many_files
 from bare_earth.algorithms.runs.entry import classify, terrain
-from bare_earth.algorithms.runs.entry import write as write_with
-from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
+from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools import file_tool
 from bare_earth.algorithms.tools.ground.output import Output
-from bare_earth.algorithms.tools.heights import HeightOutput, MeasureHeights
-from bare_earth.algorithms.tools.key_points import FindKeyPoints, KeyPointMark
 from bare_earth.algorithms.tools.rasters.parameters import RasterOutput, SurfaceModel, TerrainModel
 from bare_earth.algorithms.tools.rasters.step import RasterFiles
 from bare_earth.algorithms.tools.running import run
@@ -92,22 +88,6 @@ def classify_tiles(
     return many_files.classify_files(sources, folder, request, progress, workers, vpc, blocks)
 
 
-def write_height_above_ground(
-    source, target, ground=GroundClasses(), output=HeightOutput(), resources=Resources(),
-    progress=SILENT,
-):  # fmt: skip
-    request = PointRequest(MeasureHeights(ground, output), resources=resources)
-    return write_with(source, target, request, progress)
-
-
-def write_key_points(
-    source, target, parameters=ModelKeyPoints(), ground=GroundClasses(), mark=KeyPointMark(),
-    progress=SILENT,
-):  # fmt: skip
-    request = PointRequest(FindKeyPoints(parameters, ground, mark))
-    return write_with(source, target, request, progress)
-
-
 def write_terrain_models(
     sources, files, ground=GroundClasses(), model=TerrainModel(), surface=SurfaceModel(),
     resources=Resources(), progress=SILENT, workers=None, per_file=False,
@@ -117,10 +97,6 @@ def write_terrain_models(
         raster_output=RasterOutput(per_file),
     )  # fmt: skip
     return terrain(sources, request, progress, workers)
-
-
-def write_heights(sources, folder, **rest):
-    return many_files.write_files(sources, folder, [MeasureHeights()], **rest)
 
 
 def memory_store(parts, frame, blocks):

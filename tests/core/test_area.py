@@ -84,7 +84,7 @@ def test_each_place_on_a_shared_border_belongs_to_one_polygon():
     # A fan of triangles; many places lie on its spokes and corners exactly.
     outside = ring([(8, 0), (6, 6), (0, 8), (-6, 6), (-8, 0), (-6, -6), (0, -8), (6, -6)])
     fan = [np.array([(0, 0), a, b]) for a, b in zip(outside, np.roll(outside, -1, axis=0))]
-    x, y = (each.ravel().astype(float) for each in np.mgrid[-5:6, -5:6])
+    x, y = (axis.ravel().astype(float) for axis in np.mgrid[-5:6, -5:6])
     held = np.sum([Area(polygons=((each,),)).contains(x, y) for each in fan], axis=0)
     assert (held == 1).all()
 
@@ -176,7 +176,7 @@ def test_boundaries_are_read(name, text, expected, tmp_path):
     path = tmp_path / name
     path.write_text(text, encoding="utf-8")
     polygons = read_boundary(path)
-    assert [len(each) for each in polygons] == expected
+    assert [len(polygon) for polygon in polygons] == expected
     x, y = np.array([1.0, 5.0, 11.0]), np.array([1.0, 5.0, 5.0])
     with_hole = expected[0] == 2
     assert Area(polygons=polygons).contains(x, y).tolist() == [True, not with_hole, False]

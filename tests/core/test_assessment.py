@@ -54,7 +54,7 @@ def test_a_figure_without_points_is_none_in_json():
 # A square of 40 x 40 m, of which the south-west corner is rejected ground (type I) and the
 # north-east corner accepted as ground (type II).
 SIDE = np.arange(0.5, 40.0)
-X, Y = (each.ravel() for each in np.meshgrid(SIDE, SIDE))
+X, Y = (axis.ravel() for axis in np.meshgrid(SIDE, SIDE))
 TRUTH = np.where(X < 20, 2, 6)
 TYPE_1, TYPE_2 = (X < 5) & (Y < 5), (X > 35) & (Y > 35)
 FOUND = np.where(((TRUTH == 2) & ~TYPE_1) | TYPE_2, 2, 1)

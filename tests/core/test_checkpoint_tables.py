@@ -265,7 +265,7 @@ def test_units_of_columns_are_those_of_the_points(tmp_path):
     progress = Heard()
     given = read(tmp_path, "East [m],North [m],Elev (ft)\n" + rows)
     assert check([metres], given, progress=progress).nva.rmse < 0.05
-    assert any("states feet" in each for each in progress.infos)
+    assert any("states feet" in text for text in progress.infos)
     # "ft" of points in US survey feet is this foot: coordinates of millions stay.
     rows = "".join(
         f"{a / foot + 500_000:.4f},{b / foot + 5_600_000:.4f},{up / foot:.4f}\n"

@@ -102,7 +102,7 @@ def test_with_few_points_at_first_others_are_looked_at_again(survey, monkeypatch
 
 def test_a_checkpoint_on_a_point_and_two_points_at_one_place(tmp_path):
     x, y, z, classes = cloud(2_000)
-    x, y, classes = (np.append(each, each[:200]) for each in (x, y, classes))
+    x, y, classes = (np.append(column, column[:200]) for column in (x, y, classes))
     z = np.append(z, z[:200] + 1.0)
     path = write(tmp_path / "in.laz", x, y, z, classes)
     inner = np.flatnonzero(
@@ -170,7 +170,7 @@ def test_many_files_equal_one(survey, tmp_path, monkeypatch):
     order = np.random.default_rng(5).permutation(len(x))
     for number in range(6):
         part = order[(x[order] // 34 * 2 + (y[order] > 47)).astype(int) == number]
-        write(tmp_path / f"{number}.laz", *(each[part] for each in (x, y, z, classes)))
+        write(tmp_path / f"{number}.laz", *(column[part] for column in (x, y, z, classes)))
     given = points(places(60), 0.03)
     how = CheckOptions(hold_out=0.1)
     one = check([survey], given, how)

@@ -29,7 +29,7 @@ TIN, _, SLOPE = PARAMETERS
 
 def cloud_of(points, classes=1, crs=None, unit=1.0):
     """Return a cloud of points that are given in metres, in a CRS of some unit."""
-    x, y, z = (np.round(each / unit * 1000).astype(np.int32) for each in points)
+    x, y, z = (np.round(values / unit * 1000).astype(np.int32) for values in points)
     ones = np.ones(points.count, np.uint8)
     return PointCloud(
         Path("in.las"), x, y, z, (0.001,) * 3, (EAST, NORTH, 0.0), classes * ones, ones, ones,
@@ -184,7 +184,7 @@ def test_known_ground_stays_ground_whatever_the_method_finds(scene, monkeypatch,
     assert (found[classes == 5] == 5).all()
     count = np.count_nonzero(classes == 8)
     assert f"{count:,} points of class 8 are known ground." in progress.infos
-    assert any("does not start from known ground" in each for each in progress.infos)
+    assert any("does not start from known ground" in text for text in progress.infos)
 
 
 def test_a_method_that_takes_known_ground_gets_it(scene, monkeypatch, las):
@@ -200,7 +200,7 @@ def test_a_method_that_takes_known_ground_gets_it(scene, monkeypatch, las):
     assert np.array_equal(given["known_ground"], classes[selected] == 2)
     assert given["points"].count == np.count_nonzero(selected) == np.count_nonzero(classes < 9)
     assert np.array_equal(found, np.where(classes == 1, 1, classes))
-    assert not any("does not start" in each for each in progress.infos)
+    assert not any("does not start" in text for text in progress.infos)
     classify_cloud(cloud, SLOPE, Selection(from_classes=(1,)))
     assert given["points"].count == np.count_nonzero(classes == 1)
 
@@ -248,7 +248,7 @@ def test_low_outliers_go_to_class_7_where_wanted(parameters, scene, las):
     found, _ = classify_cloud(cloud, parameters, Selection(low_noise_class=True), progress)
     assert (found[low] == 7).all() and (found == 7).sum() <= 8
     assert np.array_equal(found == 2, plain == 2)
-    assert any("lie more than 1 m below the ground" in each for each in progress.infos)
+    assert any("lie more than 1 m below the ground" in text for text in progress.infos)
     # What lies below ground all round it is low noise, however deep.
     deep, _ = classify_cloud(
         cloud, parameters, Selection(low_noise_class=True, low_noise_depth=100)

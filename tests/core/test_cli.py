@@ -244,9 +244,9 @@ def test_the_help_names_each_option_with_its_default(method, capsys, monkeypatch
 
 def test_an_empty_parameter_is_automatic_as_its_help_says(capsys):
     for method in METHODS.values():
-        for each in method.parameters.declarations():
-            if each.default is None:
-                assert each.empty == "automatic", each.name
+        for declared in method.parameters.declarations():
+            if declared.default is None:
+                assert declared.empty == "automatic", declared.name
     empty = "at least 1 m (0.5 m in the preset for sites). (default: automatic)"
     assert empty in help_of(capsys, "--method", "slope")
     text = help_of(capsys)

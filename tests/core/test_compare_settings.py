@@ -31,7 +31,7 @@ def scene():
     x, y = random.uniform(0, SIDE, (2, 12_000))
     roof = (x > HALL[0]) & (x < HALL[1]) & (y > HALL[2]) & (y < HALL[3])
     z = 100 + 0.03 * x + np.where(roof, 9.0, 0.0) + random.normal(0, 0.02, len(x))
-    return *(np.round(each, 3) for each in (x, y, z)), roof
+    return *(np.round(column, 3) for column in (x, y, z)), roof
 
 
 def write(path, which=slice(None), epsg=25832, unit=1.0):
@@ -60,13 +60,13 @@ def made(source):
 
 def test_each_setting_finds_what_it_finds_on_the_whole_file(source, made, tmp_path):
     x, y, _, _ = scene()
-    for each in made[0].settings:
-        command = shlex.split(each["shell"])
+    for setting in made[0].settings:
+        command = shlex.split(setting["shell"])
         command[command.index(str(source)) + 1] = str(tmp_path / "all.laz")
         assert main(command[1:]) == 0
         ground = classes_of(tmp_path / "all.laz") == 2
-        assert each["ground_count"] == np.count_nonzero(ground & inside(x, y))
-        assert each["ground_share"] == pytest.approx(100 * ground[inside(x, y)].mean())
+        assert setting["ground_count"] == np.count_nonzero(ground & inside(x, y))
+        assert setting["ground_share"] == pytest.approx(100 * ground[inside(x, y)].mean())
 
 
 def test_the_others_are_compared_with_the_first(made):
@@ -92,9 +92,9 @@ def test_the_page_needs_no_other_file_and_shows_all_settings(made):
         kind, _, data = each.partition(",")
         assert kind == "data:image/png;base64" and base64.b64decode(data)[:4] == b"\x89PNG"
     assert "http" not in page.replace("http://www.w3.org", "")
-    for each in summary.settings:
-        assert each["label"] in tags.texts
-        assert each["shell"] in tags.texts and each["qgis"] in tags.texts
+    for setting in summary.settings:
+        assert setting["label"] in tags.texts
+        assert setting["shell"] in tags.texts and setting["qgis"] in tags.texts
     assert "processing.run('bareearth:slopefilter', {" in summary.settings[1]["qgis"]
 
 
@@ -116,8 +116,8 @@ def test_the_profile_lies_where_the_terrains_differ_most_or_where_it_is_wanted(
 
 def figures(summary):
     return [
-        {name: value for name, value in each.items() if name not in ("shell", "qgis")}
-        for each in summary.settings
+        {name: value for name, value in setting.items() if name not in ("shell", "qgis")}
+        for setting in summary.settings
     ]
 
 
@@ -180,7 +180,7 @@ def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch
     monkeypatch.setattr(LabelGround, "work", none)
     progress, how = Heard(), {"extent": WINDOW, "settings": BOTH}
     summary = compare_settings(source, tmp_path / "p.html", progress=progress, **how)
-    assert [each["ground_count"] for each in summary.settings] == [0, 0]
+    assert [setting["ground_count"] for setting in summary.settings] == [0, 0]
     assert summary.settings[1]["terrain_difference"] is None
     assert "Slope filter, Whitebox" in progress.warnings[-1]
 
@@ -228,7 +228,7 @@ def test_without_a_window_the_middle_is_taken(source, tmp_path, capsys):
     summary = compare_settings(source, page, settings=ONE, progress=progress)
     # The scene is smaller than 250 m.
     assert summary.point_count == len(x)
-    assert any("window in the middle of the points, x 5" in each for each in progress.infos)
+    assert any("window in the middle of the points, x 5" in text for text in progress.infos)
     first = page.read_bytes()
     words = ["compare-settings", str(source), str(page), "--settings", *ONE]
     assert main(words) == 0 and page.read_bytes() == first
@@ -239,7 +239,7 @@ def test_without_a_window_the_middle_is_taken(source, tmp_path, capsys):
 def test_the_middle_of_a_wide_survey_is_250_m_wide(tmp_path):
     source = tmp_path / "wide.laz"
     rows = np.arange(0.0, 800.0, 4.0)
-    x, y = (each.ravel() for each in np.meshgrid(rows, rows))
+    x, y = (axis.ravel() for axis in np.meshgrid(rows, rows))
     write_places(source, x, y)
     summary = compare_settings([source], tmp_path / "p.html", settings=ONE)
     corner = ORIGIN[0] + 398 - 125, ORIGIN[1] + 398 - 125
@@ -249,7 +249,7 @@ def test_the_middle_of_a_wide_survey_is_250_m_wide(tmp_path):
 @pytest.mark.parametrize("as_tiles", [False, True])
 def test_in_a_gap_the_nearest_points_are_taken(tmp_path, as_tiles):
     rows = np.arange(0.0, 1000.0, 4.0)
-    x, y = (each.ravel() for each in np.meshgrid(rows, rows))
+    x, y = (axis.ravel() for axis in np.meshgrid(rows, rows))
     # An L: the middle of the extent is empty, and the nearest point lies west of it.
     strip = (x < 100) | (y < 60)
     if as_tiles:
@@ -262,7 +262,7 @@ def test_in_a_gap_the_nearest_points_are_taken(tmp_path, as_tiles):
         sources = [tmp_path / "in.laz"]
     progress = Heard()
     summary = compare_settings(sources, tmp_path / "p.html", settings=ONE, progress=progress)
-    assert any(each.startswith("window round the point that is nearest") for each in progress.infos)
+    assert any(text.startswith("window round the point that is nearest") for text in progress.infos)
     west, south, east, north = summary.window
     place = ORIGIN[0] + 96, ORIGIN[1] + 496
     assert (east, south, north) == (place[0] + 125, place[1] - 125, place[1] + 125)

@@ -42,11 +42,11 @@ def test_it_is_right_as_often_as_it_says(method, scenes):
         classes, takes_part = classify_cloud(scene.cloud(), METHODS[method].parameters())
         points, ground = scene.points.take(takes_part), classes[takes_part] == 2
         seen.append(compared(points, ground, scene.terrain))
-    bins = [each for each in reliability(seen) if each.share > 0]
-    sure = [each for each in bins if each.stated > 0.9]
+    bins = [level for level in reliability(seen) if level.share > 0]
+    sure = [level for level in bins if level.stated > 0.9]
     assert sum(each.share for each in sure) > 0.5
-    assert all(abs(each.right - each.stated) < 0.1 for each in bins if each.share > 0.05)
-    assert abs(sum(each.share * (each.right - each.stated) for each in bins)) < 0.05
+    assert all(abs(level.right - level.stated) < 0.1 for level in bins if level.share > 0.05)
+    assert abs(sum(level.share * (level.right - level.stated) for level in bins)) < 0.05
 
 
 def test_it_is_less_under_trees_and_where_a_house_stood_than_in_the_open():
@@ -100,5 +100,5 @@ def test_the_fit_finds_the_weights_that_made_the_data():
     right = random.random(len(pieces)) < 1 / (1 + np.exp(-true[0] - pieces @ true[1:]))
     found = fitted([Seen("", False, pieces, right), Seen("", True, pieces, right)])
     np.testing.assert_allclose(found, true, rtol=0.15)
-    for each in reliability([Seen("", False, pieces, right)], found):
-        assert each.share < 0.01 or abs(each.right - each.stated) < 0.02
+    for level in reliability([Seen("", False, pieces, right)], found):
+        assert level.share < 0.01 or abs(level.right - level.stated) < 0.02

@@ -381,7 +381,7 @@ def test_places_inside_lie_at_multiples_of_the_step():
 
 def test_near_places_are_those_of_the_squares_round_a_place():
     near = NearPlaces(np.array([0.5, 100.0]), np.array([0.5, -3.5]), 2.0)
-    x, y = (each.ravel() for each in np.meshgrid(np.arange(-20, 120) / 1.0, np.arange(-20, 20)))
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(-20, 120) / 1.0, np.arange(-20, 20)))
     expected = np.zeros(len(x), dtype=bool)
     for at_x, at_y in ((0.5, 0.5), (100.0, -3.5)):
         column, row = np.floor(x / 2.0) - np.floor(at_x / 2.0), np.floor(y / 2.0) - at_y // 2.0

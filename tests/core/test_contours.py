@@ -117,8 +117,8 @@ def noisy_slope(size=300, noise=0.15, seed=4):
 
 def read(path):
     content = json.loads(path.read_text(encoding="utf-8"))
-    shapes = [np.array(each["geometry"]["coordinates"]) for each in content["features"]]
-    return content, [each["properties"] for each in content["features"]], shapes
+    shapes = [np.array(feature["geometry"]["coordinates"]) for feature in content["features"]]
+    return content, [feature["properties"] for feature in content["features"]], shapes
 
 
 def test_noise_makes_no_specks_and_lines_stay_where_they_are(tmp_path):
@@ -211,7 +211,7 @@ def test_the_commands_draw_the_same_lines(tmp_path):
     assert one == two == three and one.count(b"LineString") > 20
     out = str(tmp_path / "out.laz")
     assert main(["classify", source, out, "--contours", names[0]]) == 0
-    assert sorted(each.name for each in tmp_path.iterdir()) == [
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
         "a.geojson", "b.geojson", "c.geojson", "dtm.tif", "in.laz", "out.laz",
     ]  # fmt: skip
 

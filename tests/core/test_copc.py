@@ -373,7 +373,7 @@ def test_copc_becomes_plain_in_its_own_order(las, small_leaves, written):
     np.testing.assert_array_equal(after.classification, classes_of(10_000))
     assert [vlr.user_id for vlr in after.vlrs if vlr.user_id == "copc"] == []
     with laspy.open(target) as file:
-        assert [(each.user_id, each.record_data_bytes()) for each in file.evlrs] == [
+        assert [(record.user_id, record.record_data_bytes()) for record in file.evlrs] == [
             ("behind", b"the points")
         ]
     assert any("order of the COPC file" in text for text in progress.infos)
@@ -407,7 +407,7 @@ def test_records_of_others_stay_and_the_crs_is_kept_word_for_word(las):
     assert {other, wkt} <= set(las.split(target).vlrs)
     assert target.read_bytes().endswith(las.evlr(b"behind", 9, b"the points"))
     with laspy.open(target) as file:
-        assert [each.user_id for each in file.evlrs] == ["copc", "behind"]
+        assert [record.user_id for record in file.evlrs] == ["copc", "behind"]
     assert las.split(target).field("H", 6) == 0x11
 
 
@@ -446,7 +446,7 @@ def test_waveforms_that_are_left_out_are_told(las, point_format):
     target, progress = las.folder / "out.copc.laz", las.Heard()
     write_classified(source, target, classes_of(60), progress)
     assert sum("waveforms" in text for text in progress.warnings) == 1
-    assert not any(each[2:11] == b"LASF_Spec" for each in las.split(target).vlrs)
+    assert not any(record[2:11] == b"LASF_Spec" for record in las.split(target).vlrs)
     assert las.split(target).field("H", 6) & 0x06 == 0
 
 

@@ -271,7 +271,7 @@ def test_two_texts_add_to_each_other_and_contradictions_are_told(las):
         crs = read_crs(open_las(source), progress)
         assert crs.horizontal_unit == 1.0
         assert crs.vertical_unit == pytest.approx(SURVEY if behind == COMPOUND_1 else 1.0)
-        told = [each for each in progress.warnings if "by the other well-known text" in each]
+        told = [text for text in progress.warnings if "by the other well-known text" in text]
         assert len(told) == contradicts
 
 
@@ -289,7 +289,7 @@ def test_records_that_contradict_each_other_are_told(las, values, told):
     text = las.vlr(b"LASF_Projection", 2112, COMPOUND_1.encode())
     crs, progress = crs_of(las, text, *geotiff(las, model=1, **values), encoding=0x10)
     assert crs.vertical_unit == pytest.approx(SURVEY) and crs.datum.epsg == 5103
-    warnings = [each for each in progress.warnings if "contradict each other" in each]
+    warnings = [text for text in progress.warnings if "contradict each other" in text]
     assert len(warnings) == (told is not None)
     assert all(told in each and "--crs" in each for each in warnings)
 

@@ -364,7 +364,7 @@ def test_a_crs_too_long_for_copc_stays_where_it_is(las):
     source = las.make(version=4, point_format=6, encoding=0x10, evlrs=[record])
     progress, target = las.Heard(), las.folder / "out.copc.laz"
     write_classified(source, target, np.zeros(60, np.uint8), progress)
-    assert any("too long" in each for each in progress.warnings)
+    assert any("too long" in text for text in progress.warnings)
     assert open_las(target).vlr(("LASF_Projection", 2112)).data == text
 
 

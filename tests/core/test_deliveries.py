@@ -136,7 +136,7 @@ def with_water(has_key_points=False):
 
 
 def files_of(folder):
-    found = (each.relative_to(folder).as_posix() for each in folder.rglob("*") if each.is_file())
+    found = (path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
     return {each for each in found if not each.startswith(("points/", ".bare-earth/"))}
 
 
@@ -159,7 +159,7 @@ def test_the_tables_are_complete():
 def test_a_delivery_of_one_file_has_all_its_files(made, scene, name):
     summary, folder = made(name)
     assert files_of(folder) == ALWAYS | FILES[name]
-    assert [each.name for each in (folder / "points").iterdir()] == ["whole.laz"]
+    assert [path.name for path in (folder / "points").iterdir()] == ["whole.laz"]
     record = json.loads((folder / "delivery.json").read_text())
     assert record["is_finished"] and set(record["files"]) | {"delivery.json"} == {
         *files_of(folder), "points/whole.laz"
@@ -169,8 +169,8 @@ def test_a_delivery_of_one_file_has_all_its_files(made, scene, name):
         assert f'href="{each}"' in page
     assert f"{summary.ground_count:,}" in page and summary.point_count == len(scene[0])
     # Nothing is left of the folder in which it was made, and no page names it.
-    assert not [each for each in os.listdir(folder.parent) if each.startswith(".")]
-    pages = [each.read_text(encoding="utf-8") for each in folder.glob("*.html")]
+    assert not [name for name in os.listdir(folder.parent) if name.startswith(".")]
+    pages = [path.read_text(encoding="utf-8") for path in folder.glob("*.html")]
     assert not any(".~" in each or str(folder.parent) in each for each in pages)
 
 
@@ -186,7 +186,7 @@ def test_two_files_get_the_same_as_one(made, scene, name):
             assert np.array_equal(
                 heights_of(folder / each), heights_of(other / each), equal_nan=True
             )
-    written = {each.name for each in (other / "points").glob("*.laz")}
+    written = {path.name for path in (other / "points").glob("*.laz")}
     assert written == {"east.laz", "west.laz"} and os.path.exists(many.cloud)
 
 
@@ -261,11 +261,11 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
     water, truth = given_water(distance)
     how = {"specification": specification, "hold_out_share": None, "water": water}
     summary = deliver(scene[1 if is_one else 2], tmp_path / "out", overview=True, **how)
-    clouds = [laspy.read(each) for each in (tmp_path / "out" / "points").glob("*st.laz")]
+    clouds = [laspy.read(path) for path in (tmp_path / "out" / "points").glob("*st.laz")]
     clouds = [laspy.read(summary.cloud)] if is_one else clouds
     assert len(clouds) == 2 - is_one
-    x, y = (np.concatenate([np.asarray(each[name]) for each in clouds]) for name in "xy")
-    classes = np.concatenate([np.asarray(each.classification) for each in clouds])
+    x, y = (np.concatenate([np.asarray(las[name]) for las in clouds]) for name in "xy")
+    classes = np.concatenate([np.asarray(las.classification) for las in clouds])
     ground = np.isin(classes, (2, 9, 20))
     expected = truth(x[ground] - EAST, y[ground] - NORTH)
     assert np.array_equal(classes[ground], expected) and ground.sum() > 10_000
@@ -282,12 +282,12 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
 def test_key_points_are_among_the_ground_that_water_leaves(scene, watered, tmp_path, is_one):
     how, folder = with_water(has_key_points=True), tmp_path / "out"
     summary, folder = (deliver(scene[1], folder, **how), folder) if is_one else watered(how)
-    clouds = [laspy.read(each) for each in (folder / "points").glob("*.laz")]
-    marked = [np.asarray(each.classification)[np.asarray(each.key_point) == 1] for each in clouds]
+    clouds = [laspy.read(path) for path in (folder / "points").glob("*.laz")]
+    marked = [np.asarray(las.classification)[np.asarray(las.key_point) == 1] for las in clouds]
     assert set(np.concatenate(marked)) == {2} and all(map(len, marked))
     assert {9, 20} <= summary.class_counts.keys() and not list(folder.glob(".w*"))
     names = {"classified.vpc", "east.laz", "west.laz"}
-    written = {each.name for each in (folder / "points").iterdir()}
+    written = {path.name for path in (folder / "points").iterdir()}
     assert written == ({"whole.laz"} if is_one else names)
 
 
@@ -298,13 +298,13 @@ def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scen
     points = tmp_path / "out" / "points"
     tiles = {"east.copc.laz", "west.copc.laz"}
     lists = {"classified.vpc", "classified-overview.copc.laz"}
-    assert {each.name for each in points.iterdir()} == tiles | lists
+    assert {path.name for path in points.iterdir()} == tiles | lists
     listed = json.loads(Path(summary.cloud).read_text())["features"]
     assert {Path(tile["assets"]["data"]["href"]).name for tile in listed} == tiles
     assert 9 in classes_of(points / "classified-overview.copc.laz")
     files = json.loads((tmp_path / "out" / "delivery.json").read_text())["files"]
     assert {each for each in files if not (tmp_path / "out" / each).is_file()} == set()
-    assert {each for each in os.listdir(tmp_path / "out") if each[0] == "."} == {".bare-earth"}
+    assert {name for name in os.listdir(tmp_path / "out") if name[0] == "."} == {".bare-earth"}
 
 
 def test_water_that_was_found_gives_classes_in_one_file_and_in_two(made):
@@ -416,7 +416,7 @@ def test_many_files_can_be_continued_after_a_cancel(scene, tmp_path):
         deliver(scene[2], target, progress=Stops(0.95), **SMALL)
     assert files_of(target) == {"delivery.json"}
     assert not json.loads((target / "delivery.json").read_text())["is_finished"]
-    before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
+    before = {path: path.stat().st_mtime_ns for path in (target / "points").glob("*.laz")}
     assert len(before) == 2
     deliver(scene[2], target, resume=True, **SMALL)
     assert {each: each.stat().st_mtime_ns for each in before} == before
@@ -452,10 +452,10 @@ def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
     target, how = tmp_path / "out", with_water(has_key_points)
     with pytest.raises(FinishedFilesStay):
         deliver(scene[2], target, progress=StopsAfter(target, count), **how)
-    ready = {each for each in files_of(target) if not each.startswith(".waiting/")}
+    ready = {name for name in files_of(target) if not name.startswith(".waiting/")}
     assert ready == {"delivery.json"}
     # The classified files stay as they were, until all is done.
-    before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
+    before = {path: path.stat().st_mtime_ns for path in (target / "points").glob("*.laz")}
     assert len(before) == 2 and not any(
         (each == 9).any() for each in classes_by_file(target).values()
     )
@@ -526,7 +526,7 @@ def test_a_delivery_is_kept_beside_an_old_one_that_a_program_has_open(
                 windows.hold(target / "dtm.tif", 5)
 
     def content():
-        return {each: (target / each).read_bytes() for each in files_of(target)}
+        return {name: (target / name).read_bytes() for name in files_of(target)}
 
     deliver(source, target, **SMALL)
     before = content()
@@ -561,7 +561,7 @@ def test_a_file_that_cannot_be_read_is_named_on_the_page(scene, tmp_path):
     shutil.copytree(scene[2], tiles)
     (tiles / "broken.laz").write_bytes(b"LASF")
     summary = deliver(tiles, tmp_path / "out", **SMALL)
-    assert [os.path.basename(each) for each in summary.failures] == ["broken.laz"]
+    assert [os.path.basename(path) for path in summary.failures] == ["broken.laz"]
     assert "<li>broken.laz is left out." in (tmp_path / "out" / "index.html").read_text("utf-8")
 
 
@@ -617,7 +617,7 @@ def test_the_command_delivers_and_prints_the_figures(scene, tmp_path, capsys):
     told = json.loads(capsys.readouterr().out)
     assert told["cell_size"] == 2.0 and told["check"] is None and told["quality"]["points"]
     assert set(told["layers"]) == {"dtm", "dsm", "hillshade", "contours"}
-    assert all(os.path.exists(each) for each in told["layers"].values())
+    assert all(os.path.exists(path) for path in told["layers"].values())
 
 
 def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
@@ -626,7 +626,7 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     assert main(["deliver", "survey", str(scene[1]), str(target)]) == 0
     first, *rows = capsys.readouterr().out.splitlines()
     assert first.startswith(f"{target}: {summary.ground_count:,} of {summary.point_count:,} points")
-    told = {each[:11].rstrip(): each[12:] for each in rows}
+    told = {row[:11].rstrip(): row[12:] for row in rows}
     titles = ["classes", "water", "accuracy", "held out", "comparisons", "cell size", "page"]
     assert list(told) == titles and told["accuracy"].startswith("not measured")
     counts = (f"{value}: {count:,}" for value, count in summary.class_counts.items())
@@ -652,13 +652,13 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
 def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
     x, y = np.array([5.0, 60.0, 70.0]), np.array([5.0, 50.0, 85.0])
     rows = zip(x + EAST, y + NORTH, ground_at(x, y))
-    table = "\n".join(["x,y,z", *(",".join(map(str, each)) for each in rows)])
+    table = "\n".join(["x,y,z", *(",".join(map(str, row)) for row in rows)])
     (tmp_path / "points.csv").write_text(table)
     words = ["--checkpoints", str(tmp_path / "points.csv"), "--hold-out-share", "none"]
     words += ["--accuracy-class", "0.1"]
     assert main(["deliver", "drone-site", str(scene[1]), str(tmp_path / "out"), *words]) == 0
     rows = capsys.readouterr().out.splitlines()[1:]
-    titles = [each[:11].rstrip() for each in rows]
+    titles = [row[:11].rstrip() for row in rows]
     assert titles == ["classes", "checkpoints", "verdict", "cell size", "page"]
     assert rows[2].endswith(
         "meet the class of 0.1 m, by 3 of the 30 checkpoints that the standard asks for."
@@ -670,7 +670,7 @@ def test_many_files_with_heights_are_done_already_after_a_finished_delivery(made
     target, progress = tmp_path / "out", Heard()
     first, folder = made("forestry", is_one=False)
     shutil.copytree(folder, target)
-    before = {each: each.stat().st_mtime_ns for each in (target / "points").glob("*.laz")}
+    before = {path: path.stat().st_mtime_ns for path in (target / "points").glob("*.laz")}
     assert len(before) == 2
     for each in before:
         assert "HeightAboveGround" in laspy.read(each).point_format.dimension_names

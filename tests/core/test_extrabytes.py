@@ -119,9 +119,9 @@ def test_a_record_behind_the_points_moves_before_them(las, written):
         names = list(file.header.point_format.extra_dimension_names)
         assert names == ["amplitude", "HeightAboveGround"]
         behind = [
-            (each.user_id, each.record_data_bytes())
-            for each in file.evlrs
-            if each.user_id != "copc"
+            (record.user_id, record.record_data_bytes())
+            for record in file.evlrs
+            if record.user_id != "copc"
         ]
     assert ("a", b"one") in behind and ("b", b"two") in behind
     assert "LASF_Spec" not in dict(behind)

@@ -149,7 +149,7 @@ def _look_at(name, done, out, old, enough):
         assert all(Path(path).read_bytes() != b"old" for path in old), what
         return
     assert done.returncode == 1 and "Unexpected" not in done.stderr, what
-    assert len([each for each in lines if each.startswith("bare-earth: ")]) <= 1, what
+    assert len([line for line in lines if line.startswith("bare-earth: ")]) <= 1, what
     assert "disk is full" in done.stderr or "No space left" in done.stderr, what
     if name not in SURVEYS:
         assert {path: Path(path).read_bytes() for path in old} == old, what

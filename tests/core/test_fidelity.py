@@ -81,7 +81,7 @@ def blank(header, *ranges):
 
 def others(records, *left_out):
     """Return records but for those of these users, which belong to a container."""
-    return [each for each in records if each[2:18] not in left_out]
+    return [record for record in records if record[2:18] not in left_out]
 
 
 def kept_around(before, after, *changed):
@@ -103,7 +103,7 @@ def kept_in_copc(before, after, new):
     one.append(new)
     other.append(independent.classes(after.points, after.format))
     rows = [np.array([each.astype(np.int64) for each in columns]) for columns in (one, other)]
-    assert np.array_equal(*(each[:, np.lexsort(each)] for each in rows))
+    assert np.array_equal(*(row[:, np.lexsort(row)] for row in rows))
     left_out = LASZIP, COPC, *([SPEC] if before.format in WITH_WAVEFORMS else [])
     assert others(after.vlrs, *left_out) == others(before.vlrs, *left_out)
     assert others(after.evlrs, *left_out) == others(before.evlrs, *left_out)
@@ -150,7 +150,7 @@ def test_nothing_but_the_class_changes(written, tmp_path, version, point_format,
         return
     kept_around(before, after)
     assert np.array_equal(independent.classes(after.points, point_format), new)
-    bits = [without(each.points, point_format, CLASS) for each in (before, after)]
+    bits = [without(las.points, point_format, CLASS) for las in (before, after)]
     assert np.array_equal(*bits)
     if source == target == "las":  # no pointer moves, nothing is written anew
         start = before.field("I", 96)
@@ -189,11 +189,11 @@ def kept_by(name, before, after):
         points, added = points[:, : old.shape[1]], points.shape[1] - old.shape[1]
         assert added == 4
         before, after = (
-            each._replace(
-                vlrs=[vlr for vlr in each.vlrs if vlr[2:20] != EXTRA_BYTES],
-                evlrs=[vlr for vlr in each.evlrs if vlr[2:20] != EXTRA_BYTES],
+            las._replace(
+                vlrs=[vlr for vlr in las.vlrs if vlr[2:20] != EXTRA_BYTES],
+                evlrs=[vlr for vlr in las.evlrs if vlr[2:20] != EXTRA_BYTES],
             )
-            for each in (before, after)
+            for las in (before, after)
         )
     elif name == "height in z":
         header = [EXTENT_OF_Z]
@@ -201,9 +201,9 @@ def kept_by(name, before, after):
         points[:, 8:12] = old[:, 8:12] = 0
     kept_around(before, after, *header)
     bits = BITS.get(name, ())
-    old, points = (without(each, before.format, *bits) for each in (old, points))
-    if any(each[2:18] == COPC for each in after.vlrs):
-        if any(each[2:18] == COPC for each in before.vlrs) and name == "classify":
+    old, points = (without(values, before.format, *bits) for values in (old, points))
+    if any(record[2:18] == COPC for record in after.vlrs):
+        if any(record[2:18] == COPC for record in before.vlrs) and name == "classify":
             assert np.array_equal(old, points)  # all but the layer of the classes is copied
         old, points = in_any_order(old), in_any_order(points)
     assert np.array_equal(old, points)
@@ -329,7 +329,7 @@ def test_files_of_other_projects_keep_what_they_say_or_are_refused_in_a_sentence
             lines = [line for line in errors.splitlines() if not line.startswith("Warning: ")]
             assert code == 1 and len(lines) == 1, (words, errors)
             assert "Unexpected" not in errors and errors.rstrip().endswith("."), errors
-            made = [each for each in tmp_path.rglob("*") if each not in before and each.is_file()]
+            made = [path for path in tmp_path.rglob("*") if path not in before and path.is_file()]
             assert not made, words
             continue
         if target is not None:
@@ -359,7 +359,7 @@ def compare_real(name, source, words, target):
         assert len(after.points) == len(before.points)
         if before.format >= 6:
             bits = (CLASS,)
-            old, new = (without(each.points, each.format, *bits) for each in (before, after))
+            old, new = (without(las.points, las.format, *bits) for las in (before, after))
             assert np.array_equal(in_any_order(old), in_any_order(new))
         return
     kept_by(name, before, after)

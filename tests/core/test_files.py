@@ -291,8 +291,8 @@ def test_an_output_that_a_program_has_open_is_refused_before_any_work(number, wi
 
 def test_what_was_made_is_kept_where_a_program_has_an_old_output_open_at_the_end(windows, tmp_path):
     names = ["dtm.tif", "dsm.tif", "lines.shp", "lines.dbf", "lines.shx", "dtm.tif.aux.xml"]
-    for each in [*names, "dsm-new.tif"]:
-        (tmp_path / each).write_text("old")
+    for name in [*names, "dsm-new.tif"]:
+        (tmp_path / name).write_text("old")
     windows.hold(tmp_path / "lines.dbf")
     with pytest.raises(OutputInUse) as told, Outputs() as outputs:
         outputs.file(tmp_path / "dtm.tif", ["dtm.tif.aux.xml"]).write_text("new")
@@ -301,7 +301,7 @@ def test_what_was_made_is_kept_where_a_program_has_an_old_output_open_at_the_end
         for ending in (".shp", ".dbf"):
             lines.with_suffix(ending).write_text("new")
     # Nothing is half new.
-    assert all((tmp_path / each).read_text() == "old" for each in names)
+    assert all((tmp_path / name).read_text() == "old" for name in names)
     kept = ["dtm-new.tif", "dsm-new2.tif", "lines-new.dbf", "lines-new.shp"]
     assert all((tmp_path / each).read_text() == "new" for each in kept)
     assert "Cannot write" in str(told.value) and "lines.dbf: another program uses" in str(
@@ -321,7 +321,7 @@ def test_outputs_get_their_names_together_and_what_they_outdate_goes(tmp_path):
             lines.with_suffix(ending).write_text("new")
         assert (tmp_path / "dtm.tif").read_text() == "old"
     assert sorted(os.listdir(tmp_path)) == ["dtm.tif", "lines.dbf", "lines.shp"]
-    assert all(each.read_text() == "new" for each in tmp_path.iterdir())
+    assert all(path.read_text() == "new" for path in tmp_path.iterdir())
 
 
 def test_a_virus_scanner_that_has_files_open_for_a_moment_is_waited_for(windows, tmp_path):
@@ -421,10 +421,10 @@ def test_folders_are_exchanged_as_a_whole_or_not_at_all(number, windows, tmp_pat
         patch.setattr(exchange_module, "check_free", lambda path: None)
         with pytest.raises(BareEarthError):
             exchange(moves, outdated, aside)
-    assert {each.name: each.read_text() for each in old.iterdir()} == dict.fromkeys("bcd", "old")
-    assert {each.name: each.read_text() for each in new.iterdir()} == dict.fromkeys("abc", "new")
+    assert {path.name: path.read_text() for path in old.iterdir()} == dict.fromkeys("bcd", "old")
+    assert {path.name: path.read_text() for path in new.iterdir()} == dict.fromkeys("abc", "new")
     windows.in_use.clear()
     for each in aside.iterdir():
         each.unlink()
     exchange(moves, outdated, aside)
-    assert {each.name: each.read_text() for each in old.iterdir()} == dict.fromkeys("abc", "new")
+    assert {path.name: path.read_text() for path in old.iterdir()} == dict.fromkeys("abc", "new")

@@ -70,9 +70,9 @@ def test_points_are_counted_and_found_by_their_cells(monkeypatch):
 def test_of_points_equally_low_the_choice_does_not_depend_on_their_order():
     points = Points(np.array([0.7, 0.2, 0.5]), np.array([0.1, 0.9, 0.3]), np.zeros(3))
     back = points.take(np.array([2, 1, 0]))
-    for each in (points, back):
-        chosen = Cells.over(each, 1.0).lowest_points(each)
-        assert each.x[chosen] == 0.2
+    for cloud in (points, back):
+        chosen = Cells.over(cloud, 1.0).lowest_points(cloud)
+        assert cloud.x[chosen] == 0.2
 
 
 def test_of_points_equally_low_those_with_the_smallest_x_then_y_are_chosen():
@@ -84,7 +84,7 @@ def test_of_points_equally_low_those_with_the_smallest_x_then_y_are_chosen():
     for place in np.lexsort((points.y, points.x, points.z)):
         first.setdefault(cells.index[place], place)
     chosen, expected = (
-        points.take(each) for each in (cells.lowest_points(points), list(first.values()))
+        points.take(places) for places in (cells.lowest_points(points), list(first.values()))
     )
     assert sorted(zip(*chosen)) == sorted(zip(*expected))
 
@@ -254,7 +254,7 @@ def test_the_spacing_of_a_survey_is_that_of_any_part_of_it():
     x, y = np.random.default_rng(5).uniform(0.0, 400.0, (2, 40_000))
     points = Points(x, y, x)
     assert spacing(points) == 2.0
-    far = Points(*(np.append(each, 900.0) for each in points))
+    far = Points(*(np.append(values, 900.0) for values in points))
     for part in (points.take(x < 200), points.take((x < 90) | (x > 300)), far):
         assert spacing(part) == 2.0
     assert spacing(points, dense=2.5) == 2.5

@@ -14,7 +14,7 @@ def _scattered():
 
 
 def _lattice():
-    x, y = (each.ravel() for each in np.meshgrid(np.arange(-15.0, 15.0), np.arange(-10.0, 10.0)))
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(-15.0, 15.0), np.arange(-10.0, 10.0)))
     return Points(x, y, np.random.default_rng(1).normal(size=len(x)))
 
 

@@ -15,7 +15,7 @@ WALL, REACH, HEIGHT = 6.0, 0.5, 4.0
 @pytest.fixture(scope="module")
 def block():
     """Points 0.15 m apart round a block whose foot begins half a metre before its wall."""
-    x, y = (each.ravel() for each in np.meshgrid(*[np.arange(0.07, 30.0, 0.15)] * 2))
+    x, y = (axis.ravel() for axis in np.meshgrid(*[np.arange(0.07, 30.0, 0.15)] * 2))
     before = np.maximum(np.abs(x - 15.0), np.abs(y - 15.0)) - WALL
     foot = 0.4 * np.clip(1.0 - before / REACH, 0.0, 1.0)
     noise = np.random.default_rng(1).normal(0.0, 0.02, x.size)

@@ -85,7 +85,7 @@ def test_mypy_reads_the_stub(tmp_path):
     )
     command = [sys.executable, "-m", "mypy", "--config-file", tmp_path / "mypy.ini"]
     done = subprocess.run([*command, right, wrong], capture_output=True, text=True, cwd=tmp_path)
-    (line,) = (each for each in done.stdout.splitlines() if ": error: " in each)
+    (line,) = (line for line in done.stdout.splitlines() if ": error: " in line)
     assert line.startswith("wrong.py:2") and 'Unexpected keyword argument "outputas"' in line
 
 
