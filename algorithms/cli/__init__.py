@@ -10,16 +10,16 @@ from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..tools import FILE_TOOLS, POINT_TOOLS
-from . import commands, odm
-from .commands import tool_command
+from . import odm
+from .commands import DELIVER, tool_command
 from .options import FAILED, USAGE, UsageError
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (
-    commands.CLASSIFY, commands.TILES, commands.DELIVER,
+    tool_command("classify"), tool_command("classify-tiles"), DELIVER,
     *map(tool_command, ("info", "assess", "check", "quality")),
     *map(tool_command, ("remove-off-terrain-objects", "height", "above-ground", "key-points")),
-    commands.TERRAIN, *map(tool_command, ("contours", "relief", "water", "water-classes")),
+    *map(tool_command, ("terrain", "contours", "relief", "water", "water-classes")),
     *odm.COMMANDS,
 )  # fmt: skip
 
@@ -86,14 +86,15 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
     common.add_argument(
         "--verbose", action="store_true", help="print what is done, and where an error arose"
     )
-    names = {each.name for each in _COMMANDS}
+    names = {command.name for command in _COMMANDS}
     further = (tool_command(name) for name in (*POINT_TOOLS, *FILE_TOOLS) if name not in names)
-    for each in (*_COMMANDS, *further):
-        its_parser = commands.add_parser(
-            each.name, parents=[common], help=each.help, description=each.description, epilog=_EMPTY
-        )
-        its_parser.set_defaults(run=each.run)
+    for command in (*_COMMANDS, *further):
+        options = commands.add_parser(
+            command.name, parents=[common], help=command.help, description=command.description,
+            epilog=_EMPTY,
+        )  # fmt: skip
+        options.set_defaults(run=command.run)
         # Declarations of parameters import numpy, so other commands are left out.
-        if each.name in arguments:
-            each.add(its_parser, arguments)
+        if command.name in arguments:
+            command.add(options, arguments)
     return parser

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from ..tools import FILE_TOOLS, POINT_TOOLS
-
-# The functions that are not those of a tool.
-_OTHERS = ("classify", "deliver", "terrain")
+from ..tools import FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 
 
 def tool_commands() -> dict[str, str]:
     """Return the commands of tools, by the names of their functions."""
     commands = {command.replace("-", "_"): command for command in FILE_TOOLS}
-    return {**commands, **{listed.file: command for command, listed in POINT_TOOLS.items()}}
+    commands.update((listed.file, command) for command, listed in POINT_TOOLS.items())
+    # "classify-tiles" is no function of its own.
+    commands.update((name, name) for name in MAP_TOOLS if name.isidentifier())
+    return commands
 
 
 def names() -> list[str]:
     """Return the names of all functions, without importing what they do."""
-    return sorted({*_OTHERS, *tool_commands()})
+    return sorted({"deliver", *tool_commands()})

@@ -6,10 +6,8 @@ import inspect
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from ..survey.feature_files import FORMATS as LINE_FORMATS
 from ..survey.vector_files import FORMATS
 from ..tools.check.reading import FORMATS as POINT_FORMATS
-from ..tools.rasters.rows import RASTERS
 
 REQUIRED = inspect.Parameter.empty
 _PATH, _LITERAL = "str | PathLike[str]", "Literal[{}]"
@@ -54,7 +52,7 @@ class Argument:
     @classmethod
     def choice(cls, name: str, choices: Any, default: str, help: str) -> Argument:
         """Return an argument that is one of some words."""
-        words = ", ".join(f'"{each}"' for each in choices)
+        words = ", ".join(f'"{choice}"' for choice in choices)
         return cls(name, Kind(_LITERAL.format(words), f"{{{words}}}"), help, default)
 
 
@@ -99,11 +97,6 @@ SCHEDULER = Argument.of(
 VPC = path(
     "vpc", "with many files: the virtual point cloud that lists the results, by default in OUTPUT"
 )
-CONTOURS = path(
-    "contours",
-    f"contour lines of the terrain model ({', '.join(LINE_FORMATS)}); the field ELEV has the"
-    " height, INDEX is 1 for every fifth line. All but .geojson need pyogrio",
-)
 TARGET = (
     path(
         "like",
@@ -144,10 +137,10 @@ CONSTRAINTS = (
 )
 # Constraints of functions that find the water themselves where it is automatic.
 WITH_AUTOMATIC_WATER = tuple(
-    replace(each, help=f"{each.help}; the word automatic: the water is found first")
-    if each.name == "water"
-    else each
-    for each in CONSTRAINTS
+    replace(argument, help=f"{argument.help}; the word automatic: the water is found first")
+    if argument.name == "water"
+    else argument
+    for argument in CONSTRAINTS
 )
 CORRECTIONS = Argument.of(
     "corrections",
@@ -176,11 +169,6 @@ CHECKPOINTS = (
         " states, or the CRS of the points",
     ),
 )
-
-
-def rasters() -> tuple[Argument, ...]:
-    """Return the keywords of the rasters."""
-    return tuple(path(name, f"GeoTIFF (.tif). {row.help}") for name, row in RASTERS.items())
 
 
 def area(what: str, more: str = "") -> tuple[Argument, Argument]:

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from ..rasters.cell_grid import RasterTarget
     from ..tools.check.checkpoints import Checkpoints
     from ..tools.rasters.constraints import Constraints
-    from ..tools.rasters.rows import RasterFiles
 
 # The word for water that is found, and for processes of this computer.
 AUTOMATIC, PROCESSES = "automatic", "processes"
@@ -42,7 +41,7 @@ def progress_of(given: Any) -> Progress:
 
 def paths_of(sources: Any) -> list[Path]:
     """Return paths, given one or several."""
-    return [Path(sources)] if isinstance(sources, (str, Path)) else [Path(each) for each in sources]
+    return [Path(sources)] if isinstance(sources, (str, Path)) else [Path(path) for path in sources]
 
 
 def path_of(given: Any) -> Path | None:
@@ -110,13 +109,6 @@ def target_of(values: SimpleNamespace) -> RasterTarget:
     return RasterTarget(values.like, None if extent is None else tuple(extent))
 
 
-def rasters_of(values: SimpleNamespace) -> RasterFiles:
-    """Return the rasters to make."""
-    from ..tools.rasters.rows import RASTERS, RasterFiles
-
-    return RasterFiles(**{name: path_of(getattr(values, name)) for name in RASTERS})
-
-
 def checkpoints_of(values: SimpleNamespace) -> Checkpoints | None:
     """Return the checkpoints of a file, or of x, y and z in the CRS of the points; or None."""
     from ..tools.check.checkpoints import Checkpoints
@@ -130,10 +122,10 @@ def checkpoints_of(values: SimpleNamespace) -> Checkpoints | None:
 
 def run_on(values: SimpleNamespace, resources: Resources) -> tuple[Workers | None, bool | None]:
     """Return the workers for many files, and whether one file is a survey, too; the command line
-    works in processes, and can ask for a survey.
+    works in processes.
     """
     scheduler = values.scheduler
-    as_survey = bool(scheduler) or getattr(values, "is_survey", False) or None
+    as_survey = True if scheduler else None
     if scheduler is None and getattr(values, "in_processes", False):
         scheduler = PROCESSES
     return workers_of(scheduler, resources), as_survey

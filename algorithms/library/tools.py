@@ -7,35 +7,47 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, Callable
 
 from ..core.progress import Progress
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..survey.ground_classes import GroundClasses
 from ..survey.vector_files import FORMATS
-from ..tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool
-from ..tools.declaration import FileTool, Input, Output
+from ..tools import FILE_TOOLS, MAP_TOOLS, POINT_TOOLS, file_tool, map_tool, point_tool
+from ..tools.declaration import FileTool, Input, Output, Tool
 from . import arguments
 from .arguments import REQUIRED, Argument
 from .functions import Function
 from .given import (
     area_of,
     checkpoints_of,
+    constraints_of,
+    corrections_of,
     is_automatic,
     path_of,
     paths_of,
     polygons_of,
     progress_of,
     run_on,
+    target_of,
 )
 
 CLASSIFIED = replace(arguments.SOURCES, help=f"classified {arguments.SOURCES.help}")
 _REACHES = (arguments.SCHEDULER, arguments.PROGRESS)
+# What reads the inputs that have several arguments.
+_READERS: dict[str, Callable[[SimpleNamespace], Any]] = {
+    "area": area_of,
+    "constraints": constraints_of,
+    "corrections": corrections_of,
+    "target": target_of,
+}
 
 
 def of_tool(command: str) -> Function:
     """Return the function of a tool."""
+    if command in MAP_TOOLS:
+        return _of_map_tool(command)
     return _of_file_tool(command) if command in FILE_TOOLS else _of_point_tool(command)
 
 
@@ -53,9 +65,7 @@ def _of_file_tool(command: str) -> Function:
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         inputs = {declared.name: _input(declared, values) for declared in tool.inputs}
-        outputs = {
-            output.name: path_of(getattr(values, _name_of(output))) for output in tool.outputs
-        }
+        outputs = _outputs_of(tool, values)
         return run_tool(tool, inputs, outputs, sets, progress_of(values.progress))
 
     return Function(
@@ -94,6 +104,12 @@ def _arguments_of(declared: Input) -> tuple[Argument, ...]:
         return arguments.area(declared.help, declared.more)
     if declared.kind == "checkpoints":
         return arguments.CHECKPOINTS
+    if declared.kind == "corrections":
+        return (arguments.CORRECTIONS,)
+    if declared.kind == "constraints":
+        return arguments.WITH_AUTOMATIC_WATER if declared.found else arguments.CONSTRAINTS
+    if declared.kind == "target":
+        return arguments.TARGET
     if declared.kind == "crs":
         return (arguments.CRS,)
     if declared.kind == "clouds":
@@ -131,8 +147,8 @@ def _of_point_tool(command: str) -> Function:
         from ..runs.requests import PointRequest
 
         progress, inputs = progress_of(values.progress), {}
-        for each in tool.inputs:
-            inputs[each.name], progress = _tool_input(each, values, sets, progress)
+        for declared in tool.inputs:
+            inputs[declared.name], progress = _tool_input(tool, declared, values, sets, progress)
         request = PointRequest.of(tool, sets, inputs, values.crs)
         workers, as_survey = run_on(values, request.resources)
         return write(values.sources, values.output, request, progress, workers, as_survey)
@@ -142,7 +158,7 @@ def _of_point_tool(command: str) -> Function:
         _about(POINT_TOOLS[command].help, tool.command_about),
         (CLASSIFIED, arguments.OUTPUT),
         (
-            *(each for some in tool.inputs for each in _arguments_of(some)),
+            *(argument for declared in tool.inputs for argument in _arguments_of(declared)),
             arguments.CRS_OF_OUTPUT, *_REACHES,
         ),
         (*tool.sets, TileInput, TileOutput, Resources),
@@ -152,20 +168,77 @@ def _of_point_tool(command: str) -> Function:
     )  # fmt: skip
 
 
+def _of_map_tool(command: str) -> Function:
+    """Return the function of a tool that makes rasters of points."""
+    from ..runs.one_file import Summary
+    from ..tools.rasters.output import RasterSize
+
+    tool = map_tool(command)
+
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        from ..runs.entry import make
+        from ..runs.requests import map_request
+
+        progress, inputs = progress_of(values.progress), {}
+        for declared in tool.inputs:
+            inputs[declared.name], progress = _tool_input(tool, declared, values, sets, progress)
+        outputs = _outputs_of(tool, values)
+        request = map_request(tool, sets, outputs, crs=values.crs, **inputs)
+        workers, as_survey = run_on(values, request.resources)
+        if tool.classifies:
+            outputs.update(output=Path(values.output), vpc=path_of(values.vpc))
+        return make(
+            values.sources, outputs, request, progress, workers, tool.is_survey or as_survey
+        )
+
+    first = [_argument_of(output) for output in tool.all_outputs if not output.advanced]
+    inputs = [argument for declared in tool.inputs for argument in _arguments_of(declared)]
+    last = [_argument_of(output) for output in tool.all_outputs if output.advanced]
+    last += [arguments.VPC] if tool.classifies else []
+    return Function(
+        command,
+        tool.function_about,
+        (arguments.SOURCES, arguments.OUTPUT) if tool.classifies else (CLASSIFIED,),
+        (
+            arguments.CRS_OF_OUTPUT if tool.classifies else arguments.CRS,
+            *first,
+            *inputs,
+            *last,
+            *_REACHES,
+        ),
+        tool.sets,
+        run,
+        Summary if tool.classifies else RasterSize,
+        is_survey_if_many=tool.classifies,
+        has_method=tool.classifies,
+    )
+
+
+def _outputs_of(tool: Tool, values: SimpleNamespace) -> dict[str, Path | None]:
+    """Return the paths of the outputs of a tool, by their names."""
+    return {output.name: path_of(getattr(values, _name_of(output))) for output in tool.all_outputs}
+
+
 def _tool_input(
-    declared: Input, values: SimpleNamespace, sets: list[Any], progress: Progress
+    tool: Tool, declared: Input, values: SimpleNamespace, sets: list[Any], progress: Progress
 ) -> tuple[Any, Progress]:
-    """Return a further input of a tool as its step has it, and what is left of the progress."""
+    """Return a further input of a tool as its run has it, and what is left of the progress."""
     from ..survey.outputs import check_outputs
 
-    if declared.kind == "area":
-        return area_of(values), progress
-    value = getattr(values, declared.name)
     if declared.kind == "raster":
-        return (None if value is None else declared.of(value)), progress
-    if declared.found is None or not is_automatic(value):
-        return declared.of(polygons_of(value)), progress
-    paths = paths_of(values.sources)
-    check_outputs([("cloud", Path(values.output))], paths)  # to find polygons can take minutes
+        path = getattr(values, declared.name)
+        return (None if path is None else declared.of(path)), progress
+    is_found = declared.found is not None and is_automatic(values.water)
+    if declared.kind in _READERS:
+        given = _READERS[declared.kind](values)
+    else:
+        given = None if is_found else declared.of(polygons_of(getattr(values, declared.name)))
+    if not is_found or declared.found is None:
+        return given, progress
+    paths, places = paths_of(values.sources), _outputs_of(tool, values)
+    kinds = [(output.kind, places[output.name]) for output in tool.all_outputs]
+    # To find polygons can take minutes.
+    check_outputs([(kind, path) for kind, path in kinds if path is not None], paths)
     ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
-    return declared.found(paths, ground, values.crs, part), progress.part(0.4, 1.0)
+    found = declared.found(paths, ground, values.crs, part)
+    return (found if given is None else given.with_water(found, part)), progress.part(0.4, 1.0)

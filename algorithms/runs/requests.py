@@ -18,7 +18,8 @@ from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from ..tools.above_ground import ClassifyAboveGround
 from ..tools.above_ground.classes import ThenAboveGround
-from ..tools.declaration import PointTool
+from ..tools.contours import Contours
+from ..tools.declaration import MapTool, PointTool
 from ..tools.ground.explanation import Explanation
 from ..tools.ground.method import TileMethod
 from ..tools.ground.output import Output
@@ -26,7 +27,7 @@ from ..tools.ground.step import LabelGround
 from ..tools.heights import MeasureHeights
 from ..tools.rasters.constraints import NO_CONSTRAINTS, Constraints
 from ..tools.rasters.parameters import Gaps, RasterOutput, SurfaceModel, TerrainModel
-from ..tools.rasters.rows import RasterFiles
+from ..tools.rasters.rows import RASTERS, RasterFiles
 from ..tools.rasters.step import MakeRasters
 
 _Request = TypeVar("_Request", bound="Request")
@@ -61,6 +62,8 @@ class RasterRequest(Request):
     raster_output: RasterOutput = field(default_factory=RasterOutput)
     raster_target: RasterTarget = ANYWHERE  # a raster whose grid they get, and their extent
     area: Area | None = None  # where rasters have values, and points are classified
+    contours: Contours = field(default_factory=Contours)
+    contour_lines: Path | None = None  # the file of contour lines to write
 
     def rasters_of(self, ground: GroundClasses, roads: tuple[int, ...]) -> MakeRasters:
         """Return the step that makes them, given which points are ground; see `MakeRasters`."""
@@ -124,7 +127,7 @@ class ClassifyRequest(RasterRequest):
             raise BareEarthError(
                 "Classes above the ground need all points. Write all points, not only the ground."
             )
-        if self.constraints.any and not self.rasters.wanted:
+        if self.constraints.any and not (self.rasters.wanted or self.contour_lines):
             raise BareEarthError(
                 "Breaklines, water, rivers and places without ground only change rasters. Choose a"
                 " raster to make, such as the terrain model."
@@ -188,3 +191,17 @@ class TerrainRequest(RasterRequest):
     def raster_step(self) -> MakeRasters:
         """The step that makes the rasters."""
         return self.rasters_of(self.ground, self.roads)
+
+
+def map_request(
+    tool: MapTool,
+    sets: Iterable[ParameterSet],
+    outputs: Mapping[str, Path | None],
+    **fields: Any,
+) -> ClassifyRequest | TerrainRequest:
+    """Return a request for a tool, given its sets, the outputs by their names, and its inputs."""
+    fields["rasters"] = RasterFiles(**{name: outputs.get(name) for name in RASTERS})
+    fields["contour_lines"] = outputs.get("contours")
+    if not tool.classifies:
+        return TerrainRequest.of(sets, **fields)
+    return ClassifyRequest.of(sets, explain=outputs.get("explain"), **fields)

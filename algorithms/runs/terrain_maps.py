@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from dataclasses import dataclass, field, fields, replace
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
@@ -12,12 +13,11 @@ from ..core.progress import SILENT, Progress
 from ..engine.options import TileOutput
 from ..survey.files import is_one_file
 from ..survey.outputs import check_outputs, place
-from ..tools.contours import Contours, Interval, draw_contours
+from ..tools.contours import Interval
 from ..tools.ground.output import Output
 from ..tools.rasters.parameters import MapTerrain
 from ..tools.rasters.rows import RasterFiles
-from .entry import classify
-from .one_file import Summary
+from .entry import classify, with_contours
 from .requests import ClassifyRequest
 
 # The longest first, since it ends as the second does.
@@ -37,7 +37,6 @@ class MapRequest(ClassifyRequest):
     """A request for all steps from a point cloud to maps, of an area only if there is one."""
 
     terrain: MapTerrain = field(default_factory=MapTerrain)
-    contours: Contours = field(default_factory=Contours)
 
     def __post_init__(self) -> None:
         """Check nothing: `classify` does."""
@@ -76,14 +75,9 @@ def make_maps(
             cloud = outputs.file(cloud)
         rasters = files.rasters.wanted
         maps = {name: place(outputs, "raster", rasters[name]) for name in rasters}
-        if files.contours:
-            maps.setdefault("dtm", waiting / "dtm.tif")
-        part, tracing = progress.shares(5.0 + 4.4 * bool(maps), 0.3 * bool(files.contours))
-        summary = _classified(sources, cloud, request.classify(RasterFiles(**maps)), part, is_one)
-        if files.contours:
-            lines = place(outputs, "features", files.contours)
-            interval = draw_contours(maps["dtm"], lines, request.contours, tracing)
-            summary = summary._replace(contour_interval=interval)
+        lines = place(outputs, "features", files.contours) if files.contours else None
+        how = replace(request, contour_lines=lines).classify(RasterFiles(**maps))
+        summary = _classified(sources, cloud, how, progress, is_one)
     return summary._replace(cloud=files.cloud) if files.cloud and is_one else summary
 
 
@@ -98,7 +92,7 @@ def _classified(
         )
         target = target.with_name(target.name[: -len(kind) - 1])
         how = replace(how, tiles=TileOutput(kind if kind in _FORMATS else "same", overview=True))
-    done = classify(sources, target, how, progress)
-    if isinstance(done, Summary):
-        return MapSummary(target, done.area_count, done.ground_count, done.class_counts)
-    return MapSummary(Path(done.vpc), done.point_count, done.ground_count, done.class_counts)
+    run = partial(classify, sources, target)
+    done, interval = with_contours(run, list(sources), how, progress)
+    written, count = (target, done.area_count) if is_one else (Path(done.vpc), done.point_count)
+    return MapSummary(written, count, done.ground_count, done.class_counts, interval)

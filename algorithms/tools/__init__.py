@@ -7,11 +7,10 @@ from this declaration; see `declaration.py`.
 from __future__ import annotations
 
 import importlib
-from types import ModuleType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from .declaration import FileTool, PointTool
+    from .declaration import FileTool, MapTool, PointTool, Tool
 
 
 class Listed(NamedTuple):
@@ -19,6 +18,7 @@ class Listed(NamedTuple):
 
     file: str  # here; also the name of its function in the library
     help: str  # one line
+    tool: str = "TOOL"  # the name of the declaration in the file
 
 
 # The tools that write classified files anew, by their commands.
@@ -29,6 +29,16 @@ POINT_TOOLS = {
     "water-classes": Listed(
         "water_classes", "give classes to ground points in water and beside its shore"
     ),
+}
+# The tools that make rasters and contour lines of points.
+MAP_TOOLS = {
+    "classify": Listed(
+        "ground.tool", "classify the ground points of a file, or of many as one survey"
+    ),
+    "classify-tiles": Listed(
+        "ground.tool", "the same as classify, but always writes into a folder", "TILES_TOOL"
+    ),
+    "terrain": Listed("rasters.tool", "make rasters of the terrain and of what stands on it"),
 }
 # The tools that read files and write others.
 FILE_TOOLS = {
@@ -55,15 +65,27 @@ FILE_TOOLS = {
 
 def point_tool(command: str) -> PointTool:
     """Return the declaration of a tool for points, given its command."""
-    tool: PointTool = _module(POINT_TOOLS[command]).TOOL
+    tool: PointTool = _declared(POINT_TOOLS[command])
     return tool
 
 
 def file_tool(command: str) -> FileTool:
     """Return the declaration of a tool for files, given its command."""
-    tool: FileTool = _module(FILE_TOOLS[command]).TOOL
+    tool: FileTool = _declared(FILE_TOOLS[command])
     return tool
 
 
-def _module(listed: Listed) -> ModuleType:
-    return importlib.import_module(f".{listed.file}", __name__)
+def map_tool(command: str) -> MapTool:
+    """Return the declaration of a tool that makes rasters of points, given its command."""
+    tool: MapTool = _declared(MAP_TOOLS[command])
+    return tool
+
+
+def any_tool(command: str) -> Tool:
+    """Return the declaration of a tool of any kind, given its command."""
+    tool: Tool = _declared({**POINT_TOOLS, **FILE_TOOLS, **MAP_TOOLS}[command])
+    return tool
+
+
+def _declared(listed: Listed) -> Any:
+    return getattr(importlib.import_module(f".{listed.file}", __name__), listed.tool)

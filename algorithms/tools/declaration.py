@@ -36,7 +36,8 @@ class Input:
     # "area" (an `Area`) and "polygons" (what `of` makes): of tools for points only;
     # "extent": a rectangle in the CRS of the points (a `Box`);
     # "checkpoints": a layer or a table of points (`Checkpoints`);
-    # "words": several words (a tuple of text).
+    # "words": several words (a tuple of text);
+    # of a `MapTool` only: "constraints", "corrections" and "target" (the grid of the rasters).
     kind: str
     # Makes the value of the field of a step from polygons, or from a raster and the progress.
     of: Callable[..., Any] = lambda value, *progress: value
@@ -70,7 +71,7 @@ class Output:
 
     # All outputs are checked before the work begins, and get their names together when it ends.
     name: str  # of the argument of the work, and of the option
-    # "raster", "features", "page", "table" or "folder"; "cloud" of a tool for points.
+    # "raster", "features", "page", "table" or "folder"; "cloud" of points.
     kind: str
     help: str  # of the option
     label: str = ""  # of the field in the dialog; empty if there is none
@@ -79,6 +80,7 @@ class Output:
     flag: str = ""  # of the command, if it is not made of the name
     is_main: bool = False  # whether the command needs it, as an argument without a flag
     optional: bool = True  # whether the dialog can do without it
+    advanced: bool = False  # whether it is folded away, and the last in the help of the command
     by_default: bool = True  # whether the dialog makes it unless the user says no
     look: str = ""  # how QGIS shows it: a name in `LOOKS` of plugin/styles/layers.py
     needs: str = ""  # the input without which the dialog does not make it
@@ -195,3 +197,20 @@ class FileTool(Tool):
     def all_outputs(self) -> tuple[Output, ...]:
         """The outputs."""
         return self.outputs
+
+
+@dataclass(frozen=True)
+class MapTool(Tool):
+    """A tool that makes rasters and contour lines of points, in a run of several steps."""
+
+    function_about: str = ""  # first paragraph of the documentation of the function
+    # Without the points that it writes; asked for anew, since rows of rasters can be added.
+    outputs: Callable[[], tuple[Output, ...]] = tuple
+    # Whether it finds the ground, by any filter, and writes points; otherwise they are classified.
+    classifies: bool = False
+    is_survey: bool = False  # whether one file, too, is written into a folder
+
+    @property
+    def all_outputs(self) -> tuple[Output, ...]:
+        """The outputs."""
+        return self.outputs()

@@ -1,6 +1,7 @@
 """Ground classification of many files as one survey, in the toolbox."""
 
-from ...algorithms.tools.ground.tool import TOOL, as_command
+from ...algorithms.tools.ground.tool import TILES_TOOL as TOOL
+from ...algorithms.tools.ground.tool import as_command
 from .area import add_area, add_limits, area_options, given_options, limits_of
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_classified

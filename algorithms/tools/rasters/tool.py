@@ -1,0 +1,78 @@
+"""The declaration of the tool that makes rasters of the terrain, and of what stands on it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Sequence
+
+from ...core.progress import Progress
+from ...engine.memory import Resources
+from ...engine.options import TileInput
+from ...survey.feature_files import FORMATS
+from ...survey.ground_classes import GroundClasses
+from ..contours import Contours
+from ..declaration import CANOPY, CLOUD, RASTER, TERRAIN, TIN, Input, MapTool, Output
+from ..water.tool import found_water
+from .constraints import Constraints
+from .parameters import RasterOutput, SurfaceModel, TerrainModel
+from .rows import RASTERS
+
+
+def maps() -> tuple[Output, ...]:
+    """Return the outputs of all runs that make rasters."""
+    rasters = (
+        Output(
+            name, "raster", f"GeoTIFF (.tif). {row.help}", label=row.label, field_help=row.help,
+            by_default=name in ("dtm", "hillshade"),
+        )
+        for name, row in RASTERS.items()
+    )  # fmt: skip
+    contours = (
+        f"contour lines of the terrain model ({', '.join(FORMATS)}); the field ELEV has the height,"
+        " INDEX is 1 for every fifth line. All but .geojson need pyogrio"
+    )
+    return *rasters, Output("contours", "features", contours)
+
+
+def _found(
+    sources: Sequence[Path], ground: GroundClasses, crs: str | None, progress: Progress
+) -> Constraints:
+    """Return the water of classified files."""
+    water, _ = found_water(sources, ground, crs, progress)
+    return water.constraints
+
+
+TOOL = MapTool(
+    sets=(
+        GroundClasses, TerrainModel, SurfaceModel, Contours, TileInput, RasterOutput, Resources,
+    ),
+    dialog_sets=(GroundClasses, TerrainModel, SurfaceModel, RasterOutput, Resources),
+    inputs=(
+        Input("raster_target", "target"),
+        Input(
+            "area",
+            "area",
+            help="make the rasters only in",
+            more="; points outside still help along its border",
+        ),
+        Input("constraints", "constraints", found=_found),
+    ),
+    outputs=maps,
+    command="terrain",
+    command_about="Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Give at"
+    " least one of --contours and of --dtm, --dsm and the other options with GeoTIFF files.",
+    function_about="Make rasters of the terrain and of what stands on it, and contour lines, of"
+    " classified points; all files together are one survey.",
+    identifier="terrainmodel",
+    title="Terrain, surface and canopy height models",
+    summary="Makes terrain model, surface model, canopy height and hillshade of a point cloud.",
+    about="Makes rasters (GeoTIFF) of a classified point cloud: the terrain, interpolated on the"
+    " triangulation (TIN) of the ground points; the surface, the highest point of each cell"
+    " without noise; canopy height, the difference of the two; and a hillshade of the terrain."
+    " All lie on the same grid. Heights are in the vertical unit of the CRS.",
+    words=(CLOUD, TERRAIN, CANOPY, TIN, RASTER),
+    page="terrain-model",
+    run_name="terrain and surface",
+    shown=("dtm_cell_size", "max_edge"),
+    numbers=(("GROUND_COUNT", "Ground points"), ("SURFACE_COUNT", "Points of the surface")),
+)  # fmt: skip
