@@ -17,7 +17,6 @@ from .declaration import RASTER, TERRAIN, FileTool, Input, Output
 from .rasters.parameters import MapTerrain, TerrainModel
 from .rasters.rows import RASTERS, How
 from .rasters.rows import Raster as Row
-from .running import run
 
 # Cells that are worked on at a time.
 _CELLS = 4_000_000
@@ -66,18 +65,6 @@ class ReliefPictures(ParameterSet):
     def terrain(self) -> TerrainModel:
         """The same as parameters of rasters of the terrain."""
         return TerrainModel(**vars(self))
-
-
-def write_relief(
-    source: str | Path,
-    target: Path,
-    kind: str = "local-relief",
-    parameters: ReliefPictures = ReliefPictures(),
-    progress: Progress = SILENT,
-) -> None:
-    """Write a picture of the relief of a terrain model, which need not fit into memory."""
-    sets = [ReliefKinds((kind,)), parameters]
-    run(TOOL, {"source": source}, {"output": target}, sets, progress)
 
 
 def draw_reliefs(

@@ -9,6 +9,7 @@ import laspy
 import numpy as np
 import pytest
 
+import bare_earth
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.grids import horizons, outline
 from bare_earth.algorithms.grids.hillshade import hillshade, slope
@@ -23,7 +24,7 @@ from bare_earth.algorithms.grids.relief_pictures import archaeological_topograph
 from bare_earth.algorithms.tools import relief as relief_module
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RASTERS, How
-from bare_earth.algorithms.tools.relief import KINDS, ReliefPictures, write_relief
+from bare_earth.algorithms.tools.relief import KINDS
 
 RELIEF = [*KINDS.values()]
 METRES = 1.0, 1.0
@@ -386,7 +387,7 @@ def test_the_command_makes_each_kind_of_any_raster(tmp_path, monkeypatch, kind):
     with rasterio.open(target) as one, rasterio.open(beside) as other:
         assert one.descriptions == other.descriptions and one.nodata == other.nodata
     monkeypatch.setattr(relief_module, "_CELLS", 500)
-    write_relief(dtm, tmp_path / "strips.tif", kind, ReliefPictures(relief_radius=4.0))
+    bare_earth.relief(dtm, tmp_path / "strips.tif", kind=kind, relief_radius=4.0)
     assert np.allclose(cells(tmp_path / "strips.tif"), cells(target), atol=2e-3)
 
 
@@ -400,7 +401,7 @@ def test_feet_change_nothing_but_heights(tmp_path):
         raster.units = ("ft",)
     for kind in ("sky-view", "slope", "local-dominance"):
         for source in (dtm, feet):
-            write_relief(source, source.with_suffix(".out.tif"), kind)
+            bare_earth.relief(source, source.with_suffix(".out.tif"), kind=kind)
         metres, in_feet = (cells(each.with_suffix(".out.tif")) for each in (dtm, feet))
         assert np.abs(metres - in_feet).max() < 2e-3
     with rasterio.open(tmp_path / "feet.out.tif") as raster:
@@ -423,7 +424,7 @@ def test_a_picture_is_no_terrain(tmp_path, capsys):
 
 def test_an_unknown_kind_is_refused(tmp_path):
     with pytest.raises(Exception, match="Kinds of relief must be one of hillshade"):
-        write_relief(tmp_path / "dtm.tif", tmp_path / "out.tif", "shadow")
+        bare_earth.relief(tmp_path / "dtm.tif", tmp_path / "out.tif", kind="shadow")
 
 
 @pytest.mark.skipif(shutil.which("gdaldem") is None, reason="gdaldem is not installed")

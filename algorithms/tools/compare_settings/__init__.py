@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Iterable, Sequence
+from typing import Any, Sequence
 
 from ...core.errors import BareEarthError
 from ...core.points import Box
@@ -14,7 +14,6 @@ from ...engine.file_points import fits_in_memory
 from ...engine.memory import Resources
 from ...report.units import Units
 from ..declaration import CLOUD, CRS, GROUND, TERRAIN, FileTool, Input, Output
-from ..running import run
 from .page import comparison, figures_of
 from .profile import Profile, line_across, line_between
 from .settings import SETTINGS, USUAL_CONTEXT, TrialOptions
@@ -41,21 +40,6 @@ class TrialSummary:
             " less ground than the first"
             for one in self.settings
         ]
-
-
-def compare_settings(
-    sources: Iterable[Path],
-    page: Path,
-    extent: Box | None = None,
-    options: TrialOptions = TrialOptions(),
-    resources: Resources = Resources(),
-    progress: Progress = SILENT,
-    crs: str | None = None,
-) -> TrialSummary:
-    """Classify a window of a survey with several settings, and write a page that compares them."""
-    inputs = {"sources": [Path(source) for source in sources], "extent": extent, "crs": crs}
-    summary: TrialSummary = run(TOOL, inputs, {"page": page}, [options, resources], progress)
-    return summary
 
 
 def compare(
