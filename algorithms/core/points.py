@@ -17,6 +17,11 @@ _MANY = 1 << 18
 Box = tuple[float, float, float, float]
 
 
+def box_round(boxes: np.ndarray) -> Box:
+    """Return the box that holds boxes, shape (n, 4)."""
+    return (*boxes[:, :2].min(axis=0).tolist(), *boxes[:, 2:].max(axis=0).tolist())
+
+
 @dataclass(frozen=True)
 class Frame:
     """The position of local metres in the coordinate reference system of the survey."""

@@ -195,9 +195,7 @@ class _SurveyRun:
     def _run(self, plan: Plan, waiting: Path, workers: Workers, progress: Progress) -> None:
         """Run the jobs of a plan, and make the rasters."""
         kept = plan.files_kept() if self._rasters is not None else []
-        unpacking = None
-        if workers.are_local and has_room(waiting, self._survey.count):
-            unpacking = Unpacking(waiting, is_whole=True)
+        unpacking = _unpacking(waiting, self._survey, workers, is_whole=True)
         blocks, tiles = plan.jobs(workers, self._folder, unpacking)
         end = 0.8 if self._rasters else 1.0
         queue = JobQueue(blocks, tiles, workers, progress.part(0.0, end), kept)
@@ -290,10 +288,14 @@ def rasters_of_files(
     with temporary_folder(beside) as folder:
         part = progress.part(0.05, 1.0)
         (step,) = located([request.raster_step], _place_of(survey), progress)
-        unpacking = None
-        if workers.are_local and has_room(folder, survey.count):
-            unpacking = Unpacking(folder, is_whole=False)
+        unpacking = _unpacking(folder, survey, workers, is_whole=False)
         return make_rasters(survey, folder, step, workers, part, unpacking=unpacking)
+
+
+def _unpacking(folder: Path, survey: Survey, workers: Workers, is_whole: bool) -> Unpacking | None:
+    """Return where files wait uncompressed: on this computer, if there is room."""
+    fits = workers.are_local and has_room(folder, survey.count)
+    return Unpacking(folder, is_whole) if fits else None
 
 
 def _place_of(survey: Survey) -> Place:

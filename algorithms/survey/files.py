@@ -12,7 +12,7 @@ from typing import Iterable, Iterator, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.points import Box
+from ..core.points import Box, box_round
 from ..core.progress import SILENT, Notes, Progress
 from ..crs.matching import described, has_same_units, is_other_datum, is_same_crs, is_same_map
 from ..crs.stated import HOW
@@ -57,9 +57,7 @@ class Survey:
     @property
     def box(self) -> Box:
         """Smallest x and y, largest x and y of all tiles, in units of the CRS."""
-        west, south = self._boxes[:, :2].min(axis=0).tolist()
-        east, north = self._boxes[:, 2:].max(axis=0).tolist()
-        return west, south, east, north
+        return box_round(self._boxes)
 
     @cached_property
     def _boxes(self) -> np.ndarray:

@@ -7,7 +7,7 @@ from typing import Sequence
 
 import numpy as np
 
-from ..core.points import Box
+from ..core.points import Box, box_round
 from ..core.progress import SILENT, Progress
 from ..las.lasfile import LasFile
 from ..las.reading import read_chunks
@@ -64,7 +64,7 @@ def _square(x: float, y: float, unit: float, extent: Box) -> Box:
 def _extent(files: Sequence[LasFile]) -> Box:
     """Return smallest x and y, largest x and y of files that have points."""
     boxes = np.array([file.outer_box for file in files if file.count] or [files[0].outer_box])
-    return (*boxes[:, :2].min(axis=0).tolist(), *boxes[:, 2:].max(axis=0).tolist())
+    return box_round(boxes)
 
 
 def _distance(file: LasFile, place: tuple[float, float]) -> float:

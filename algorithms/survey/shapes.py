@@ -7,7 +7,7 @@ from typing import Any, Iterator, NamedTuple, Sequence
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.points import Box, box_in_words
+from ..core.points import Box, box_in_words, box_round
 from ..core.progress import SILENT, Progress
 from ..crs.provider import LONGITUDE_LATITUDE, library, transformed
 from ..crs.system import Crs
@@ -71,8 +71,7 @@ def located(
         touches = (boxes[:, 0] <= east + reach) & (boxes[:, 2] >= west - reach)
         touches &= (boxes[:, 1] <= north + reach) & (boxes[:, 3] >= south - reach)
         if not touches.any():
-            bounds = (*boxes[:, :2].min(axis=0).tolist(), *boxes[:, 2:].max(axis=0).tolist())
-            raise outside(what, bounds, place.name, place.box, near)
+            raise outside(what, box_round(boxes), place.name, place.box, near)
     return found
 
 

@@ -62,6 +62,13 @@ class Input:
 # The points and their CRS, as most tools have them.
 _POINTS = Input("input", "clouds", help="a classified file, or ", label="Classified point cloud")
 CRS = Input("crs", "crs", label="CRS of the points", optional=True, advanced=True)
+CLASSIFIED = Input(
+    "sources",
+    "clouds",
+    help="a classified file, or ",
+    label="Classified point cloud",
+    named="INPUT",
+)
 _CLOUD_HELP = "the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs"
 
 

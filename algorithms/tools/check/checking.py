@@ -18,7 +18,7 @@ from ...core.progress import SILENT, Progress
 from ...report.units import round_length
 from ...survey.feature_files import FORMATS as LAYERS
 from ...survey.ground_classes import GroundClasses
-from ..declaration import CLOUD, CRS, TERRAIN, TIN, FileTool, Input, Output
+from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, TIN, FileTool, Input, Output
 from .accuracy import Accuracy, Figures, statement
 from .checkpoints import Checkpoints
 from .hold_out import HoldOut, hold_out
@@ -177,13 +177,7 @@ TOOL = FileTool(
     shown=("accuracy_class",),
     lacks=_lacks,
     inputs=(
-        Input(
-            "sources",
-            "clouds",
-            help="a classified file, or ",
-            label="Classified point cloud",
-            named="INPUT",
-        ),
+        CLASSIFIED,
         Input(
             "checkpoints",
             "checkpoints",

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...core.points import box_round
 from ...core.progress import SILENT, Progress
 from ...las.cloud import PointCloud, survey_frame
 from ...las.reading import read_parts
@@ -81,8 +82,7 @@ def write_class_raster(
 
 def _grid_of(survey: Survey, cell_size: float) -> RasterGrid:
     frame = survey_frame(survey.crs)
-    boxes = np.array([tile.box for tile in survey.tiles])
-    (west, south), (east, north) = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+    west, south, east, north = box_round(np.array([tile.box for tile in survey.tiles]))
     area = (east - west) * (north - south) * frame.horizontal_unit**2
     cell = max(cell_size, math.sqrt(area / _MOST_CELLS)) / frame.horizontal_unit
     left, top = math.floor(west / cell), math.ceil(north / cell)

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...core.errors import BareEarthError
 from ...core.files import Outputs, new_folder
-from ...core.points import Box, Frame, box_in_words
+from ...core.points import Box, Frame, box_in_words, box_round
 from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
 from ...rasters.cell_grid import (
@@ -127,8 +127,7 @@ def _window_of(blocks: Sequence[BlockRasters], cell: float) -> CellWindow:
     boxes = boxes[~np.isnan(boxes).any(axis=1)]
     if not len(boxes):
         raise BareEarthError(NO_GROUND)
-    low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
-    window = CellWindow.around((*low, *high), cell)
+    window = CellWindow.around(box_round(boxes), cell)
     area = np.prod(boxes[:, 2:] - boxes[:, :2] + cell, axis=1).sum()
     covered = area / (window.rows * window.columns * cell**2)
     check_cells(window.columns, window.rows, cell, lambda: covered, MOST_CELLS)

@@ -18,7 +18,7 @@ from ...survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from ...survey.ground_classes import GroundClasses
 from ...survey.kept_classes import NOISE, is_one_of
 from ..check.survey_ground import SurveyGround
-from ..declaration import CLOUD, CRS, FileTool, Input, Output
+from ..declaration import CLASSIFIED, CLOUD, CRS, FileTool, Output
 from ..rasters.constraints import STATION, Constraints
 from ..rasters.fixed_terrain import PER_CELL, GivenTerrain
 from .bridges import decks_without_water
@@ -243,16 +243,7 @@ _KINDS = f"({', '.join(FORMATS)}); all but .geojson need pyogrio"
 TOOL = FileTool(
     work=_write,
     sets=(Water, GroundClasses),
-    inputs=(
-        Input(
-            "sources",
-            "clouds",
-            help="a classified file, or ",
-            label="Classified point cloud",
-            named="INPUT",
-        ),
-        CRS,
-    ),
+    inputs=(CLASSIFIED, CRS),
     outputs=(
         Output(
             "output",
