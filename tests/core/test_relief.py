@@ -22,8 +22,6 @@ from bare_earth.algorithms.grids.horizons import (
 from bare_earth.algorithms.grids.local_relief import multi_scale_relief
 from bare_earth.algorithms.grids.relief_pictures import archaeological_topography, red_relief
 from bare_earth.algorithms.tools import relief as relief_module
-from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
-from bare_earth.algorithms.tools.rasters.rows import RASTERS, How
 from bare_earth.algorithms.tools.relief import KINDS
 
 RELIEF = [*KINDS.values()]
@@ -247,19 +245,6 @@ def test_red_relief_is_red_on_slopes_bright_on_ridges_and_dark_in_hollows():
     assert np.ptp(grey) == 0
     hollow, ridge = (red_relief(trench(depth), METRES, 10.0)[0, 30, 30] for depth in (1.0, -1.0))
     assert hollow < grey[0] - 30 and ridge > grey[0] + 20
-
-
-@pytest.mark.parametrize("name", RELIEF)
-def test_a_cell_depends_only_on_what_is_within_its_reach(name):
-    row, how = RASTERS[name], How(METRES, TerrainModel(relief_radius=3.0))
-    heights = rough(3, (150, 150))
-    reach = row.margin(how)
-    part = np.s_[75 - reach : 76 + reach, 75 - reach : 76 + reach]
-    whole, alone = (
-        row.rows(some, how=how, unit=1.0, nodata=np.nan) for some in (heights, heights[part])
-    )
-    whole, alone = whole[..., 75, 75], alone[..., reach, reach]
-    assert alone == pytest.approx(whole, rel=1e-6, abs=1e-5)
 
 
 def test_pieces_of_rows_change_nothing(monkeypatch):

@@ -6,18 +6,17 @@ import struct
 import laspy
 import numpy as np
 import pytest
+from conftest import Heard
 from realdata import real
 from runs import said
 from surveys import cut, strip, write
 
+import bare_earth
 from bare_earth import BareEarthError
-from bare_earth.algorithms.core.progress import Notes
 from bare_earth.algorithms.crs import stated as stated_module
 from bare_earth.algorithms.crs.measurable import length_scale, require_measurable
 from bare_earth.algorithms.crs.stated import stated_wkt
 from bare_earth.algorithms.crs.system import Crs, crs_of_wkt
-from bare_earth.algorithms.las.crs_records import read_crs
-from bare_earth.algorithms.las.opening import open_las
 
 pyproj = pytest.importorskip("pyproj")
 rasterio = pytest.importorskip("rasterio")
@@ -75,12 +74,11 @@ def test_a_stated_crs_is_told_if_the_file_states_another(las):
     feet = las.vlr(b"LASF_Projection", 2112, stated_wkt("EPSG:2230").encode())
     source = las.make(vlrs=[feet], encoding=0x10)
     for text, is_told in (("EPSG:32632", True), ("EPSG:2230", False)):
-        notes = Notes()
-        crs = read_crs(open_las(source, stated_wkt(text)), notes)
-        assert crs.epsg == int(text[5:])
-        told = [words for _, words in notes.messages if "not the one that the file states" in words]
+        progress = Heard()
+        assert bare_earth.info(source, crs=text, progress=progress).epsg == int(text[5:])
+        told = [words for words in progress.warnings if "not the one that the file" in words]
         assert len(told) == is_told
-    assert read_crs(open_las(source)).epsg == 2230
+    assert bare_earth.info(source).epsg == 2230
 
 
 @pytest.fixture(scope="module")
@@ -143,14 +141,14 @@ def test_a_missing_crs_is_told_once(feet, tmp_path):
 
 def test_written_clouds_keep_their_records(feet, tmp_path):
     assert said("classify", feet, tmp_path / "out.laz", "--crs", "EPSG:2230")[0] == 0
-    assert read_crs(open_las(tmp_path / "out.laz")) == Crs()
+    assert laspy.read(tmp_path / "out.laz").header.parse_crs() is None
     las = laspy.read(feet)
     las.header.add_crs(pyproj.CRS.from_epsg(2231))
     las.write(tmp_path / "wrong.laz")
     for name in ("wrong-out.laz", "wrong-out.copc.laz"):
         words = "classify", tmp_path / "wrong.laz", tmp_path / name, "--crs", "EPSG:2230"
         assert said(*words)[0] == 0
-        assert read_crs(open_las(tmp_path / name)).epsg == 2231
+        assert bare_earth.info(tmp_path / name).epsg == 2231
 
 
 def test_copc_of_a_file_without_a_crs_states_the_given_one(feet, tmp_path):
@@ -162,7 +160,7 @@ def test_copc_of_a_file_without_a_crs_states_the_given_one(feet, tmp_path):
             *(("--crs", given) if given else ()),
         )
         assert said(*words)[0] == 0
-        made = read_crs(open_las(tmp_path / f"{epsg}.copc.laz"))
+        made = bare_earth.info(tmp_path / f"{epsg}.copc.laz")
         assert made.epsg == epsg
         assert made.horizontal_unit == pytest.approx(SURVEY if given else 1.0)
 

@@ -1,20 +1,17 @@
 """Points far from a block are thinned, and decide about its points as all of them do."""
 
-import dataclasses
-
 import numpy as np
 import pytest
-from runs import memory_store
-from surveys import cloud_of
+from surveys import classes_of, cut, finished, points_of, write
 
+import bare_earth
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.store import BlockPoints
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.tin import TinDensification
+from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.cells import spacing
-from bare_earth.algorithms.las.cloud import survey_frame
-from bare_earth.algorithms.tools.ground.labelling import blocks_of, label_ground
+from bare_earth.algorithms.tools.ground import step
+from bare_earth.algorithms.tools.ground.labelling import blocks_of
 from bare_earth.algorithms.tools.ground.surroundings import near, tell_spacing, thinned
 
 BOX = near((0.0, 0.0, 100.0, 100.0))
@@ -64,42 +61,23 @@ def village(side=155.0, density=5.0):
     z[(x % 45 < 12) & (y % 35 < 10)] += 6.0
     trees = random.random(len(x)) < 0.1
     z[trees] += random.uniform(1.0, 9.0, trees.sum())
-    return cloud_of(*(np.rint(each * 100) for each in (x, y, z)))
+    return np.round(np.column_stack((x, y, z)) * 100).astype(np.int64)
 
 
-def labels(cloud, parameters, blocks, parts=1):
-    pieces = np.array_split(np.argsort(cloud.y, kind="stable"), parts)
-    store = memory_store(
-        [
-            (
-                dataclasses.replace(
-                    cloud,
-                    **{
-                        name: value[piece]
-                        for name, value in vars(cloud).items()
-                        if isinstance(value, np.ndarray)
-                    },
-                ),
-                np.ones(len(piece), dtype=bool),
-            )
-            for piece in pieces
-        ],
-        survey_frame(cloud.crs),
-        blocks,
-    )
-    label_ground(store, parameters, blocks)
-    found = np.empty(cloud.count, dtype=np.uint8)
-    for number, piece in enumerate(pieces):
-        found[piece] = store.values(number)
-    return found
-
-
-@pytest.mark.parametrize(("parameters", "files"), [(GridMinimum(), 3), (TinDensification(), 1)])
-def test_blocks_with_thinned_surroundings_give_the_labels_of_the_whole(parameters, files):
-    cloud, usual = village(), blocks_of(parameters)
-    blocks = Blocks(75.0, usual.buffer)
+@pytest.mark.parametrize("method", ["grid-minimum", "tin-densification"])
+def test_blocks_with_thinned_surroundings_give_the_labels_of_the_whole(
+    tmp_path, monkeypatch, method
+):
+    integers, usual = village(), blocks_of(METHODS[method].parameters())
+    source = write(tmp_path / "in.las", integers)
     assert usual.buffer > 100.0
-    whole, cut = (labels(cloud, parameters, each) for each in (usual, blocks))
-    if files > 1:
-        assert np.array_equal(cut, labels(cloud, parameters, blocks, files))
-    assert np.count_nonzero(cut != whole) < 1e-4 * cloud.count
+    bare_earth.classify(source, tmp_path / "whole.las", method=method)
+    monkeypatch.setattr(step, "blocks_of", lambda parameters: Blocks(75.0, usual.buffer))
+    bare_earth.classify(source, tmp_path / "blocks.las", method=method)
+    whole, blocks = (classes_of(tmp_path / f"{name}.las") for name in ("whole", "blocks"))
+    assert np.count_nonzero(blocks != whole) < 1e-4 * len(whole)
+    if method == "grid-minimum":
+        files = cut(tmp_path / "files", integers, 4)
+        bare_earth.classify(files, tmp_path / "out", method=method)
+        found = points_of(finished(tmp_path / "out"))
+        assert np.array_equal(found, points_of([tmp_path / "blocks.las"]))

@@ -9,6 +9,7 @@ import surveys
 from realdata import real
 from runs import memory_store
 
+import bare_earth
 from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.core.threads import workers
@@ -24,7 +25,6 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground import labelling as ground_module
 from bare_earth.algorithms.tools.ground.labelling import blocks_of, label_ground
@@ -146,40 +146,7 @@ def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request,
     assert seen > selected.sum()
 
 
-# The same labels whatever the cut
-
-
-@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-def test_labels_do_not_depend_on_threads_order_or_the_cut_into_files(parameters):
-    xyz, random = survey(2400, 100.0, 60.0), np.random.default_rng(7)
-    blocks = Blocks(80.0, 30.0, most_points=1200)
-    (expected,) = labels_of([cloud_of(*xyz)], parameters, blocks)
-    assert {0, 1, 2} == set(np.unique(expected)) and 0.4 < (expected == 1).mean() < 0.95
-    cuts = np.array_split(random.permutation(len(expected)), (800, 2000))
-    offsets = [tuple(np.subtract(ORIGIN, random.integers(0, 9000, 3))) for _ in cuts]
-    parts = [cloud_of(*(v[cut] for v in xyz), at) for cut, at in zip(cuts, offsets)]
-    for cut, labels in zip(cuts, labels_of(parts, parameters, blocks, threads=5)):
-        assert np.array_equal(labels, expected[cut])
-
-
-@pytest.mark.parametrize(
-    "name", ["isprs/samp52.laz", pytest.param("real/ahn3_urban.laz", marks=pytest.mark.long)]
-)
-def test_real_points_get_the_same_labels_in_any_order_and_number_of_threads(name):
-    cloud, random = read_cloud(real(name)), np.random.default_rng(2)
-    xyz = [values.astype(np.int64) for values in (cloud.x, cloud.y, cloud.z)]
-    near = cloud.x < cloud.x.min() + 170 / cloud.scale[0]
-    near &= cloud.y < cloud.y.min() + 170 / cloud.scale[1]
-    keep = np.flatnonzero(near & (random.random(cloud.count) < min(1.0, 50_000 / cloud.count)))
-    mixed = random.permutation(keep)
-    whole, shuffled = (
-        cloud_of(*(each[which] for each in xyz), cloud.offset, cloud.scale[0])
-        for which in (keep, mixed)
-    )
-    blocks = Blocks(100.0, 30.0)
-    (expected,) = labels_of([whole], SlopeFilter(), blocks, 1)
-    (found,) = labels_of([shuffled], SlopeFilter(), blocks, 5)
-    assert np.array_equal(found[np.argsort(mixed)], expected[np.argsort(keep)])
+# Small blocks
 
 
 @pytest.mark.long
@@ -226,16 +193,20 @@ def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
 # Stray points and messages
 
 
-@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-def test_a_stray_point_far_away_changes_nothing_else(parameters):
-    x, y, z = survey(5000, 100.0, 75.0)
-    alone, _ = classify_cloud(cloud_of(x, y, z), parameters)
+@pytest.mark.parametrize("method", METHODS)
+def test_a_stray_point_far_away_changes_nothing_else(tmp_path, method):
+    integers = surveys.strip(5000, 100.0, 75.0)
+
+    def classes(integers):
+        source, target = surveys.write(tmp_path / "in.las", integers), tmp_path / "out.las"
+        bare_earth.classify(source, target, method=method)
+        return surveys.classes_of(target)
+
+    alone = classes(integers)
     assert 0.4 < (alone == 2).mean() < 0.95
     # A house stands at the border of the survey: in the gap it must not go on as a plateau.
     for east in (-1e6, -300.0, 300.0, 320.0, 1e6):
-        stray = [np.r_[values, at] for values, at in zip((x, y, z), (int(east * 100), 4000, 1000))]
-        found, selected = classify_cloud(cloud_of(*stray), parameters)
-        assert selected.all() and len(found) == len(alone) + 1
+        found = classes(np.vstack((integers, [int(east * 100), 4000, 7000])))
         assert np.array_equal(found[:-1], alone)
 
 
