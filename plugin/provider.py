@@ -20,6 +20,10 @@ ICON = Path(__file__).parent / "icons" / "bare_earth.svg"
 class BareEarthProvider(QgsProcessingProvider):
     """Registers all algorithms, also if a Python package that they need is missing."""
 
+    def __init__(self) -> None:
+        super().__init__()
+        self.algorithmsLoaded.connect(self.load_models)
+
     def id(self) -> str:
         """Return the first half of the ids of the algorithms; it never changes."""
         return "bareearth"
