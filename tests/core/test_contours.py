@@ -8,11 +8,7 @@ from surveys import ORIGIN, write_points
 
 from bare_earth import BareEarthError, contours
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.points import Frame
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.grids.isolines import Isolines
-from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid
-from bare_earth.algorithms.rasters.writing import write_geotiff
 from bare_earth.algorithms.tools import contours as contours_module
 from bare_earth.algorithms.tools.contours import INDEX, Contours
 
@@ -98,14 +94,16 @@ def test_level_ground_at_a_height_of_a_line_has_lines_along_its_border_only():
     assert not lines_of(np.full((5, 5), np.nan), 1.0)
 
 
-def raster(path, heights, cell=0.5, epsg=25832, unit=1.0):
-    pyproj = pytest.importorskip("pyproj")
-    wkt = pyproj.CRS.from_epsg(epsg).to_wkt("WKT1_GDAL") if epsg else None
+def raster(path, heights, epsg=25832, unit=None):
+    """Write a raster with cells of half a metre."""
     rows, columns = heights.shape
-    frame = Frame((0.0, 0.0), unit, unit, wkt)
-    grid = RasterGrid(EAST, NORTH, cell, columns, rows, frame)
-    values = np.where(np.isnan(heights), NODATA, heights).astype(np.float32)
-    write_geotiff(path, values, grid, NODATA, SILENT, "Height, {unit}")
+    transform = rasterio.transform.from_origin(EAST, NORTH, 0.5, 0.5)
+    profile = {"width": columns, "height": rows, "count": 1, "dtype": "float32"}
+    with rasterio.open(
+        path, "w", driver="GTiff", nodata=np.nan, crs=f"EPSG:{epsg}", transform=transform, **profile
+    ) as file:
+        file.write(heights.astype(np.float32), 1)
+        file.units = (unit,)
     return path
 
 
@@ -192,7 +190,7 @@ def test_intervals_are_one_two_or_five(tmp_path):
 
 
 def test_the_unit_of_feet_is_told(tmp_path, las):
-    path = raster(tmp_path / "dtm.tif", bumps() * 3, epsg=2264, unit=0.3048006096012192)
+    path = raster(tmp_path / "dtm.tif", bumps() * 3, epsg=2264, unit="US survey foot")
     progress = las.Heard()
     interval = contours(path, tmp_path / "a.geojson", progress=progress)
     assert interval.unit == "US survey ft" and "US survey ft" in progress.infos[-1]
