@@ -13,20 +13,12 @@ from bare_earth import Cancelled, Progress
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.core.temporary import is_temporary
-from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.memory_store import MemoryStore
-from bare_earth.algorithms.engine.options import TileInput, TileOutput
+from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.runs import many_files
-from bare_earth.algorithms.runs.entry import classify, terrain
-from bare_earth.algorithms.runs.requests import ClassifyRequest, TerrainRequest
-from bare_earth.algorithms.survey.ground_classes import GroundClasses
-from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.tools import file_tool
+from bare_earth.algorithms.runs.requests import ClassifyRequest
 from bare_earth.algorithms.tools.ground.output import Output
-from bare_earth.algorithms.tools.rasters.parameters import RasterOutput, SurfaceModel, TerrainModel
-from bare_earth.algorithms.tools.rasters.step import RasterFiles
-from bare_earth.algorithms.tools.running import run
 
 
 class CancelAt(Progress):
@@ -65,38 +57,13 @@ def environment():
     return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, path))}
 
 
-def classify_file(
-    source, target, parameters, selection=Selection(), terrain=TerrainModel(),
-    dtm=None, hillshade=None, progress=SILENT, area=None, resources=Resources(), output=Output(),
-):  # fmt: skip
-    request = ClassifyRequest(
-        parameters=parameters, selection=selection, area=area, output=output, terrain=terrain,
-        rasters=RasterFiles(dtm=dtm, hillshade=hillshade), resources=resources,
-    )  # fmt: skip
-    return classify(source, target, request, progress)
-
-
 def classify_tiles(
-    sources, folder, parameters, selection=Selection(), files=TileInput(), output=TileOutput(),
-    vpc=None, progress=SILENT, workers=None, blocks=None, rasters=RasterFiles(),
-    terrain=TerrainModel(), points=Output(), per_file=False,
+    sources, folder, parameters, progress=SILENT, workers=None, blocks=None, output=TileOutput(),
+    points=Output(),
 ):  # fmt: skip
-    request = ClassifyRequest(
-        parameters=parameters, selection=selection, files=files, tiles=output, rasters=rasters,
-        terrain=terrain, output=points, raster_output=RasterOutput(per_file),
-    )  # fmt: skip
-    return many_files.classify_files(sources, folder, request, progress, workers, vpc, blocks)
-
-
-def write_terrain_models(
-    sources, files, ground=GroundClasses(), model=TerrainModel(), surface=SurfaceModel(),
-    resources=Resources(), progress=SILENT, workers=None, per_file=False,
-):  # fmt: skip
-    request = TerrainRequest(
-        rasters=files, ground=ground, terrain=model, surface=surface, resources=resources,
-        raster_output=RasterOutput(per_file),
-    )  # fmt: skip
-    return terrain(sources, request, progress, workers)
+    """Classify many files with workers and blocks that users cannot choose."""
+    request = ClassifyRequest(parameters=parameters, tiles=output, output=points)
+    return many_files.classify_files(sources, folder, request, progress, workers, blocks=blocks)
 
 
 def memory_store(parts, frame, blocks):
@@ -106,9 +73,3 @@ def memory_store(parts, frame, blocks):
         store.append(cloud, Marks(*marks))
     store.finish()
     return store
-
-
-def assess_files(classified, reference, *sets, progress=SILENT, **outputs):
-    """Assess a file; return the figures."""
-    inputs = {"classified": classified, "reference": reference}
-    return run(file_tool("assess"), inputs, outputs, sets, progress)
