@@ -51,14 +51,12 @@ class Network(NamedTuple):
                     found.append(np.array(way))
         return found
 
-    def matrix(self, weights: np.ndarray | float = 1.0) -> np.ndarray:
+    def matrix(self) -> np.ndarray:
         """Return the symmetric matrix of neighbours, sparse."""
         from scipy.sparse import coo_matrix
 
         one, two = self.edges.reshape(-1, 2).T
-        values = np.broadcast_to(np.asarray(weights, dtype=np.float64), one.shape)
-        shape = self.size, self.size
-        half = coo_matrix((values, (one, two)), shape=shape)
+        half = coo_matrix((np.ones(len(one)), (one, two)), shape=(self.size, self.size))
         return (half + half.T).tocsr()
 
 

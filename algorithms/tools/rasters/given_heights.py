@@ -30,7 +30,8 @@ def without_wrong_heights(
         return []
     corners = np.concatenate(lines)
     z = corners[:, 2]
-    sides = np.concatenate([_beside(ground, line) for line in lines], axis=1)
+    # The ground on both sides of the corners of each line.
+    sides = np.concatenate([ground.beside(line)[:, 2].reshape(2, -1) for line in lines], axis=1)
     low, high = np.fmin(*sides), np.fmax(*sides)
     usual = float(np.nanmedian(sides)) if np.isfinite(sides).any() else np.nan
     is_far = _away(z, low, high) > _FAR
@@ -57,11 +58,6 @@ def without_wrong_heights(
         )
     mended = np.column_stack((corners[:, :2], np.where(wrong, np.nan, z)))
     return np.split(mended, np.cumsum([len(line) for line in lines], dtype=np.int64)[:-1])
-
-
-def _beside(ground: NearestHeights, line: np.ndarray) -> np.ndarray:
-    """Return the heights of the ground on both sides of the corners of a line, shape (2, n)."""
-    return ground.beside(line)[:, 2].reshape(2, -1)
 
 
 def _away(z: np.ndarray, low: np.ndarray | float, high: np.ndarray | float) -> np.ndarray:
