@@ -1,19 +1,13 @@
 """The defaults and the presets have the values that the pages tell."""
 
+import inspect
 import re
 from pathlib import Path
 
 import pytest
 
+import bare_earth
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.grid_minimum import GridMinimum
-from bare_earth.algorithms.filters.slope import SlopeFilter
-from bare_earth.algorithms.filters.tin import TinDensification
-from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints
-from bare_earth.algorithms.survey.ground_classes import GroundClasses
-from bare_earth.algorithms.survey.selection import Selection
-from bare_earth.algorithms.tools.above_ground.classes import AboveGround
-from bare_earth.algorithms.tools.off_terrain import OffTerrain
 from benchmarks.scenes.simple import village
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -58,14 +52,12 @@ def test_the_pages_tell_the_values_of_each_preset(method):
             assert (found if isinstance(found, tuple) else (found,)) == value, (preset, name)
 
 
-# The sets of parameters that the tables of a page tell, by the names that QGIS has for them.
+# The functions whose parameters the tables of a page tell, by the names that QGIS has for them.
 TABLES = {
-    "tin-densification": (TinDensification, Selection),
-    "slope-filter": (SlopeFilter,),
-    "grid-minimum": (GridMinimum,),
-    "above-ground": (AboveGround, GroundClasses),
-    "model-key-points": (ModelKeyPoints, GroundClasses),
-    "remove-off-terrain-objects": (OffTerrain,),
+    **{PAGES[method].stem: bare_earth.classify for method in NAMES},
+    "above-ground": bare_earth.above_ground,
+    "model-key-points": bare_earth.key_points,
+    "remove-off-terrain-objects": bare_earth.remove_off_terrain_objects,
 }
 
 
@@ -73,16 +65,22 @@ TABLES = {
 def test_the_pages_tell_the_defaults(page):
     text = (DOCS / f"{page}.md").read_text("utf-8")
     told = dict(re.findall(r"^\| \*\*.+?\*\* `([A-Z_]+)` \| (.+?) \|", text, re.MULTILINE))
-    points, _ = village()
+    defaults = {
+        name: parameter.default
+        for name, parameter in inspect.signature(TABLES[page]).parameters.items()
+    }
+    for method in (method for method in NAMES if PAGES[method].stem == page):
+        points, _ = village()
+        chosen = METHODS[method].parameters().resolve(points)
+        defaults.update(
+            (declared.name, getattr(chosen, declared.name)) for declared in chosen.declarations()
+        )
     compared = 0
-    for parameters in TABLES[page]:
-        chosen = parameters()
-        for each in chosen.declarations():
-            value = re.match(r"`?([\d.]+|on|off|[a-z-]+`)", told.get(each.name.upper(), ""))
-            if value:
-                resolve = getattr(chosen, "resolve", lambda points, same=chosen: same)
-                assert _text(getattr(resolve(points), each.name)) == value[1].strip("`"), each.name
-                compared += 1
+    for name, default in defaults.items():
+        value = re.match(r"`?([\d.]+|(?:on|off)\b|[a-z-]+`)", told.get(name.upper(), ""))
+        if value and default is not None:
+            assert _text(default) == value[1].strip("`"), name
+            compared += 1
     assert compared >= 3
 
 

@@ -7,10 +7,11 @@ import pytest
 from realdata import real
 from runs import CancelAt, said
 
+import bare_earth
 from bare_earth import Cancelled
 from bare_earth.algorithms.core import progress
 from bare_earth.algorithms.crs.system import Crs
-from bare_earth.algorithms.las.reading import inspect, read_cloud, read_parts
+from bare_earth.algorithms.las.reading import read_cloud, read_parts
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
@@ -82,7 +83,9 @@ def test_return_numbers_begin_at_1_whatever_the_file_says(las, pairs, is_from_ze
     (part,) = read_parts(cloud.file)
     np.testing.assert_array_equal(part.return_number, cloud.return_number)
     heard = las.Heard()
-    assert set(inspect(cloud.file, heard).returns) == {number for number, _ in pairs}
+    assert set(bare_earth.info(cloud.path, progress=heard).returns) == {
+        number for number, _ in pairs
+    }
     assert any("begin at 0" in text for text in heard.warnings) == is_from_zero
 
 
@@ -143,7 +146,7 @@ def test_inspect_describes_the_file(las, name):
         name, version=4, point_format=7, vlrs=[las.vlr(b"somebody", 7, b"data")],
         evlrs=[las.evlr(b"behind", 9, b"x")],
     )  # fmt: skip
-    described, truth = inspect(source), laspy.read(source)
+    described, truth = bare_earth.info(source), laspy.read(source)
     assert described.point_count == sum(described.classes.values()) == 60
     assert described.returns == {
         int(value): int(count)
