@@ -11,7 +11,6 @@ from pathlib import Path
 import bare_earth
 from bare_earth import Cancelled, Progress
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.core.temporary import is_temporary
 from bare_earth.algorithms.engine.memory_store import MemoryStore
 from bare_earth.algorithms.engine.options import TileOutput
@@ -58,8 +57,8 @@ def environment():
 
 
 def classify_tiles(
-    sources, folder, parameters, progress=SILENT, workers=None, blocks=None, output=TileOutput(),
-    points=Output(),
+    sources, folder, parameters, progress=Progress(), workers=None, blocks=None,
+    output=TileOutput(), points=Output(),
 ):  # fmt: skip
     """Classify many files with workers and blocks that users cannot choose."""
     request = ClassifyRequest(parameters=parameters, tiles=output, output=points)

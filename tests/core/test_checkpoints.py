@@ -10,9 +10,8 @@ from conftest import Heard
 from surveys import write_points
 from test_assessment import Tags
 
-from bare_earth import BareEarthError
+from bare_earth import BareEarthError, Progress
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.tools.check import survey_ground
 from bare_earth.algorithms.tools.check.accuracy import Accuracy, Figures, statement
@@ -69,7 +68,7 @@ def points(xy, errors=0.0, covers=None, names=None):
     return Checkpoints.of(rows, names, covers)
 
 
-def check(paths, checkpoints=None, *sets, outputs=None, progress=SILENT, **others):
+def check(paths, checkpoints=None, *sets, outputs=None, progress=Progress(), **others):
     inputs = {"sources": paths, "checkpoints": checkpoints, **others}
     return run(TOOL, inputs, outputs or {}, sets, progress)
 

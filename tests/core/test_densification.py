@@ -6,8 +6,8 @@ import math
 import numpy as np
 import pytest
 
+from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters.stages.densify import Densification
 from bare_earth.algorithms.filters.state import GridState, State
 
@@ -31,7 +31,7 @@ def joining(candidates, heights, surface=plane, **rules):
     xy, z = np.vstack((SEEDS, candidates)), np.append(surface(SEEDS), heights)
     points, first = Points(*xy.T.copy(), z), np.arange(len(SEEDS))
     waiting = np.arange(len(SEEDS), len(xy))
-    state = State(points, SILENT, seeds=first, waiting=waiting)
+    state = State(points, Progress(), seeds=first, waiting=waiting)
     state.spacing, state.grids = 10.0, [GridState.of(points, 10.0, 2.0)]
     dataclasses.replace(RULES, **rules).apply(state)
     return np.isin(waiting, state.seeds)

@@ -255,7 +255,7 @@ from pathlib import Path
 import numpy as np
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame
-from bare_earth.algorithms.core.progress import SILENT
+from bare_earth import Progress
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
 from bare_earth.algorithms.rasters.writing import Rows, write_geotiff
 
@@ -267,7 +267,7 @@ for megabytes in (1, 40, 64, 66, 70, 120, 220):
     target.write_bytes(b"old")
     try:
         rows = Rows((side, side), "uint8", (part for _ in range(side // 256)))
-        write_geotiff(target, rows, grid, 255, SILENT, "classes")
+        write_geotiff(target, rows, grid, 255, Progress(), "classes")
         print("done", end=" ")
     except BareEarthError as error:
         print(error, end=" ")

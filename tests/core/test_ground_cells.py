@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.progress import SILENT
+from bare_earth import Progress
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
 from bare_earth.algorithms.filters.stages.terrain import GentleBorder, GentleRegions
 from bare_earth.algorithms.filters.state import GridState
@@ -32,7 +32,7 @@ def ground_of(grid, window=20.0, opening=None, regions=None):
         regions or GentleRegions(),
     )
     for rule in rules:
-        rule.apply(grid, SILENT)
+        rule.apply(grid, Progress())
     return grid.is_ground
 
 

@@ -13,9 +13,8 @@ from realdata import real
 from runs import said
 from surveys import ORIGIN, write_points
 
-from bare_earth import BareEarthError, heights
+from bare_earth import BareEarthError, Progress, heights
 from bare_earth.algorithms.core.points import Frame
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.crs.provider import wkt_of_epsg, wkt_of_text
 from bare_earth.algorithms.crs.system import crs_of_wkt
 from bare_earth.algorithms.crs.unit_names import unit_in
@@ -41,7 +40,7 @@ def dtm(path, cell=1.0, side=SIDE, epsg=25832, hole=False, unit=1.0):
     values = terrain(grid.x[None, :], grid.y[:, None]).astype(np.float32)
     if hole:
         values[-10:, :10] = NODATA
-    write_geotiff(path, values, grid, NODATA, SILENT, "heights")
+    write_geotiff(path, values, grid, NODATA, Progress(), "heights")
     return path
 
 
@@ -155,7 +154,7 @@ def test_heights_of_a_raster_in_its_stated_unit(tmp_path):
     raster, feet = read_raster(metres), tmp_path / "feet.tif"
     grid = raster._replace(unit="ft", states_unit=True)
     cells = raster.heights / np.float32(0.3048)
-    write_geotiff(feet, cells, grid, NODATA, SILENT, "Height, {unit}")
+    write_geotiff(feet, cells, grid, NODATA, Progress(), "Height, {unit}")
     heights(source, tmp_path / "out.las", dtm=feet)
     np.testing.assert_allclose(found(tmp_path / "out.las"), true_heights(source), atol=0.001)
 
@@ -179,7 +178,7 @@ def test_a_raster_beside_points_whose_heights_are_feet(tmp_path, shows, unit, ex
     las.write(str(source))
     grid = RasterGrid(EAST, NORTH + SIDE, 1.0, SIDE, SIDE, Frame((0, 0), 1.0, unit, UTM))
     values = (terrain(grid.x[None, :], grid.y[:, None]) / unit).astype(np.float32)
-    write_geotiff(tmp_path / "dtm.tif", values, grid, NODATA, SILENT, shows)
+    write_geotiff(tmp_path / "dtm.tif", values, grid, NODATA, Progress(), shows)
     progress = Heard()
     heights(source, target, dtm=tmp_path / "dtm.tif", progress=progress)
     assert len(progress.warnings) == len(warnings)
@@ -253,7 +252,7 @@ def test_written_heights_keep_their_unit(tmp_path, code, kind):
     unit = crs_of_wkt(wkt).vertical_unit if "+" in code else 0.3048
     frame = Frame((0.0, 0.0), crs_of_wkt(wkt).horizontal_unit, unit, wkt)
     grid, cells = RasterGrid(EAST, NORTH, 1.0, 4, 4, frame), np.zeros((4, 4), np.float32)
-    write_geotiff(tmp_path / "dtm.tif", cells, grid, NODATA, SILENT, "Height, {unit}")
+    write_geotiff(tmp_path / "dtm.tif", cells, grid, NODATA, Progress(), "Height, {unit}")
     with rasterio.open(tmp_path / "dtm.tif") as raster:
         assert unit_in(raster.units[0]) == pytest.approx(unit, rel=1e-8)
         stated = read_wkt(raster.crs.to_wkt()).vertical_unit

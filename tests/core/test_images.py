@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.densify import Densification
 from bare_earth.algorithms.filters.tin import METHOD, TinDensification
@@ -39,7 +39,7 @@ def test_the_distance_for_images_is_not_for_a_distance_that_was_given(block):
     points, _ = block
 
     def in_images(**values):
-        rules = METHOD.pipeline(points, TinDensification(**values), SILENT).rules
+        rules = METHOD.pipeline(points, TinDensification(**values), Progress()).rules
         (rule,) = (each for each in rules if isinstance(each, Densification))
         return rule.in_images
 
