@@ -9,6 +9,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Callable
 
+from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
@@ -229,6 +230,11 @@ def _tool_input(
         path = getattr(values, declared.name)
         return (None if path is None else declared.of(path)), progress
     is_found = declared.found is not None and is_automatic(values.water)
+    if declared.kind == "constraints" and not is_found and is_automatic(values.water):
+        raise BareEarthError(
+            "Water is found in classified points: make the rasters with terrain() and its"
+            ' water="automatic".'
+        )
     if declared.kind in _READERS:
         given = _READERS[declared.kind](values)
     else:

@@ -62,6 +62,8 @@ def test_a_wrong_value_is_refused_as_by_the_command():
         bare_earth.classify("a.laz", "b.laz", method="magic")
     with pytest.raises(bare_earth.BareEarthError, match="must be at least 0 m, not -1"):
         bare_earth.water_classes("a.laz", "b.laz", water="automatic", shore_distance=-1)
+    with pytest.raises(bare_earth.BareEarthError, match="Water is found in classified points"):
+        bare_earth.classify("a.laz", "b.laz", dtm="dtm.tif", water="automatic")
 
 
 def test_the_stub_is_what_the_tools_declare():
