@@ -9,9 +9,10 @@ from qgis.PyQt.QtGui import QIcon
 
 from .. import __version__
 from ..algorithms.survey.feature_files import FORMATS
-from .processing import ALGORITHMS
+from .processing.maps import map_algorithms
 from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
+from .processing.point_cloud_to_terrain import PointCloudToTerrainAlgorithm
 from .processing.tools import tool_algorithms
 
 ICON = Path(__file__).parent / "icons" / "bare_earth.svg"
@@ -51,13 +52,14 @@ class BareEarthProvider(QgsProcessingProvider):
     def loadAlgorithms(self) -> None:
         """Add an instance of each algorithm, and the models of the plugin."""
         self._models = shipped_models()
-        for algorithm in [*(each() for each in ALGORITHMS), *tool_algorithms(), *self._models]:
+        own = [PointCloudToTerrainAlgorithm(), *map_algorithms(), *tool_algorithms()]
+        for algorithm in [*own, *self._models]:
             self.addAlgorithm(algorithm)
 
     def load_models(self, _: str = "") -> None:
         """Read the models again, whose outputs are known only when their steps are registered."""
-        for each in self._models:
-            each.load()
+        for model in self._models:
+            model.load()
 
     def supportsNonFileBasedOutput(self) -> bool:
         """Return that outputs are always files."""
@@ -73,7 +75,7 @@ class BareEarthProvider(QgsProcessingProvider):
 
     def supportedOutputVectorLayerExtensions(self) -> list[str]:
         """Return the formats of lines that the algorithms write."""
-        return [each[1:] for each in FORMATS]
+        return [ending[1:] for ending in FORMATS]
 
     def defaultVectorFileExtension(self, hasGeometry: bool = True) -> str:
         """Return the format of lines without a name, whatever the user's settings are."""

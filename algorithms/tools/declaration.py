@@ -30,7 +30,8 @@ class Input:
 
     name: str  # of the argument of the work, or the field of the step, and of the option
     # One of these; in brackets, what a tool gets:
-    # "cloud": a point cloud file (a path); "clouds": files of a survey (paths);
+    # "cloud": a point cloud file (a path); "clouds": files of a survey (paths), in a dialog a file
+    # or a list of files; "files": the same, in a dialog several files or a folder;
     # "raster": a file with a band of heights (its path, or another name that GDAL knows);
     # "crs": the CRS of the points, if the user states it (text);
     # "area" (an `Area`) and "polygons" (what `of` makes): of tools for points only;
@@ -60,7 +61,7 @@ class Input:
 
 
 # The points and their CRS, as most tools have them.
-_POINTS = Input("input", "clouds", help="a classified file, or ", label="Classified point cloud")
+POINTS = Input("input", "clouds", help="a classified file, or ", label="Classified point cloud")
 CRS = Input("crs", "crs", label="CRS of the points", optional=True, advanced=True)
 CLASSIFIED = Input(
     "sources",
@@ -78,7 +79,8 @@ class Output:
 
     # All outputs are checked before the work begins, and get their names together when it ends.
     name: str  # of the argument of the work, and of the option
-    # "raster", "features", "page", "table" or "folder"; "cloud" of points.
+    # "raster", "features", "page", "table" or "folder"; of points "cloud", and "list" for the
+    # virtual point cloud of many files.
     kind: str
     help: str  # of the option
     label: str = ""  # of the field in the dialog; empty if there is none
@@ -172,7 +174,7 @@ class PointTool(Tool):
     @property
     def all_inputs(self) -> tuple[Input, ...]:
         """The points, the further inputs, and the CRS."""
-        return _POINTS, *self.inputs, CRS
+        return POINTS, *self.inputs, CRS
 
     @property
     def all_outputs(self) -> tuple[Output, ...]:
@@ -213,9 +215,19 @@ class MapTool(Tool):
     function_about: str = ""  # first paragraph of the documentation of the function
     # Without the points that it writes; asked for anew, since rows of rasters can be added.
     outputs: Callable[[], tuple[Output, ...]] = tuple
+    points: Input = POINTS  # in the dialog
+    # In the order of the dialog, if it is not that of the command; outputs with points.
+    dialog_inputs: tuple[Input, ...] = ()
+    dialog_outputs: Callable[[], tuple[Output, ...]] = tuple
+    method: str = ""  # the ground filter of the dialog, if it has only one
     # Whether it finds the ground, by any filter, and writes points; otherwise they are classified.
     classifies: bool = False
     is_survey: bool = False  # whether one file, too, is written into a folder
+
+    @property
+    def all_inputs(self) -> tuple[Input, ...]:
+        """The points, their CRS, and the further inputs, in the order of the dialog."""
+        return self.points, CRS, *(self.dialog_inputs or self.inputs)
 
     @property
     def all_outputs(self) -> tuple[Output, ...]:

@@ -19,7 +19,6 @@ from .outputs import class_raster_of
 if TYPE_CHECKING:
     from ...algorithms.delivery.request import DeliveryRequest
     from ...algorithms.runs.requests import ClassifyRequest
-    from ...algorithms.runs.terrain_maps import MapRequest
 
 # Side of a cell of a raster in metres, unless the run has rasters of its own.
 _USUAL_CELL = 1.0
@@ -29,7 +28,7 @@ def show_classified(
     algorithm: BareEarthAlgorithm,
     cloud: str,
     classes: Iterable[int],
-    request: ClassifyRequest | MapRequest | DeliveryRequest,
+    request: ClassifyRequest | DeliveryRequest,
     context: QgsProcessingContext,
     progress: FeedbackProgress,
     hides: int = layers.CLOUD,

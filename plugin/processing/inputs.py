@@ -175,7 +175,6 @@ def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
     files = QgsProcessingParameterMultipleLayers("INPUT", "Point clouds", compat.FILES, None, True)
     algorithm.addParameter(files, _FILES_HELP)
     _add_folder(algorithm)
-    add_crs(algorithm)
 
 
 def clouds_of(

@@ -11,8 +11,6 @@ from qgis.core import (
     QgsProcessingContext,
     QgsProcessingOutputLayerDefinition,
     QgsProcessingParameterDefinition,
-    QgsProcessingParameterFileDestination,
-    QgsProcessingParameterFolderDestination,
     QgsProcessingParameterRasterDestination,
     QgsProcessingParameterVectorDestination,
     QgsProperty,
@@ -25,7 +23,6 @@ from ...algorithms.survey.files import is_one_file
 from ...algorithms.tools.rasters.parameters import RasterOutput
 from ...algorithms.tools.rasters.rows import RASTERS, RasterFiles
 from .. import compat
-from ..i18n import tr
 
 NOTHING_STAYS = "Cancelled; nothing was written."
 TILES_STAY = "Cancelled. The finished tiles stay, and a later run can continue with them."
@@ -55,19 +52,6 @@ def usual_rasters(*reliefs: str) -> list[str]:
     return [name for name, row in RASTERS.items() if not row.is_relief or name in reliefs]
 
 
-def add_explanation(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the advanced field of a raster that tells which rule decided each cell."""
-    # QGIS shows it below the other outputs: it folds only inputs away.
-    label = "Rule that decided each cell"
-    field = QgsProcessingParameterRasterDestination("EXPLANATION", label, None, True, False)
-    field.setFlags(field.flags() | compat.ADVANCED)
-    algorithm.addParameter(
-        field,
-        "A raster that tells why a place is ground or not: the rule of the filter that decided the"
-        " cell. Its legend names the rules. Presets that decide points, not cells, cannot make it.",
-    )
-
-
 def add_cloud(
     algorithm: QgsProcessingAlgorithm,
     label: str = "Classified point cloud",
@@ -79,21 +63,6 @@ def add_cloud(
     if optional:
         field.setFlags(field.flags() | QgsProcessingParameterDefinition.Flag.FlagOptional)
     algorithm.addParameter(field, text)
-
-
-def add_tiles(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of many output point clouds."""
-    folder, vpc = "Folder of the classified point clouds", "Virtual point cloud"
-    filters = tr("{} files (*.{})").format("VPC", "vpc")
-    algorithm.addParameter(
-        QgsProcessingParameterFolderDestination("OUTPUT_FOLDER", folder),
-        "The folder for the classified files. Each keeps its name.",
-    )
-    algorithm.addParameter(
-        QgsProcessingParameterFileDestination("OUTPUT_VPC", vpc, filters, None, True, False),
-        "A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a"
-        " name it is classified.vpc in their folder.",
-    )
 
 
 def add_contours(algorithm: QgsProcessingAlgorithm) -> None:

@@ -19,19 +19,27 @@ from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.tools.declaration import Input
 from .. import compat
 from ..i18n import mark
+from .area import OF_RASTERS, add_area, area_of, area_options, given_options
 from .base import BareEarthAlgorithm
 from .checkpoints import add_checkpoints, checkpoints_of
+from .constraints import add_constraints, constraints_of
+from .corrections import add_corrections, corrections_of
 from .inputs import (
     ANY_CLOUD_HELP,
     CLOUD_HELP,
+    CloudCrs,
     PointCloudInput,
     SurveyInput,
+    add_clouds,
     box_of,
+    clouds_of,
     layer_polygons,
     name_of,
+    names_of,
     raster_of,
     source_path,
 )
+from .raster_target import add_raster_target, raster_target_of
 from .stated_crs import add_crs
 
 # What is said of rasters that are no files, by the names of their inputs.
@@ -48,9 +56,9 @@ class Given(NamedTuple):
 
     value: Any  # as the tool gets it; None for nothing
     options: Mapping[str, Any] = MappingProxyType({})  # of the command line
-    # Of an input that the command needs: its word, file and name.
-    argument: str = ""
-    path: Path | None = None
+    # Of an input that the command needs: its words, files and name.
+    arguments: tuple[str, ...] = ()
+    paths: tuple[Path, ...] = ()
     name: str = ""
 
 
@@ -70,11 +78,14 @@ class Request(NamedTuple):
 def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
     """Add the field, or the fields, of an input to a dialog."""
     name, label = declared.field_name, declared.label
-    if declared.kind == "crs":
-        add_crs(algorithm)
+    if declared.kind in _GROUPS:
+        _GROUPS[declared.kind](algorithm)
         return
-    if declared.kind == "checkpoints":
-        add_checkpoints(algorithm)
+    if declared.kind == "area":
+        # Below the parameters, it only says where rasters end.
+        helps = OF_RASTERS if declared.is_last else {}
+        advanced = ("EXTENT", "BOUNDARY") if declared.advanced else ("BOUNDARY",)
+        add_area(algorithm, advanced, helps)
         return
     makers: dict[str, Callable[[], QgsProcessingParameterDefinition]] = {
         "cloud": lambda: PointCloudInput(name, label),
@@ -102,7 +113,42 @@ def _cloud(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, _ = request
     path = source_path(algorithm, parameters, declared.field_name, context)
     value = [path] if declared.kind == "clouds" else path
-    return Given(value, {}, str(path), path, name_of(path))
+    return Given(value, {}, (str(path),), (path,), name_of(path))
+
+
+def _files(request: Request, declared: Input) -> Given:
+    paths = clouds_of(request.algorithm, request.parameters, request.context)
+    return Given(paths, {}, tuple(map(str, paths)), tuple(paths), names_of(paths))
+
+
+def _area(request: Request, declared: Input) -> Given:
+    algorithm, parameters, context, progress = request
+    area = area_of(algorithm, parameters, context, _crs_of(request))
+    return Given(area, {"extent": tuple(area_options(area, progress)[1:])})
+
+
+def _target(request: Request, declared: Input) -> Given:
+    algorithm, parameters, context, _ = request
+    target = raster_target_of(algorithm, parameters, context, _crs_of(request))
+    return Given(target, given_options(None, target))
+
+
+def _corrections(request: Request, declared: Input) -> Given:
+    algorithm, parameters, context, progress = request
+    return Given(corrections_of(algorithm, parameters, context, _crs_of(request), progress))
+
+
+def _constraints(request: Request, declared: Input) -> Given:
+    algorithm, parameters, context, progress = request
+    return Given(constraints_of(algorithm, parameters, context, _crs_of(request), progress))
+
+
+def _crs_of(request: Request) -> CloudCrs:
+    """Return the CRS of the points, also in subfolders if the user asks for these."""
+    algorithm, parameters, context, _ = request
+    is_deep = algorithm.parameterDefinition("RECURSIVE") is not None
+    recursive = is_deep and algorithm.parameterAsBool(parameters, "RECURSIVE", context)
+    return algorithm.crs_of(*algorithm.inputs, recursive=recursive)
 
 
 def _raster(request: Request, declared: Input) -> Given:
@@ -114,7 +160,7 @@ def _raster(request: Request, declared: Input) -> Given:
     source = layer.source()
     if declared.optional:
         return Given(source, {declared.name: source})
-    return Given(source, {}, source, Path(source), layer.name())
+    return Given(source, {}, (source,), (Path(source),), layer.name())
 
 
 def _crs(request: Request, declared: Input) -> Given:
@@ -160,5 +206,11 @@ def _polygons(request: Request, declared: Input) -> Given:
 
 _READERS: dict[str, Callable[[Request, Input], Given]] = {
     "cloud": _cloud, "clouds": _cloud, "raster": _raster, "crs": _crs, "extent": _extent,
-    "words": _words, "checkpoints": _checkpoints, "polygons": _polygons,
+    "words": _words, "checkpoints": _checkpoints, "polygons": _polygons, "files": _files,
+    "area": _area, "target": _target, "corrections": _corrections, "constraints": _constraints,
+}  # fmt: skip
+# Inputs with fields of their own.
+_GROUPS: dict[str, Callable[[BareEarthAlgorithm], None]] = {
+    "crs": add_crs, "checkpoints": add_checkpoints, "files": add_clouds,
+    "target": add_raster_target, "corrections": add_corrections, "constraints": add_constraints,
 }  # fmt: skip

@@ -36,7 +36,7 @@ from .outputs import after_cancel, do_not_load, point_cloud_formats
 from .tool_inputs import Given, Request, add_input, given
 
 # Inputs of these kinds, which name the run, are found first; these are read when the work begins.
-_FILES, _LATE = ("cloud", "clouds", "raster"), ("checkpoints", "polygons")
+_FILES, _LATE = ("cloud", "clouds", "files", "raster"), ("checkpoints", "polygons")
 # Titles of the layers of classes, by what a tool for points shows.
 _TITLES = {"classes": layers.CLASSES, "key points": mark("key points")}
 # Share of the progress bar until what the user did not give is found.
@@ -87,7 +87,10 @@ class ToolAlgorithm(BareEarthAlgorithm):
             if declared.is_last:
                 add_input(self, declared)
         for output in self._outputs:
-            self.addParameter(_field_of(output), output.field_help)
+            field = _field_of(output)
+            if output.advanced:  # QGIS shows it below the other outputs: it folds only inputs away
+                field.setFlags(field.flags() | compat.ADVANCED)
+            self.addParameter(field, output.field_help)
             for name, label in output.layers.items():
                 self.addOutput(QgsProcessingOutputRasterLayer(name.upper(), label))
         self.add_numbers(dict(self._tool.numbers))
@@ -100,7 +103,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
             for declared in self._inputs
             if declared.kind in _FILES
         }
-        self.inputs = [found.path for found in self._given.values() if found.path]
+        self.inputs = [path for found in self._given.values() for path in found.paths]
         self.subject = next(found.name for found in self._given.values() if found.name)
 
     def prepare(
@@ -165,7 +168,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
 
     def _command(self, paths: dict[str, str], chosen: list[ParameterSet]) -> str:
         """Return the command line that does the same without QGIS."""
-        words = [found.argument for found in self._given.values() if found.argument]
+        words = [word for found in self._given.values() for word in found.arguments]
         words += [paths[output.name] for output in self._outputs if output.is_main]
         options: dict[str, Any] = {}
         for declared in self._inputs:
@@ -330,4 +333,6 @@ def _field_of(output: Output) -> QgsProcessingParameterDefinition:
             name, label, optional=optional, createByDefault=by_default
         )
     filters = tr("HTML files (*.html)")
+    if output.kind == "list":
+        filters = tr("{} files (*.{})").format("VPC", "vpc")
     return QgsProcessingParameterFileDestination(name, label, filters, None, optional, by_default)

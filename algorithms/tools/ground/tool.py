@@ -8,6 +8,7 @@ from typing import Iterable
 from ...core.parameters import ParameterSet, parameter_of
 from ...engine.memory import Resources
 from ...engine.options import TileInput, TileOutput
+from ...filters import METHODS
 from ...survey.selection import Selection
 from ..above_ground.classes import ThenAboveGround
 from ..contours import Contours
@@ -46,15 +47,68 @@ _EXPLANATION = Output(
 )
 
 
+_CLOUD = Output(
+    "output",
+    "cloud",
+    "",
+    label="Classified point cloud",
+    field_help="The same points with their new classes.",
+    is_main=True,
+)
+_FOLDER = Output(
+    "output",
+    "folder",
+    "",
+    label="Folder of the classified point clouds",
+    field_help="The folder for the classified files. Each keeps its name.",
+    named="OUTPUT_FOLDER",
+    is_main=True,
+)
+_LIST = Output(
+    "vpc",
+    "list",
+    "",
+    label="Virtual point cloud",
+    field_help="A list of the classified files, which QGIS 3.32 and newer shows as one layer."
+    " Without a name it is classified.vpc in their folder.",
+    named="OUTPUT_VPC",
+    by_default=False,
+)
+
+
 def _outputs() -> tuple[Output, ...]:
     """Return rasters, contour lines, and the raster of rules."""
     return *maps(), _EXPLANATION
+
+
+def _of_file() -> tuple[Output, ...]:
+    """Return the outputs in the dialogs of one file."""
+    return _CLOUD, *_usual_maps(), _EXPLANATION
+
+
+def _of_tiles() -> tuple[Output, ...]:
+    """Return the outputs in the dialog of many files."""
+    return _FOLDER, _LIST, *_usual_maps()
+
+
+def _usual_maps() -> list[Output]:
+    return [output for output in maps() if output.name in ("dtm", "hillshade")]
 
 
 _ABOUT = (
     " Many files, folders and virtual point clouds are one survey: each point gets the class that"
     " it would get if all were one file, so there are no seams. A file that cannot be classified"
     " is reported at the end. To see the parameters of a method, give --method before --help."
+)
+_TARGET = Input("raster_target", "target", is_last=True)
+_CONSTRAINTS = Input("constraints", "constraints", is_last=True)
+_CORRECTIONS = Input("corrections", "corrections", is_last=True)
+_AREA = Input(
+    "area",
+    "area",
+    help="classify only points in",
+    more="; points outside are written too, with the class that they have, unless `area_only` is"
+    " given; rasters end at its border",
 )
 TOOL = MapTool(
     # Behind the parameters of the method.
@@ -68,18 +122,8 @@ TOOL = MapTool(
         "Rasters of many files", "Threads and memory",
     ),
     json="the counts",
-    inputs=(
-        Input("raster_target", "target"),
-        Input("constraints", "constraints"),
-        Input(
-            "area",
-            "area",
-            help="classify only points in",
-            more="; points outside are written too, with the class that they have, unless"
-            " `area_only` is given; rasters end at its border",
-        ),
-        Input("corrections", "corrections"),
-    ),
+    inputs=(_TARGET, _CONSTRAINTS, _AREA, _CORRECTIONS),
+    dialog_inputs=(_AREA, _CORRECTIONS, _CONSTRAINTS, _TARGET),
     outputs=_outputs,
     classifies=True,
     command="classify",
@@ -91,6 +135,9 @@ TOOL = MapTool(
 TILES_TOOL = replace(
     TOOL,
     is_survey=True,
+    points=Input("input", "files", label="Point clouds"),
+    dialog_inputs=(replace(_AREA, advanced=True), _CORRECTIONS, _CONSTRAINTS, _TARGET),
+    dialog_outputs=_of_tiles,
     command="classify-tiles",
     command_about="Classifies the ground points of LAS, LAZ and COPC files, and writes each into a"
     f" folder.{_ABOUT}",
@@ -115,4 +162,32 @@ TILES_TOOL = replace(
         ("POINT_COUNT", "Points"),
         ("GROUND_COUNT", "Ground points"),
     ),
+)  # fmt: skip
+# The dialogs of one file, one for each method.
+METHOD_TOOLS = tuple(
+    replace(
+        TOOL,
+        method=method.name,
+        points=Input("input", "cloud", label="Point cloud"),
+        dialog_outputs=_of_file,
+        dialog_sets=(
+            method.parameters, Selection, TerrainModel, Gaps, Written, ThenAboveGround, Resources,
+        ),
+        section="Ground classification",
+        identifier=method.toolbox.identifier,
+        title=method.toolbox.title,
+        summary=method.toolbox.summary,
+        about=method.toolbox.about,
+        page=method.toolbox.page,
+        run_name=method.label,
+        words=(CLOUD, GROUND, TERRAIN, *method.toolbox.words),
+        shown=("preset", method.size_parameter, "dtm_cell_size"),
+        numbers=(
+            ("POINT_COUNT", "Points"),
+            ("AREA_COUNT", "Points in the area"),
+            ("SELECTED_COUNT", "Points that took part"),
+            ("GROUND_COUNT", "Ground points"),
+        ),
+    )
+    for method in METHODS.values()
 )  # fmt: skip

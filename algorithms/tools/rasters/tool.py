@@ -42,22 +42,31 @@ def _found(
     return water.constraints
 
 
+def _in_dialog() -> tuple[Output, ...]:
+    """Return the rasters in the dialog: not those that the tool for reliefs makes."""
+    names = [name for name, row in RASTERS.items() if not row.is_relief or name == "hillshade"]
+    return tuple(output for output in maps() if output.name in names)
+
+
+_TARGET = Input("raster_target", "target", is_last=True)
+_AREA = Input(
+    "area",
+    "area",
+    help="make the rasters only in",
+    more="; points outside still help along its border",
+    advanced=True,
+    is_last=True,
+)
+_CONSTRAINTS = Input("constraints", "constraints", found=_found, is_last=True)
 TOOL = MapTool(
     sets=(
         GroundClasses, TerrainModel, SurfaceModel, Contours, TileInput, RasterOutput, Resources,
     ),
     dialog_sets=(GroundClasses, TerrainModel, SurfaceModel, RasterOutput, Resources),
-    inputs=(
-        Input("raster_target", "target"),
-        Input(
-            "area",
-            "area",
-            help="make the rasters only in",
-            more="; points outside still help along its border",
-        ),
-        Input("constraints", "constraints", found=_found),
-    ),
+    inputs=(_TARGET, _AREA, _CONSTRAINTS),
+    dialog_inputs=(_AREA, _CONSTRAINTS, _TARGET),
     outputs=maps,
+    dialog_outputs=_in_dialog,
     command="terrain",
     command_about="Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Give at"
     " least one of --contours and of --dtm, --dsm and the other options with GeoTIFF files.",

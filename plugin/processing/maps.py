@@ -1,0 +1,100 @@
+"""The tools that make rasters of points in the toolbox: ground filters and terrain models."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from qgis.core import QgsProcessingContext
+
+from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.survey.files import is_one_file
+from ...algorithms.tools import map_tool
+from ...algorithms.tools.declaration import MapTool
+from ...algorithms.tools.ground.tool import METHOD_TOOLS, as_command
+from ...algorithms.tools.rasters.parameters import RasterOutput
+from ..i18n import mark
+from .base import command_line
+from .classified import show_classified
+from .feedback import FeedbackProgress, Refusal
+from .outputs import TILES_STAY, shown_rasters
+from .tool_inputs import Request
+from .tools import ToolAlgorithm
+
+
+class MapAlgorithm(ToolAlgorithm):
+    """A tool that makes rasters of points."""
+
+    _tool: MapTool
+    unused = ("relief_radius",)
+
+    def __init__(self, tool: MapTool) -> None:
+        super().__init__(tool)
+        self._inputs = list(tool.all_inputs)
+        self._outputs = list(tool.dialog_outputs())
+        if tool.is_survey:
+            self.cancelled = TILES_STAY
+
+    def work(
+        self,
+        inputs: dict[str, Any],
+        outputs: dict[str, str],
+        chosen: list[ParameterSet],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> dict[str, Any]:
+        """Run the tool, show what was written, and return the results."""
+        # Imported here, so that QGIS starts faster.
+        from ...algorithms.runs.entry import make
+        from ...algorithms.runs.requests import ClassifyRequest, map_request
+
+        tool = self._tool
+        paths = {name: Path(path) for name, path in outputs.items() if path}
+        given = {declared.name: inputs[declared.name] for declared in tool.inputs}
+        request = map_request(tool, as_command(chosen), paths, crs=self.stated, **given)
+        as_survey = tool.is_survey if tool.classifies else None
+        done = make(self.inputs, paths, request, progress, as_survey=as_survey)
+        if tool.is_survey:
+            progress.info(f"{done.text}.")
+            outputs["vpc"] = done.vpc
+        elif tool.classifies:
+            counts = done.area_ground_count, done.area_count
+            progress.share(*counts, in_area=bool(inputs["area"]))
+        else:
+            progress.info(f"The rasters have {done.columns:,} x {done.rows:,} cells.")
+        fields = {output.name: output.field_name for output in self._outputs}
+        results = {fields[name]: path for name, path in outputs.items() if path}
+        if tool.is_survey or not (tool.classifies or is_one_file(self.inputs)):
+            rasters = {output.field_name for output in self._outputs if output.kind == "raster"}
+            drawn = {name: path for name, path in results.items() if name in rasters}
+            results.update(shown_rasters(drawn, RasterOutput.among(chosen), context))
+        if isinstance(request, ClassifyRequest):
+            cloud = done.vpc if tool.is_survey else outputs["output"]
+            self.class_counts = done.class_counts
+            show_classified(self, cloud, done.class_counts, request, context, progress)
+        return {**results, **{name: getattr(done, name.lower()) for name, _ in tool.numbers}}
+
+    def _cloud(self, request: Request, name: str) -> str:
+        return self.point_cloud_destination(request.parameters, name, request.context)
+
+    def _command(self, paths: dict[str, str], chosen: list[ParameterSet]) -> str:
+        """Return the command line that does the same without QGIS."""
+        if not any(paths.values()):
+            raise Refusal(mark("Choose at least one raster to make."))
+        words = [word for found in self._given.values() for word in found.arguments]
+        words += [paths[output.name] for output in self._outputs if output.is_main]
+        options: dict[str, Any] = {"method": self._tool.method}
+        for declared in self._inputs:
+            options.update(self._given[declared.name].options)
+        options.update(
+            (output.option, paths[output.name]) for output in self._outputs if not output.is_main
+        )
+        extent = options.pop("extent")
+        line = command_line(self._tool.command, words, as_command(chosen), options)
+        return " ".join([line, "--extent", *extent] if extent else [line])
+
+
+def map_algorithms() -> list[MapAlgorithm]:
+    """Return the tools that make rasters of points."""
+    tools = *METHOD_TOOLS, map_tool("classify-tiles"), map_tool("terrain")
+    return [MapAlgorithm(tool) for tool in tools]
