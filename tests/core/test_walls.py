@@ -8,14 +8,6 @@ import sys
 import pytest
 from shipped import ROOT, SHIPPED, name_of, nodes, tree_of
 
-# One file per algorithm, as the list of them says; the others are what they share.
-WRAPPERS = [
-    ROOT / "plugin" / "processing" / f"{node.module}.py"
-    for node in ast.parse(
-        (ROOT / "plugin" / "processing" / "__init__.py").read_text(encoding="utf-8")
-    ).body
-    if isinstance(node, ast.ImportFrom)
-]
 # Qt's own names may come from here only, so that one code runs with Qt 5 and Qt 6.
 QT = {"PyQt5", "PyQt6", "PySide2", "PySide6", "sip"}
 # Which rooms of `algorithms` a room may import, besides itself: the floors below it.
@@ -169,13 +161,9 @@ def test_shipped_code_holds_none_of_what_hides_or_varies():
             assert "/tmp" not in node.value, f"{where}: not every system has it"
 
 
-@pytest.mark.parametrize("wrapper", WRAPPERS, ids=name_of)
-def test_a_processing_wrapper_is_thin(wrapper):
+def test_the_algorithm_without_a_declaration_is_thin():
+    wrapper = ROOT / "plugin" / "processing" / "point_cloud_to_terrain.py"
     assert len(wrapper.read_text(encoding="utf-8").splitlines()) < 100
-
-
-def test_there_are_processing_wrappers():
-    assert WRAPPERS
 
 
 @pytest.mark.parametrize("module", ["bare_earth", "bare_earth.algorithms", "bare_earth.plugin"])
