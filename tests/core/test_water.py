@@ -1,19 +1,20 @@
 """Water, on land where it is known."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from realdata import real
 from test_checkpoints import write
 
+import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.descent import isotonic
 from bare_earth.algorithms.tools.water.finding import Water, find_water
 from bare_earth.algorithms.tools.water.grid import WaterGrid, cell_for
-from bare_earth.algorithms.tools.water.tool import water_of
 
 WIDE, DENSITY, LEVEL = 400.0, 4.0, 100.0
 
@@ -75,6 +76,23 @@ def contains(body, x, y):
                 crosses = (y0 > y) != (y1 > y)
                 inside ^= crosses & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
     return inside
+
+
+def written_water(source, folder):
+    """Return the bodies of water that are found in a file, as they are written, highest first."""
+    files = folder / "water.geojson", folder / "shores.geojson"
+    bare_earth.water(source, files[0], breaklines_out=files[1])
+    water, shores = (json.loads(path.read_text("utf-8"))["features"] for path in files)
+    bodies = []
+    for properties in (feature["properties"] for feature in water):
+        rings = [
+            np.array(feature["geometry"]["coordinates"])
+            for feature in shores
+            if feature["properties"] == {"ID": properties["ID"], "KIND": "shore"}
+        ]
+        values = {name.lower(): value for name, value in properties.items()}
+        bodies.append(SimpleNamespace(rings=rings, **values))
+    return sorted(bodies, key=lambda body: -body.level)
 
 
 def overlap(bodies, away, size=(WIDE, WIDE)):
@@ -342,7 +360,7 @@ def test_a_pond_full_of_returns_is_found_without_its_class(number, tmp_path):
     las.write(tmp_path / "wiped.laz")
     found = []
     for name in ("truth", "wiped"):
-        (body,) = water_of([tmp_path / f"{name}.laz"])[0].bodies
+        (body,) = written_water(tmp_path / f"{name}.laz", tmp_path)
         found.append(body)
     x, y = np.meshgrid(np.arange(las.x.min(), las.x.max()), np.arange(las.y.min(), las.y.max()))
     true, again = (contains(body, x, y) for body in found)

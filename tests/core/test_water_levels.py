@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 from realdata import real
-from test_water import Scene
+from test_water import Scene, written_water
 
 from bare_earth.algorithms.grids.descent import Network, descent
 from bare_earth.algorithms.tools.water.reaches import reaches_of
-from bare_earth.algorithms.tools.water.tool import water_of
 
 CELL = 2.5
 
@@ -241,20 +240,20 @@ def test_rapids_and_steep_creeks_are_no_steps():
         assert body.kind == "river" and body.level - body.lowest > 2.0
 
 
-def test_a_reservoir_and_the_river_below_its_dam_are_two():
+def test_a_reservoir_and_the_river_below_its_dam_are_two(tmp_path):
     """The dam of field2: the lake up to x = 240 is at 100.0, the river begins at 95.0."""
-    found, _ = water_of([real("field2/water-dam.laz")])
-    lake, river = sorted(found.bodies, key=lambda body: -body.level)
+    lake, river = written_water(real("field2/water-dam.laz"), tmp_path)
     x = [body.rings[0][:, 0] - 500_000 for body in (lake, river)]
     assert x[0].max() == pytest.approx(240, abs=5) and x[1].min() == pytest.approx(240, abs=9)
     assert lake.kind == "lake" and lake.level == pytest.approx(100.0, abs=0.03)
-    assert river.kind == "river" and (river.level, river.lowest) == pytest.approx(
+    assert river.kind == "river" and (river.level, river.level_low) == pytest.approx(
         (95.0, 94.5), abs=0.1
     )
 
 
-def test_the_head_of_a_tributary_is_not_at_the_level_of_the_river():
-    (body,) = water_of([real("field2/water-tributary.laz")])[0].bodies
+def test_the_head_of_a_tributary_is_not_at_the_level_of_the_river(tmp_path):
+    source = real("field2/water-tributary.laz")
+    (body,) = written_water(source, tmp_path)
     ring = body.rings[0] - (500_000, 5_500_000, 0)
     for place, level in (((300, 322), 101.15), ((60, 150), 100.38)):
         near = np.hypot(*(ring[:, :2] - place).T) < 30
