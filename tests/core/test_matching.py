@@ -105,7 +105,7 @@ def test_without_times_no_point_is_used_twice(tmp_path):
     assert result.point_count == len(CLIP) and result.reference_only == COUNT - len(CLIP)
     # The classes of the reference are those of the clip, up to points at the same place.
     kinds, counts = np.unique(TRUTH[CLIP], return_counts=True)
-    assert {kind: each["points"] for kind, each in result.classes.items()} == pytest.approx(
+    assert {kind: figure["points"] for kind, figure in result.classes.items()} == pytest.approx(
         dict(zip(kinds.tolist(), counts.tolist())), rel=0.1
     )
 
@@ -119,15 +119,15 @@ def test_changed_times_do_not_keep_points_apart(tmp_path):
 
 
 def test_the_same_points_in_another_order_are_read_with_messages_once(tmp_path):
-    heard = Heard()
+    progress = Heard()
     mixed = np.random.default_rng(5).permutation(COUNT)
     found = write(tmp_path / "found.las", mixed, FOUND)
     truth = write(tmp_path / "truth.las", slice(None), TRUTH)
-    result = assess(found, truth, progress=heard)
+    result = assess(found, truth, progress=progress)
     assert result.point_count == COUNT and not result.reference_only
     assert result.ground_as_other == np.count_nonzero((TRUTH == 2) & (FOUND != 2))
-    assert heard.fractions == sorted(heard.fractions)
-    assert sorted(each[:5] for each in heard.warnings) == ["found", "truth"]  # of the CRS
+    assert progress.fractions == sorted(progress.fractions)
+    assert sorted(text[:5] for text in progress.warnings) == ["found", "truth"]  # of the CRS
 
 
 def test_strips_make_no_difference(tmp_path, expected, monkeypatch):

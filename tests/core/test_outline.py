@@ -301,12 +301,12 @@ def test_blocks_files_and_strips_give_the_same_outlines(tmp_path, monkeypatch, n
 
     cut(tmp_path / "many", integers, 6)
     known = {tuple(row): value for row, value in zip(integers.tolist(), classes)}
-    for each in (tmp_path / "many").iterdir():
-        las = laspy.read(each)
+    for file in (tmp_path / "many").iterdir():
+        las = laspy.read(file)
         shift = np.round((np.array(las.header.offsets) - ORIGIN) / las.header.scales).astype(int)
         rows = np.column_stack((las.X, las.Y, las.Z)).astype(np.int64) + shift
         las.classification[:] = [known[tuple(row)] for row in rows.tolist()]
-        las.write(str(each))
+        las.write(str(file))
     monkeypatch.setattr(blocks_module, "_SIDE", 100.0)
     monkeypatch.setattr(outline_module, "_CELLS_A_STRIP", 1)
     many = _terrain(tmp_path / "rasters", [tmp_path / "many"], names=names)

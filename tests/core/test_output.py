@@ -15,7 +15,9 @@ from bare_earth.algorithms.las.writing import write_changed
 from bare_earth.algorithms.tools.heights import HEIGHT_DIMENSION
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
-EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
+EVERY = [
+    (version, point_format) for version, formats in VERSIONS.items() for point_format in formats
+]
 
 
 def masked(count=60):
@@ -76,7 +78,7 @@ def test_other_programs_read_the_points_that_are_kept(las, suffix):
     assert np.allclose(after.header.mins, after.xyz.min(axis=0))
     assert np.allclose(after.header.maxs, after.xyz.max(axis=0))
     # What the file says of the range of the dimension is that of the points in it.
-    record = next(each for each in after.vlrs if each.record_id == 4).record_data_bytes()
+    record = next(record for record in after.vlrs if record.record_id == 4).record_data_bytes()
     assert struct.unpack_from("<d16xd", record, 64) == (heights[kept].min(), heights[kept].max())
 
 
@@ -91,7 +93,7 @@ def test_nothing_left_to_write_is_told_and_leaves_no_file(las):
 def hut(las):
     """Return a file of a plane with a flat roof 6 m above it, and which points are the roof."""
     side = np.arange(0.0, 40.0, 0.5)
-    x, y = (each.ravel() for each in np.meshgrid(side, side))
+    x, y = (axis.ravel() for axis in np.meshgrid(side, side))
     roof = (np.abs(x - 20) < 5) & (np.abs(y - 20) < 5)
     records = las.records(6, len(x))
     z = 10 + 0.1 * x + np.where(roof, 6.0, 0.0)

@@ -30,7 +30,9 @@ def numbers(text):
 
 def told(method):
     """Return the values of each preset that the table of a page has."""
-    declared = {each.name: each for each in METHODS[method].parameters.declarations()}
+    declared = {
+        parameter.name: parameter for parameter in METHODS[method].parameters.declarations()
+    }
     found = {}
     for line in PAGES[method].read_text("utf-8").splitlines():
         first, *others = line.strip("| ").split(" | ")

@@ -26,7 +26,7 @@ FEET_WKT = (
 
 def scene(path, point_format=6, version="1.4", wkt=None, offset=0.0, count=30):
     """Write a tilted plane with a flat roof 10 above its middle, and one point of noise."""
-    x, y = (each.ravel() * 1.0 for each in np.meshgrid(np.arange(count), np.arange(count)))
+    x, y = (axis.ravel() * 1.0 for axis in np.meshgrid(np.arange(count), np.arange(count)))
     plane = 100 + 0.1 * x + 0.2 * y
     roof = (x >= 10) & (x < 20) & (y >= 10) & (y < 20)
     header = laspy.LasHeader(point_format=point_format, version=version)
@@ -243,7 +243,7 @@ def test_key_points_get_a_flag(tmp_path, each_format):
 
 
 def test_key_points_once_more_are_the_same(tmp_path):
-    one, two, three, four = (tmp_path / f"{each}.las" for each in range(4))
+    one, two, three, four = (tmp_path / f"{number}.las" for number in range(4))
     scene(one)
     bare_earth.key_points(one, two)
     bare_earth.key_points(two, three)

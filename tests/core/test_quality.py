@@ -50,7 +50,7 @@ def measured(*paths, **options):
 
 
 def states(found):
-    return {each.name: each.state for each in found.comparison}
+    return {line.name: line.state for line in found.comparison}
 
 
 def test_the_density_of_a_regular_grid(tmp_path):
@@ -286,7 +286,7 @@ def test_low_vegetation_is_counted_on_a_slope(tmp_path):
     low = x > 50
     z = np.concatenate((slope, slope[low] + random.uniform(0.3, 1.9, low.sum()), slope[low] + 5))
     classes = np.concatenate((np.full(len(x), 2), np.full(2 * low.sum(), 1)))
-    x, y = (np.concatenate((each, each[low], each[low])) for each in (x, y))
+    x, y = (np.concatenate((axis, axis[low], axis[low])) for axis in (x, y))
     path = write(tmp_path / "in.laz", x, y, z, classification=classes)
     measured(path, folder=tmp_path / "rasters")
     made = heights_of(tmp_path / "rasters" / "low_vegetation.tif")

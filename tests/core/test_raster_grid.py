@@ -42,7 +42,9 @@ def files(integers, tmp_path_factory):
 def given(path, west=500_010.37, north=5_700_100.71, size=1.3, shape=(60, 90), crs=CRS, **more):
     """Write a raster of nothing; `more` replaces parts of its transform, by their letters."""
     transform = rasterio.Affine(size, 0.0, west, 0.0, -size, north)
-    transform = rasterio.Affine(*(more.get(each, getattr(transform, each)) for each in "abcdef"))
+    transform = rasterio.Affine(
+        *(more.get(letter, getattr(transform, letter)) for letter in "abcdef")
+    )
     with rasterio.open(
         path, "w", driver="GTiff", height=shape[0], width=shape[1], count=1, dtype="float32",
         crs=crs, transform=transform,
@@ -132,7 +134,8 @@ def test_constraints_lie_where_they_are_on_any_grid(source, tmp_path):
     dtm = made(tmp_path / "out", source, *options, names=["dtm"])["dtm"]
     found = values(dtm)
     x, y = (
-        np.array(each).reshape(found.shape) for each in dtm.xy(*np.mgrid[:14, :24].reshape(2, -1))
+        np.array(places).reshape(found.shape)
+        for places in dtm.xy(*np.mgrid[:14, :24].reshape(2, -1))
     )
     depth = np.minimum(np.minimum(x - west, east - x), np.minimum(y - south, north - y))
     is_flat = np.abs(found - np.ma.median(found[depth > 10.0])) < 1e-3

@@ -82,11 +82,11 @@ def test_return_numbers_begin_at_1_whatever_the_file_says(las, pairs, is_from_ze
     np.testing.assert_array_equal(cloud.number_of_returns, (records[:, 14] >> 4) + both)
     (part,) = read_parts(cloud.file)
     np.testing.assert_array_equal(part.return_number, cloud.return_number)
-    heard = las.Heard()
-    assert set(bare_earth.info(cloud.path, progress=heard).returns) == {
+    told = las.Heard()
+    assert set(bare_earth.info(cloud.path, progress=told).returns) == {
         number for number, _ in pairs
     }
-    assert any("begin at 0" in text for text in heard.warnings) == is_from_zero
+    assert any("begin at 0" in text for text in told.warnings) == is_from_zero
 
 
 @pytest.mark.parametrize("name", ["out.laz", "out.copc.laz"])
@@ -106,10 +106,10 @@ def test_returns_from_zero_give_the_ground_and_stay_as_they_are(tmp_path, name):
 
 def test_several_chunks_are_joined_in_order(las, monkeypatch):
     monkeypatch.setattr(progress, "_FIRST_PIECE", 17)
-    records, heard = las.records(1), las.Heard()
-    cloud = read_cloud(las.make("in.laz", records=records), heard)
+    records, told = las.records(1), las.Heard()
+    cloud = read_cloud(las.make("in.laz", records=records), told)
     np.testing.assert_array_equal(cloud.x, records[:, :4].copy().view("<i4")[:, 0])
-    assert heard.fractions == pytest.approx([17 / 60, 51 / 60, 1])
+    assert told.fractions == pytest.approx([17 / 60, 51 / 60, 1])
 
 
 def test_reading_can_be_cancelled(las):

@@ -134,13 +134,15 @@ def test_each_file_gets_its_part_of_the_pictures(tmp_path, threads_for_processes
     words = ["--dtm-cell-size", "0.5", "--threads", "1"]
     for name, more in (("one", []), ("per", ["--raster-per-file"])):
         (tmp_path / name).mkdir()
-        targets = [f"--{each}={tmp_path / name / each}.tif" for each in ("hillshade", "relief")]
+        targets = [
+            f"--{picture}={tmp_path / name / picture}.tif" for picture in ("hillshade", "relief")
+        ]
         assert main(["terrain", *sources, *targets, *words, *more]) == 0
-    for each in ("hillshade", "relief"):
-        whole = tmp_path / "one" / f"{each}.tif"
+    for picture in ("hillshade", "relief"):
+        whole = tmp_path / "one" / f"{picture}.tif"
         with rasterio.open(whole) as one:
             for number in range(2):
-                with rasterio.open(tmp_path / "per" / each / f"{number}.tif") as part:
+                with rasterio.open(tmp_path / "per" / picture / f"{number}.tif") as part:
                     values = one.read(1, window=one.window(*part.bounds))
                     assert np.array_equal(part.read(1), values)
 
@@ -170,7 +172,7 @@ def test_real_forests_are_less_speckled(tmp_path, name, most):
     with rasterio.open(path) as raster:
         heights = raster.read(1, masked=True).filled(np.nan)[:400, :400]
     before, after = (
-        hillshade(each, CELL).astype(float) for each in (heights, without_noise(heights, CELL))
+        hillshade(model, CELL).astype(float) for model in (heights, without_noise(heights, CELL))
     )
-    speckle = [np.abs(np.diff(each, axis=0)).mean() for each in (before, after)]
+    speckle = [np.abs(np.diff(shade, axis=0)).mean() for shade in (before, after)]
     assert speckle[1] < most * speckle[0]

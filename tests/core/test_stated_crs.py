@@ -197,7 +197,7 @@ def test_many_files_are_as_one(tmp_path, options):
     parts = [laspy.read(path).classification == 2 for path in (tmp_path / "out").glob("*.laz")]
     assert sum(map(np.count_nonzero, parts)) == ground
     listed = json.loads((tmp_path / "out" / "classified.vpc").read_text())["features"]
-    assert all("California zone 6" in each["properties"]["proj:wkt2"] for each in listed)
+    assert all("California zone 6" in item["properties"]["proj:wkt2"] for item in listed)
 
 
 @pytest.fixture

@@ -152,9 +152,9 @@ def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, 
         cloud = laspy.read(path)
         cloud.return_number[: 3 + int(path.stem)] = 0
         cloud.write(str(path))
-    heard = las.Heard()
-    classify(folder, out, progress=heard, threads=1)
-    (told,) = (text for text in heard.warnings if "return number" in text)
+    progress = las.Heard()
+    classify(folder, out, progress=progress, threads=1)
+    (told,) = (text for text in progress.warnings if "return number" in text)
     assert told == (
         "0.laz: 3 points have no return number: they are taken as single returns."
         " The same, with other numbers: 1.laz, 2.laz, 3.laz."
@@ -213,7 +213,7 @@ def test_copc_files_of_which_only_parts_are_read_give_the_same(tmp_path, out):
 
 def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
     summary = classify(six, out)
-    assert [each.name for each in read_vpc(out / "classified.vpc")] == sorted(
+    assert [path.name for path in read_vpc(out / "classified.vpc")] == sorted(
         path.name for path in six.iterdir()
     )
     assert summary.vpc == str(out / "classified.vpc")
@@ -257,12 +257,12 @@ def test_tiles_that_are_done_are_kept_when_a_run_goes_on(six, out, las):
     classify(six, out, blocks=BLOCKS)
     before = changed_times(out)
     (out / "3.laz").unlink()
-    heard = las.Heard()
-    summary = classify(six, out, resume=True, blocks=BLOCKS, progress=heard)
+    progress = las.Heard()
+    summary = classify(six, out, resume=True, blocks=BLOCKS, progress=progress)
     after = changed_times(out)
     assert {name for name in after if after[name] != before[name]} == {"3.laz"}
     assert summary.kept_count == 5 and summary.done_count == 6
-    assert "5 files are done already." in heard.infos
+    assert "5 files are done already." in progress.infos
     assert summary.point_count == 4000
     # Without asking for it everything is done anew.
     assert classify(six, out, blocks=BLOCKS).kept_count == 0
@@ -272,9 +272,9 @@ def test_tiles_that_are_done_are_kept_when_a_run_goes_on(six, out, las):
 def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out, las):
     classify(six, out, blocks=Blocks(40.0, 5.0))
     survey = dict(resume=True, blocks=Blocks(40.0, 5.0))
-    other, heard = {"height_threshold": 0.4}, las.Heard()
-    assert classify(six, out, **other, progress=heard, **survey).kept_count == 0
-    assert any("6 finished files are made again" in each for each in heard.infos)
+    other, progress = {"height_threshold": 0.4}, las.Heard()
+    assert classify(six, out, **other, progress=progress, **survey).kept_count == 0
+    assert any("6 finished files are made again" in text for text in progress.infos)
     assert classify(six, out, **other, **survey).kept_count == 6
     other["others"] = "unclassified"
     assert classify(six, out, **other, **survey).kept_count == 0
@@ -309,7 +309,7 @@ def test_of_a_survey_to_which_tiles_are_added_only_their_neighbours_are_done_ane
     for name in before:
         gap = min(
             np.max(np.maximum(mine.mins - extents[name].maxs, extents[name].mins - mine.maxs)[:2])
-            for mine in (extents[f"{each}.laz"] for each in added)
+            for mine in (extents[f"{new}.laz"] for new in added)
         )
         assert gap > 0 or name in anew  # it touches one that was added
         assert gap < 50.0 + 8.0 or name not in anew
@@ -413,12 +413,12 @@ def test_broken_tiles_are_told_at_the_end_and_the_others_done(
     data = (six / "1.laz").read_bytes()
     (six / "1.laz").write_bytes(data[:900] + bytes(300) + data[1200:])
     (six / "9.laz").write_bytes(b"no cloud")
-    heard = las.Heard()
-    summary = classify(six, out, blocks=BLOCKS, progress=heard)
+    progress = las.Heard()
+    summary = classify(six, out, blocks=BLOCKS, progress=progress)
     assert [Path(path).name for path in summary.failures] == ["1.laz", "9.laz"]
     assert summary.done_count == 5 and summary.tile_count == 7
     assert set(bytes_of(out)) == {"0.laz", "2.laz", "3.laz", "4.laz", "5.laz"}
-    assert any("1.laz is left out: the results beside it" in each for each in heard.warnings)
+    assert any("1.laz is left out: the results beside it" in text for text in progress.warnings)
     assert len(read_vpc(out / "classified.vpc")) == 5
     assert main(["classify-tiles", str(six), str(out), "--method", "slope", "--json"]) == 1
     said = capsys.readouterr()
@@ -434,11 +434,11 @@ def test_broken_tiles_are_told_at_the_end_and_the_others_done(
 def test_a_tile_without_points_that_can_be_ground_is_written_unchanged(six, out, las):
     high = np.array([[900_000 + 7 * n, 900_000 + 5 * n, 900] for n in range(30)])
     write(six / "water.laz", high, classes=9)
-    heard = las.Heard()
-    summary = classify(six, out, progress=heard)
+    progress = las.Heard()
+    summary = classify(six, out, progress=progress)
     assert summary.done_count == 7 and not summary.failures
     assert (out / "water.laz").read_bytes() == (six / "water.laz").read_bytes()
-    (told,) = [each for each in heard.warnings if "unchanged" in each]
+    (told,) = [text for text in progress.warnings if "unchanged" in text]
     assert "water.laz: No point can be ground: all are of class 9." in told
     assert len(read_vpc(out / "classified.vpc")) == 7
 
@@ -530,7 +530,7 @@ def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, tmp_p
     points = Output(height_above_ground=heights)
     summary = classify_tiles([six], out, FAST, blocks=blocks, workers=workers, points=points)
     assert 0 < len(summary.failures) < 6
-    assert all("Unexpected ValueError: no" in each for each in summary.failures.values())
+    assert all("Unexpected ValueError: no" in reason for reason in summary.failures.values())
     assert summary.done_count == 6 - len(summary.failures)
     # Heights beside it lack its ground, so a later run makes them again.
     run = dict(blocks=blocks, points=points)
@@ -628,7 +628,7 @@ def test_a_job_may_use_the_threads_that_other_jobs_leave_free(kind, tmp_path):
         assert workers.at_once == 2 and workers.share.thread_count == 1
         one, other = tmp_path / "one", tmp_path / "other"
         jobs = CountingJob(one, other, False), CountingJob(other, one, True)
-        first, last = [workers.submit(each).future for each in jobs]
+        first, last = [workers.submit(job).future for job in jobs]
         assert first.result().result == [1] and last.result().result == [1, 2]
     finally:
         workers.stop()
@@ -637,7 +637,7 @@ def test_a_job_may_use_the_threads_that_other_jobs_leave_free(kind, tmp_path):
 def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, out):
     workers = replacing_jobs(Threads, instead_of("2.laz", OvertakenJob))
     done = classify_tiles([six], out, FAST, workers=workers)
-    assert [Path(each).name for each in done.failures] == ["2.laz"]
+    assert [Path(path).name for path in done.failures] == ["2.laz"]
     assert "changed while it was worked on" in next(iter(done.failures.values()))
     assert not (out / "2.laz").exists() and done.done_count == 5
 
@@ -658,7 +658,7 @@ def test_a_name_that_is_not_utf_8_harms_nobody(six, tmp_path):
     done = classify(six, tmp_path / "out")
     assert done.done_count == 6 and not done.failures
     assert (tmp_path / "out" / "t\udcff\n.laz").exists()
-    assert {each.name for each in read_vpc(Path(done.vpc))} == set(os.listdir(six))
+    assert {path.name for path in read_vpc(Path(done.vpc))} == set(os.listdir(six))
 
 
 def test_methods_in_short_have_the_presets_of_all():

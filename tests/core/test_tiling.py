@@ -234,18 +234,18 @@ def test_blocks_without_ground_are_told_and_messages_told_once(monkeypatch, las)
         return np.ones(points.count, bool)
 
     watched(monkeypatch, function)
-    heard, blocks = las.Heard(), Blocks(100.0, 20.0)
+    told, blocks = las.Heard(), Blocks(100.0, 20.0)
     # Windows of these blocks are narrower than the usual building.
     small = SlopeFilter(preset="whitebox", search_radius=5.0)
-    (labels,) = labels_of([cloud_of(*survey())], small, blocks, 3, None, progress=heard)
-    assert heard.infos == ["All the same."]
-    assert heard.warnings[0] == "A southern block (in 2 of 6 blocks)."
+    (labels,) = labels_of([cloud_of(*survey())], small, blocks, 3, None, progress=told)
+    assert told.infos == ["All the same."]
+    assert told.warnings[0] == "A southern block (in 2 of 6 blocks)."
     count = np.count_nonzero(labels == 0)
-    assert heard.warnings[1:] == [
+    assert told.warnings[1:] == [
         f"No ground was found in 2 of 6 blocks: their {count:,} points are not ground."
         " Nothing here."
     ]
-    assert count > 5000 and heard.fractions == sorted(heard.fractions)
+    assert count > 5000 and told.fractions == sorted(told.fractions)
 
 
 def test_where_no_block_has_ground_the_error_is_that_of_the_first(monkeypatch):

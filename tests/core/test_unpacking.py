@@ -48,7 +48,7 @@ def decompressed(monkeypatch):
 
 
 def _records(las):
-    return np.concatenate([each.copy() for each in read_records(las)])
+    return np.concatenate([records.copy() for records in read_records(las)])
 
 
 @pytest.mark.parametrize("is_whole", [True, False])
