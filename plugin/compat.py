@@ -123,7 +123,9 @@ def point_cloud_output(
     if HAS_POINT_CLOUD_OUTPUTS:
         return core.QgsProcessingParameterPointCloudDestination(name, label)
     # The first filter gives the extension of files without a name.
-    filters = ";;".join(tr("{} files (*.{})").format(each.upper(), each) for each in extensions)
+    filters = ";;".join(
+        tr("{} files (*.{})").format(ending.upper(), ending) for ending in extensions
+    )
     return QgsProcessingParameterFileDestination(name, label, filters)
 
 

@@ -72,8 +72,8 @@ class LazDialog(QDialog):
         close = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         close.rejected.connect(self.reject)
         layout = QVBoxLayout(self)
-        for each in (about, self.state, buttons, self.busy, self.result, close):
-            layout.addLayout(each) if each is buttons else layout.addWidget(each)
+        for part in (about, self.state, buttons, self.busy, self.result, close):
+            layout.addLayout(part) if part is buttons else layout.addWidget(part)
         self.setMinimumWidth(480)
         self._show_state()
 

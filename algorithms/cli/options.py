@@ -53,53 +53,58 @@ def add_parameters(
     """Add an option for each declared parameter of some sets, which `chosen` returns in this order,
     with a title in the help for each set.
     """
-    for place, each in enumerate(declared):
-        _add_options(parser.add_argument_group(titles[place]) if titles else parser, each)
+    for place, group in enumerate(declared):
+        _add_options(parser.add_argument_group(titles[place]) if titles else parser, group)
     parser.set_defaults(declared=declared)
 
 
 def chosen(options: argparse.Namespace) -> list[ParameterSet]:
     """Return the sets of parameters with the values of the options; `UsageError` if not allowed."""
-    return [_from_options(each, options) for each in options.declared]
+    return [_from_options(group, options) for group in options.declared]
 
 
 def _add_options(parser: Any, declared: type[ParameterSet]) -> None:
-    for each in declared.declarations():
-        flag = "--" + each.name.replace("_", "-")
-        words = {"dest": each.name, "default": each.default, "help": _help_of(each)}
-        if each.kind == "boolean":
+    for parameter in declared.declarations():
+        flag = "--" + parameter.name.replace("_", "-")
+        words = {"dest": parameter.name, "default": parameter.default, "help": _help_of(parameter)}
+        if parameter.kind == "boolean":
             parser.add_argument(flag, action=argparse.BooleanOptionalAction, **words)
-        elif each.kind == "choice":
-            parser.add_argument(flag, choices=list(each.choices), **words)
-        elif each.kind == "choices":
-            names = {"choices": list(each.choices), "metavar": each.name.upper().rstrip("S")}
+        elif parameter.kind == "choice":
+            parser.add_argument(flag, choices=list(parameter.choices), **words)
+        elif parameter.kind == "choices":
+            names = {
+                "choices": list(parameter.choices),
+                "metavar": parameter.name.upper().rstrip("S"),
+            }
             parser.add_argument(flag, nargs="+", **names, **words)
-        elif each.kind in ("numbers", "integers"):
-            parser.add_argument(flag, nargs="*", metavar=each.unit or "N", **words)
+        elif parameter.kind in ("numbers", "integers"):
+            parser.add_argument(flag, nargs="*", metavar=parameter.unit or "N", **words)
         else:
-            unit = each.unit.replace(" ", "_")
+            unit = parameter.unit.replace(" ", "_")
             parser.add_argument(flag, metavar=unit or "N", **words)
 
 
-def _help_of(each: Declaration) -> str:
-    default = each.default
+def _help_of(parameter: Declaration) -> str:
+    default = parameter.default
     if isinstance(default, bool):
         default = "on" if default else "off"
     elif isinstance(default, tuple):
         default = " ".join(map(shown_value, default)) or "none"
-    unit = f" {each.unit}" if each.unit and default is not None else ""
-    words = [each.help, f"(default: {each.empty if default is None else default}{unit})"]
-    words[1:1] = [f"{value}: {label}." for value, label in each.choices.items()]
+    unit = f" {parameter.unit}" if parameter.unit and default is not None else ""
+    words = [parameter.help, f"(default: {parameter.empty if default is None else default}{unit})"]
+    words[1:1] = [f"{value}: {label}." for value, label in parameter.choices.items()]
     return " ".join(words).replace("%", "%%")
 
 
 def _from_options(declared: type[ParameterSet], options: argparse.Namespace) -> ParameterSet:
-    values = {each.name: getattr(options, each.name) for each in declared.declarations()}
-    for each in declared.declarations():
-        value = values[each.name]
+    values = {
+        parameter.name: getattr(options, parameter.name) for parameter in declared.declarations()
+    }
+    for parameter in declared.declarations():
+        value = values[parameter.name]
         word = value[0] if isinstance(value, list) and len(value) == 1 else value
-        if each.optional and str(word).lower() in _NOT_USED:
-            values[each.name] = None
+        if parameter.optional and str(word).lower() in _NOT_USED:
+            values[parameter.name] = None
     try:
         return declared(**values)
     except BareEarthError as error:

@@ -66,13 +66,13 @@ class Function:
     @property
     def parameters(self) -> list[Described]:
         """The parameters in order."""
-        first = [each for each in self.keywords if each.name not in _LAST]
-        last = [each for each in self.keywords if each.name in _LAST]
-        found = [_of_argument(each, is_keyword=False) for each in self.positional]
+        first = [argument for argument in self.keywords if argument.name not in _LAST]
+        last = [argument for argument in self.keywords if argument.name in _LAST]
+        found = [_of_argument(argument, is_keyword=False) for argument in self.positional]
         found += map(_of_argument, first)
         if self.has_method:
             found += [_of_declaration(TileMethod.declarations()[0]), *_of_methods()]
-        for declared in (each for some in self.sets for each in some.declarations()):
+        for declared in (parameter for group in self.sets for parameter in group.declarations()):
             found.append(_of_declaration(declared))
             if declared.name in self.flags:
                 found.append(_of_flag(declared, self.flags[declared.name]))
@@ -81,9 +81,10 @@ class Function:
     @property
     def documentation(self) -> str:
         """The documentation as numpydoc has it."""
-        sections = "\n".join(each.section for each in self.parameters)
+        sections = "\n".join(described.section for described in self.parameters)
         about = "\n\n".join(
-            textwrap.fill(each, _WIDTH, break_on_hyphens=False) for each in self.about.split("\n")
+            textwrap.fill(paragraph, _WIDTH, break_on_hyphens=False)
+            for paragraph in self.about.split("\n")
         )
         returns = ""
         if self.result is not None:
@@ -102,7 +103,7 @@ class Function:
     @property
     def signature(self) -> inspect.Signature:
         """The signature, whose annotations are texts."""
-        parameters = [each.parameter for each in self.parameters]
+        parameters = [described.parameter for described in self.parameters]
         return inspect.Signature(parameters, return_annotation=self.returns)
 
     def sets_of(self, values: dict[str, Any], named: Collection[str]) -> list[ParameterSet]:
@@ -111,33 +112,31 @@ class Function:
         if self.has_method:
             (method,) = TileMethod.declarations()[:1]
             chosen = METHODS[method.check(values["method"])].parameters
-            names = {each.name for each in chosen.declarations()}
+            names = {declared.name for declared in chosen.declarations()}
             for name in _declared_by_method():
                 if name in named and name not in names:
                     raise TypeError(
                         f"{self.name}(): {name} is no parameter of method={values['method']!r}."
                         f"{_suggestion(name, names)}"
                     )
-            found.append(
-                chosen(**{each: values[each] for each in names if values[each] is not None})
-            )
+            found.append(chosen(**{key: values[key] for key in names if values[key] is not None}))
         for declared in self.sets:
-            given = {each.name: values[each.name] for each in declared.declarations()}
+            given = {one.name: values[one.name] for one in declared.declarations()}
             for name, flag in self.flags.items():
                 if name in given and values[flag] is not None:
                     given[name] = values[flag]
             found.append(declared(**given))
         return found
 
-    def made(self) -> Callable[..., Any]:
+    def callable(self) -> Callable[..., Any]:
         """Return the function."""
         signature, name = self.signature, self.name
 
         def function(*positional: Any, **named: Any) -> Any:
-            for each in named:
-                if each not in signature.parameters:
-                    nearest = _suggestion(each, signature.parameters)
-                    raise TypeError(f"{name}() has no parameter {each}.{nearest}")
+            for keyword in named:
+                if keyword not in signature.parameters:
+                    nearest = _suggestion(keyword, signature.parameters)
+                    raise TypeError(f"{name}() has no parameter {keyword}.{nearest}")
             try:
                 bound = signature.bind(*positional, **named)
             except TypeError as error:
@@ -234,20 +233,20 @@ def _of_methods() -> list[Described]:
     """Return the parameters of all ground filters; each has those of its name in one."""
     found = []
     for by_method in _declared_by_method().values():
-        described = {method: _of_declaration(each) for method, each in by_method.items()}
-        parameters = [each.parameter for each in described.values()]
+        described = {method: _of_declaration(declared) for method, declared in by_method.items()}
+        parameters = [only.parameter for only in described.values()]
         types = dict.fromkeys(
-            part for each in parameters for part in each.annotation.split(" | ")
+            part for parameter in parameters for part in parameter.annotation.split(" | ")
         )  # "None" stands last
-        types = {**{each: None for each in types if each != "None"}, "None": None}
+        types = {**{kind: None for kind in types if kind != "None"}, "None": None}
         if len(described) == 1:
             ((method, only),) = described.items()
             words, help = only.words, f"Only of method={method!r}. {only.help}"
         else:
             words = "by method"
             help = " ".join(
-                f"With method={method!r}: {each.words}. {each.help}"
-                for method, each in described.items()
+                f"With method={method!r}: {declared.words}. {declared.help}"
+                for method, declared in described.items()
             )
         parameter = parameters[0].replace(default=None, annotation=" | ".join(types))
         found.append(Described(parameter, words, help))

@@ -84,4 +84,4 @@ def declared(name: str) -> Function:
 @cache
 def function(name: str) -> Callable[..., Any]:
     """Return a function, given its name."""
-    return declared(name).made()
+    return declared(name).callable()

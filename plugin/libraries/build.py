@@ -33,7 +33,7 @@ class Build:
             machine, version = platform.machine(), platform.mac_ver()[0]
         elif system == "linux":
             version = platform.libc_ver()[1]
-        numbers = [int(each) for each in re.findall(r"\d+", version)[:2]]
+        numbers = [int(number) for number in re.findall(r"\d+", version)[:2]]
         return cls(sys.version_info[:2], system, machine, (*numbers, 0, 0)[:2])
 
     @property

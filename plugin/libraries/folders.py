@@ -35,7 +35,7 @@ def add_to_path(folder: Path) -> None:
 def take_from_path(folder: Path) -> bool:
     """Let Python forget the packages of a folder; return whether any was imported."""
     count = len(sys.modules)
-    sys.path[:] = [each for each in sys.path if each != str(folder)]
+    sys.path[:] = [path for path in sys.path if path != str(folder)]
     inside = f"{folder}/".replace("\\", "/")
     for name, module in list(sys.modules.items()):
         file = getattr(module, "__file__", None) or ""
@@ -73,5 +73,5 @@ def remove_if_uninstalled(plugin: Path, profile: Path) -> None:
     if plugin.exists():
         return
     # Marked one by one, since a plugin that is installed again must not use what is left of them.
-    if all([delete(each) for each in (profile / _HOME / "packages").glob("*")]):
+    if all([delete(path) for path in (profile / _HOME / "packages").glob("*")]):
         remove(profile / _HOME)

@@ -86,7 +86,7 @@ def find_python(run: Run) -> str:
     here = [*sys.version_info[:2], sysconfig.get_platform(), platform.machine()]
     for path in candidates():
         done = run([str(path), "-c", _PROBE], {})
-        if done.code == 0 and done.output.split() == [str(each) for each in here]:
+        if done.code == 0 and done.output.split() == [str(path) for path in here]:
             return str(path)
     raise BareEarthError(
         tr(
@@ -99,11 +99,11 @@ def find_python(run: Run) -> str:
 def candidates() -> Iterator[Path]:
     """Yield files that may be the interpreter of this Python, the most likely first."""
     program, version = Path(sys.executable or "."), "{}.{}".format(*sys.version_info[:2])
-    prefixes = [Path(each) for each in dict.fromkeys([sys.exec_prefix, sys.base_prefix])]
+    prefixes = [Path(path) for path in dict.fromkeys([sys.exec_prefix, sys.base_prefix])]
     if sys.platform == "win32":
         folders, names = [*prefixes, program.parent], ["python.exe", "python3.exe"]
     else:
-        folders, names = [each / "bin" for each in prefixes], [f"python{version}", "python3"]
+        folders, names = [prefix / "bin" for prefix in prefixes], [f"python{version}", "python3"]
     if sys.platform == "darwin":
         # The bundles of QGIS 3.44 and later, and older bundles.
         folders = [program.parent, program.parent / "bin", *folders]
@@ -111,7 +111,7 @@ def candidates() -> Iterator[Path]:
     files = [folder / name for folder in folders for name in names]
     if program.name.lower().startswith("python"):
         files.insert(0, program)
-    yield from (each for each in dict.fromkeys(files) if each.is_file())
+    yield from (path for path in dict.fromkeys(files) if path.is_file())
 
 
 def _pip_of(python: str, scratch: Path, run: Run) -> list[str]:

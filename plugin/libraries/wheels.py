@@ -29,7 +29,7 @@ def unpack(wheel: Path, folder: Path, package: str, build: Build) -> None:
     try:
         with zipfile.ZipFile(wheel) as archive:
             info = _info_folder(archive, wheel, package)
-            members = [each for each in archive.infolist() if not each.is_dir()]
+            members = [member for member in archive.infolist() if not member.is_dir()]
             _check_places(members, wheel, (package, f"{package}.libs", info))
             _check_tags(archive.read(f"{info}/WHEEL").decode(), wheel, build)
             hashes = _hashes(archive.read(f"{info}/RECORD").decode())

@@ -97,9 +97,9 @@ def area_of(
 def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) -> None:
     """Refuse to write only the points in the area if there is no area."""
     is_given = not all(compat.is_empty(parameters.get(name)) for name in _AREA_FIELDS)
-    for each in chosen:
-        if isinstance(each, Output):
-            each.check_area(is_given)
+    for values in chosen:
+        if isinstance(values, Output):
+            values.check_area(is_given)
 
 
 def area_options(area: Area | None, progress: Progress, is_all: bool = False) -> list[str]:

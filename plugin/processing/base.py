@@ -95,28 +95,32 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         self.find_inputs(parameters, context)
         check_outputs(self, parameters, context, self.inputs)
         self._has_page = self.makes_page(parameters, context)
-        for each in self.outputDefinitions():
-            if each.type() == "outputHtml" and self.subject:
-                label = self._page_labels.setdefault(each.name(), each.description())
-                each.setDescription(f"{self.subject}: {label}")
+        for output in self.outputDefinitions():
+            if output.type() == "outputHtml" and self.subject:
+                label = self._page_labels.setdefault(output.name(), output.description())
+                output.setDescription(f"{self.subject}: {label}")
 
     def makes_page(self, parameters: dict[str, Any], context: QgsProcessingContext) -> bool:
         """Return whether a run with these values makes a page."""
-        pages = [each.name() for each in self.outputDefinitions() if each.type() == "outputHtml"]
+        pages = [
+            output.name() for output in self.outputDefinitions() if output.type() == "outputHtml"
+        ]
         return any(not compat.is_empty(parameters.get(name)) for name in pages)
 
     def chosen(
         self, parameters: dict[str, Any], context: QgsProcessingContext
     ) -> list[ParameterSet]:
         """Return the declared parameters with the user's values."""
-        return [parameters_of(self, each, parameters, context) for each in self.parameter_sets()]
+        return [
+            parameters_of(self, declared, parameters, context) for declared in self.parameter_sets()
+        ]
 
     def add_declared(self) -> None:
         """Add the fields of the declared parameters to the dialog."""
         for declared in self.parameter_sets():
-            for each in declared.declarations():
-                if each.name not in self.unused:
-                    super().addParameter(field_of(each, self._is_shown(each)))
+            for parameter in declared.declarations():
+                if parameter.name not in self.unused:
+                    super().addParameter(field_of(parameter, self._is_shown(parameter)))
 
     def addParameter(self, field: QgsProcessingParameterDefinition, help: str = "") -> bool:
         """Add a field to the dialog, with label and help in the user's language."""
@@ -197,12 +201,12 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         # In the order of the dialog: advanced parameters after the others, and outputs last.
         ordered = sorted(
             self.parameterDefinitions(),
-            key=lambda each: (each.isDestination(), bool(each.flags() & compat.ADVANCED)),
+            key=lambda field: (field.isDestination(), bool(field.flags() & compat.ADVANCED)),
         )
         paragraphs = [tr(self.about)]
-        for each in ordered:
-            paragraphs.append(f"<b>{_plain(each.description())}</b>: {_plain(each.help())}")
-            if each.name() == "PRESET":
+        for field in ordered:
+            paragraphs.append(f"<b>{_plain(field.description())}</b>: {_plain(field.help())}")
+            if field.name() == "PRESET":
                 paragraphs.append(presets_of(self.parameter_sets()))
         return "\n".join(paragraphs)
 
@@ -340,10 +344,10 @@ def command_line(
         values = value if isinstance(value, tuple) else (value,)
         words += [f"--{option.lower()}", *values] if value else []
     for parameters in chosen:
-        for each in parameters.declarations():
-            value = getattr(parameters, each.name)
-            if value != each.default:
-                words += _option(each.name.replace("_", "-"), value)
+        for declared in parameters.declarations():
+            value = getattr(parameters, declared.name)
+            if value != declared.default:
+                words += _option(declared.name.replace("_", "-"), value)
     return shell_line(words)
 
 

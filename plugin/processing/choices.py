@@ -37,7 +37,7 @@ def value_of(given: Any, values: list[str]) -> Any:
 def values_of(given: Any, values: list[str]) -> list[Any]:
     """Return the values of a multiple choice, given as a list or as text with commas."""
     several = given.split(",") if isinstance(given, str) else given
-    return [value_of(each, values) for each in several]
+    return [value_of(name, values) for name in several]
 
 
 def with_labels(field: ChoiceParameter, labels: list[str]) -> ChoiceParameter:

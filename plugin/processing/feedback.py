@@ -31,7 +31,7 @@ class Refusal(BareEarthError):
     def __init__(self, text: str, *values: object, **named: object) -> None:
         super().__init__(text.format(*values, **named))
         shown = {name: tr(str(value)) for name, value in named.items()}
-        self.translated = tr(text).format(*(tr(str(each)) for each in values), **shown)
+        self.translated = tr(text).format(*(tr(str(value)) for value in values), **shown)
 
 
 class FeedbackProgress(Progress):
@@ -95,13 +95,13 @@ class FeedbackProgress(Progress):
             count, name = class_counts[value], CLASSES.get(value, "")
             title = f"Class {value} ({name})" if name else f"Class {value}"
             self.info(f"{title}: {counted(count, 'point')} ({count / every:.1%})")
-        for each in self._choices:
-            self.info(f"Chosen automatically: {each}")
+        for choice in self._choices:
+            self.info(f"Chosen automatically: {choice}")
         self.info(f"Time: {time.monotonic() - self._begun:.1f} s")
         if self._commands:
             self.info("The same without QGIS:")
-        for each in self._commands:
-            self._feedback.pushCommandInfo(each)
+        for command in self._commands:
+            self._feedback.pushCommandInfo(command)
 
 
 class _Beyond(Progress):
@@ -117,7 +117,7 @@ def tell_of_unknown(
     algorithm: QgsProcessingAlgorithm, given: Iterable[str], feedback: QgsProcessingFeedback
 ) -> None:
     """Warn of parameters that an algorithm does not have; QGIS ignores them silently."""
-    known = [each.name() for each in algorithm.parameterDefinitions()]
+    known = [parameter.name() for parameter in algorithm.parameterDefinitions()]
     for name in sorted(set(given) - set(known)):
         text = f"There is no parameter {name}: it is ignored."
         near = difflib.get_close_matches(name.upper(), known, 1)

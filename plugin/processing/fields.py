@@ -55,7 +55,7 @@ def field_of(
         )
         field = with_labels(field, list(map(tr, declaration.choices.values())))
     elif declaration.kind in _LISTS:
-        default = None if default is None else ", ".join(f"{each:g}" for each in default)
+        default = None if default is None else ", ".join(f"{number:g}" for number in default)
         field = QgsProcessingParameterString(name, label, default, False, optional)
     else:
         field = _number_field(declaration, name, label)
@@ -77,7 +77,9 @@ def _number_field(declaration: Declaration, name: str, label: str) -> QgsProcess
     if declaration.kind == "number":
         # The usual six decimals are too many for metres and degrees.
         shown = (declaration.minimum, declaration.default)
-        decimals = max(_FEWEST_DECIMALS, *(_decimals(each) for each in shown if each is not None))
+        decimals = max(
+            _FEWEST_DECIMALS, *(_decimals(number) for number in shown if number is not None)
+        )
         field.setMetadata({"widget_wrapper": {"decimals": decimals}})
     return field
 
@@ -116,8 +118,8 @@ def parameters_of(
     """Return the declared parameters with the values of the user, if these are allowed."""
     return declared(
         **{
-            each.name: _value(algorithm, each, parameters, context)
-            for each in declared.declarations()
+            parameter.name: _value(algorithm, parameter, parameters, context)
+            for parameter in declared.declarations()
         }
     )
 

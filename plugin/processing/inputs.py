@@ -320,11 +320,11 @@ def layer_polygons(*field: Any) -> tuple[Polygon, ...]:
 
 def _rings_of(polygon: QgsPolygon) -> Polygon:
     rings = [polygon.exteriorRing(), *map(polygon.interiorRing, range(polygon.numInteriorRings()))]
-    return tuple(_line_of(each)[:, :2] for each in rings if each is not None)
+    return tuple(_line_of(ring)[:, :2] for ring in rings if ring is not None)
 
 
 def _line_of(line: QgsCurve) -> np.ndarray:
-    rows = [(each.x(), each.y(), each.z()) for each in line.vertices()]
+    rows = [(corner.x(), corner.y(), corner.z()) for corner in line.vertices()]
     return np.array(rows, dtype=float).reshape(-1, 3)
 
 

@@ -110,8 +110,8 @@ def places_of(
 ) -> list[Path]:
     """Return the files and folders that the user chose for outputs, and what is made of them."""
     places = []
-    for each in algorithm.destinationParameterDefinitions():
-        path = given_path(parameters.get(each.name()), context)
+    for output in algorithm.destinationParameterDefinitions():
+        path = given_path(parameters.get(output.name()), context)
         if path is not None:
             # Many files become a folder, and a virtual raster.
             places += [path, virtual_of(path), path.with_name(split_name(path)[0])]

@@ -20,13 +20,15 @@ _AMONG = "; "
 def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
     """Return the values of all presets of some parameters as HTML; empty if there are none."""
     is_short = TileMethod in sets
-    methods = [each for each in METHODS.values() if each.parameters in sets or is_short]
+    methods = [method for method in METHODS.values() if method.parameters in sets or is_short]
     # With `TileMethod` there are no fields for the values, and only presets of all methods.
-    offered = next(each.choices for each in TileMethod.declarations() if each.name == "preset")
+    offered = next(
+        declared.choices for declared in TileMethod.declarations() if declared.name == "preset"
+    )
     tables = "".join(
-        f"{tr(each.label)}:{_table(each, offered if is_short else each.presets)}"
-        for each in methods
-        if each.presets
+        f"{tr(method.label)}:{_table(method, offered if is_short else method.presets)}"
+        for method in methods
+        if method.presets
     )
     words = tr("<b>Values of the presets</b> for fields that are left empty")
     if is_short:
@@ -35,7 +37,7 @@ def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
 
 
 def _table(method: Method, offered: Collection[str]) -> str:
-    declared = {each.name: each for each in method.parameters.declarations()}
+    declared = {parameter.name: parameter for parameter in method.parameters.declarations()}
     labels = declared["preset"].choices
     rows = {name: preset._asdict() for name, preset in method.presets.items() if name in offered}
     # Only parameters in which the presets differ. The classic preset is not compared, since it
@@ -47,7 +49,7 @@ def _table(method: Method, offered: Collection[str]) -> str:
     head = _BETWEEN.join(escape(title_of(declared[name])) for name in columns)
     body = "".join(
         f"<tr><td>{escape(tr(labels[name]).partition(' (')[0], quote=False)}</td>"
-        f"<td>{_BETWEEN.join(_shown(row.get(each)) for each in columns)}</td></tr>"
+        f"<td>{_BETWEEN.join(_shown(row.get(column)) for column in columns)}</td></tr>"
         for name, row in rows.items()
     )
     head = f'<tr><td colspan="2">{head}</td></tr>'

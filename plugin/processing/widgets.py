@@ -189,16 +189,16 @@ class _DeliveryBox(_ChoiceBox):
         """Move the folder below the box."""
         super().postInitialize(wrappers)
         outputs = {
-            each.parameterDefinition().name(): each
-            for each in wrappers
-            if each.parameterDefinition().isDestination()
+            wrapper.parameterDefinition().name(): wrapper
+            for wrapper in wrappers
+            if wrapper.parameterDefinition().isDestination()
         }
         self._folder, self._outputs = outputs.pop(FOLDER), outputs
         label, widget = self._folder.wrappedLabel(), self._folder.wrappedWidget()
         label.setText(self._folder.parameterDefinition().description())  # not "[optional]"
         layout = self.wrappedWidget().parentWidget().layout()
-        for each in (widget, label):
-            layout.insertWidget(layout.indexOf(self.wrappedWidget()) + 1, each)
+        for part in (widget, label):
+            layout.insertWidget(layout.indexOf(self.wrappedWidget()) + 1, part)
         self.widgetValueHasChanged.connect(self._show_fields)
         self._show_fields()
 
@@ -208,9 +208,9 @@ class _DeliveryBox(_ChoiceBox):
             self._folder: is_delivery,
             **dict.fromkeys(self._outputs.values(), not is_delivery),
         }
-        for each, is_shown in shown.items():
-            each.wrappedLabel().setVisible(is_shown)
-            each.wrappedWidget().setVisible(is_shown)
+        for wrapper, is_shown in shown.items():
+            wrapper.wrappedLabel().setVisible(is_shown)
+            wrapper.wrappedWidget().setVisible(is_shown)
         for line in self._folder.wrappedWidget().findChildren(QLineEdit):
             line.setPlaceholderText(tr("Choose a folder"))  # not "[Skip output]"
 
@@ -256,8 +256,8 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
         box = QgsProcessingMapLayerComboBox(self.parameterDefinition(), self.type())
         box.setWidgetContext(self.widgetContext())
         # In QGIS 3.22 it would offer all layers, and choose one of them.
-        for each in box.findChildren(QComboBox):  # this class, since PyQt does not know the other
-            sip.cast(each, QgsMapLayerComboBox).setFilters(compat.POINT_CLOUDS)
+        for child in box.findChildren(QComboBox):  # this class, since PyQt does not know the other
+            sip.cast(child, QgsMapLayerComboBox).setFilters(compat.POINT_CLOUDS)
         self._suggested: str | None = None
         box.valueChanged.connect(lambda: self.widgetValueHasChanged.emit(self))
         return box
@@ -290,9 +290,9 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
     def postInitialize(self, wrappers: list[QgsAbstractProcessingParameterWidgetWrapper]) -> None:
         """Take the suggestion back if the user chooses a folder, which would be used beside it."""
         super().postInitialize(wrappers)
-        for each in wrappers:
-            if each.parameterDefinition().name() == "INPUT_FOLDER":
-                each.widgetValueHasChanged.connect(self._take_back)
+        for wrapper in wrappers:
+            if wrapper.parameterDefinition().name() == "INPUT_FOLDER":
+                wrapper.widgetValueHasChanged.connect(self._take_back)
 
     def _take_back(self, folder: QgsAbstractProcessingParameterWidgetWrapper) -> None:
         is_suggestion = bool(self._suggested) and self._box.value() == self._suggested
@@ -307,7 +307,7 @@ def _cloud_of(project: QgsProject | None) -> QgsPointCloudLayer | None:
     project = project or QgsProject.instance()
     active = [iface.activeLayer()] if iface is not None else []
     layers = [*active, *project.layerTreeRoot().layerOrder()]
-    clouds = (each for each in layers if isinstance(each, QgsPointCloudLayer) and file_of(each))
+    clouds = (layer for layer in layers if isinstance(layer, QgsPointCloudLayer) and file_of(layer))
     return next(clouds, None)
 
 
