@@ -236,7 +236,7 @@ def _strips(scene: Scene) -> laspy.LasData:
     landscape, random = JOBS["survey"].kind.landscape(_SEED, half)
     flights = [survey(landscape, half, random) for _ in range(2)]
     flights[1].z[:] += _SECOND_STRIP
-    columns = Returns(*(np.concatenate(each) for each in zip(*flights)))
+    columns = Returns(*(np.concatenate(parts) for parts in zip(*flights)))
     points = Points(columns.x + scene.corner[0], columns.y + scene.corner[1], columns.z)
     both = replace(
         scene, points=points, classes=columns.classes, return_number=columns.number,
@@ -244,7 +244,7 @@ def _strips(scene: Scene) -> laspy.LasData:
     )  # fmt: skip
     las = las_of(both)
     las.classification = np.zeros(len(points.x), dtype=np.uint8)
-    las.point_source_id = np.repeat([1, 2], [len(each.x) for each in flights]).astype(np.uint16)
+    las.point_source_id = np.repeat([1, 2], [len(flight.x) for flight in flights]).astype(np.uint16)
     return _within(las, scene.settings.size)
 
 
@@ -289,7 +289,7 @@ def _write_drone(scene: Scene, folder: Path) -> None:
     header = laspy.LasHeader(point_format=2, version="1.2")
     header.scales, header.offsets = whole.header.scales, whole.header.offsets
     las = laspy.LasData(header)
-    las.x, las.y, las.z = (np.asarray(each) for each in (whole.x, whole.y, whole.z))
+    las.x, las.y, las.z = (np.asarray(axis) for axis in (whole.x, whole.y, whole.z))
     grey = np.asarray(whole.intensity).astype(np.uint16) * 40
     las.red, las.green, las.blue = grey, grey, grey
     las.write(folder / "cloud.laz")

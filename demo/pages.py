@@ -46,7 +46,7 @@ class Step(NamedTuple):
 def blocks_of(page: str) -> list[Block]:
     """Return the blocks of code of a page, in order."""
     _, *parts = _FENCE.split(page)
-    return [Block(*each) for each in zip(parts[::3], parts[1::3], parts[2::3])]
+    return [Block(*fields) for fields in zip(parts[::3], parts[1::3], parts[2::3])]
 
 
 def commands_of(block: Block) -> list[list[str]]:

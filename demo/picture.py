@@ -211,9 +211,9 @@ def busiest_northing(view: View) -> float:
     Only in the middle: the border shows little of a tile.
     """
     south, north = view.extent[2:]
-    other = view.y[np.isin(view.kind, (2, 3))]
+    northings = view.y[np.isin(view.kind, (2, 3))]
     quarter = (north - south) / 4
-    counts, edges = np.histogram(other, _STRIPS, (south + quarter, north - quarter))
+    counts, edges = np.histogram(northings, _STRIPS, (south + quarter, north - quarter))
     best = int(np.argmax(counts))
     return float(edges[best] + edges[best + 1]) / 2
 

@@ -109,15 +109,15 @@ def tutorial() -> None:
     """Draw what the pages on the first run show: the tile before, and what is made of it."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        cloud, truth, ground = (folder / f"{each}.las" for each in ("scene", "truth", "ground"))
+        cloud, truth, ground = (folder / f"{stem}.las" for stem in ("scene", "truth", "ground"))
         write_scene(cloud, truth)
-        rasters = {each: folder / f"{each}.tif" for each in ("dtm", "hillshade", "dsm", "chm")}
+        rasters = {stem: folder / f"{stem}.tif" for stem in ("dtm", "hillshade", "dsm", "chm")}
         bare_earth.classify(cloud, ground, dtm=rasters["dtm"], hillshade=rasters["hillshade"])
         bare_earth.terrain(ground, dsm=rasters["dsm"], chm=rasters["chm"])
         grids = {}
-        for each, path in rasters.items():
+        for stem, path in rasters.items():
             with rasterio.open(path) as raster:
-                grids[each] = raster.read(1, masked=True).astype(float).filled(np.nan)
+                grids[stem] = raster.read(1, masked=True).astype(float).filled(np.nan)
         raw_points(cloud)
         target = IMAGES / "tutorial-classes.png"
         draw_demo(ground, rasters["dtm"], rasters["hillshade"], target, northing=5_931_196.0)
@@ -231,7 +231,7 @@ def small_multiples(group: str) -> None:
 def print_presets() -> None:
     """Print the errors of each preset of TIN densification on some scenes as a table."""
     presets = list(PRESETS)
-    print("| Scene |", " | ".join(f"`{each}`" for each in presets), "|")
+    print("| Scene |", " | ".join(f"`{preset}`" for preset in presets), "|")
     print("|---" * (len(presets) + 1) + "|")
     for kind in PRESET_SCENES:
         scene = make(kind, SEED)

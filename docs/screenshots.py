@@ -106,7 +106,7 @@ def show_map(
     if over is not None:
         project.addMapLayer(over)
     loaded = {
-        each: QgsProcessingOutputLayerDefinition(path, project) for each, path in outputs.items()
+        field: QgsProcessingOutputLayerDefinition(path, project) for field, path in outputs.items()
     }
     processing.runAndLoadResults(algorithm, {**parameters, **loaded})
     model = QgsLayerTreeModel(project.layerTreeRoot())
@@ -115,10 +115,10 @@ def show_map(
     canvas = QgsMapCanvas()
     canvas.setCanvasColor(Qt.GlobalColor.white)
     root = project.layerTreeRoot()
-    canvas.setLayers([each for each in root.layerOrder() if root.findLayer(each).isVisible()])
+    canvas.setLayers([layer for layer in root.layerOrder() if root.findLayer(layer).isVisible()])
     canvas.setExtent(next(iter(project.mapLayers().values())).extent())
     if over is not None:
-        canvas.setLayers([over, *(each for each in canvas.layers() if each is not over)])
+        canvas.setLayers([over, *(layer for layer in canvas.layers() if layer is not over)])
         canvas.setExtent(over.extent().buffered(30.0))
     window = QSplitter()
     window.addWidget(tree)
@@ -140,7 +140,7 @@ def show_corrections(tile: Path, folder: Path) -> None:
     """Picture the map of the filter alone, and the one that follows a polygon of corrections."""
     provider = QgsApplication.processingRegistry().providerById("bareearth")
     outputs = {"OUTPUT": str(folder / f"known.{provider.defaultPointCloudFileExtension()}")}
-    outputs |= {each: str(folder / f"known-{each}.tif") for each in ("DTM", "HILLSHADE")}
+    outputs |= {field: str(folder / f"known-{field}.tif") for field in ("DTM", "HILLSHADE")}
     for name in ("map-by-hand-before", "map-by-hand"):
         layer = QgsVectorLayer(
             "Polygon?crs=EPSG:25832&field=class:integer", "corrections: class 6", "memory"
@@ -161,18 +161,18 @@ def show_maps(tile: Path, folder: Path) -> None:
     suffix = "." + provider.defaultPointCloudFileExtension()
     cloud = str(folder / f"ground{suffix}")
     rasters = {
-        each: str(folder / f"{each}.tif")
-        for each in ("DTM", "HILLSHADE", "DSM", "CHM", "CONFIDENCE")
+        field: str(folder / f"{field}.tif")
+        for field in ("DTM", "HILLSHADE", "DSM", "CHM", "CONFIDENCE")
     }
-    two = {each: rasters[each] for each in ("DTM", "HILLSHADE")}
+    two = {field: rasters[field] for field in ("DTM", "HILLSHADE")}
     show_map(ALGORITHM, {"INPUT": str(tile)}, {"OUTPUT": cloud, **two}, "map")
     lines = {"CONTOURS": str(folder / "contours.gpkg"), "RELIEF": str(folder / "relief.tif")}
     whole = {"OUTPUT": str(folder / f"cloud{suffix}"), **rasters, **lines}
     show_map(ONE_STEP, {"INPUT": str(tile)}, whole, "map-one-step")
     show_map("bareearth:terrainmodel", {"INPUT": cloud}, rasters, "map-terrain")
-    for each in ("CHM", "DSM", "CONFIDENCE"):
-        few = {"HILLSHADE": rasters["HILLSHADE"], each: rasters[each]}
-        show_map("bareearth:terrainmodel", {"INPUT": cloud}, few, f"map-{each.lower()}")
+    for field in ("CHM", "DSM", "CONFIDENCE"):
+        few = {"HILLSHADE": rasters["HILLSHADE"], field: rasters[field]}
+        show_map("bareearth:terrainmodel", {"INPUT": cloud}, few, f"map-{field.lower()}")
     if suffix == ".copc.laz":  # else no cloud can be seen
         heights = {"OUTPUT": str(folder / f"heights{suffix}")}
         show_map("bareearth:heightaboveground", {"INPUT": cloud}, heights, "map-heights")

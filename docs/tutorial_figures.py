@@ -58,24 +58,24 @@ class Tutorial(NamedTuple):
     def points(self, delivery: Path) -> tuple[np.ndarray, ...]:
         """Return x, y, z and the classes of all points."""
         files = [laspy.read(path) for path in sorted((delivery / "points").glob("*.laz"))]
-        xyz = np.concatenate([np.asarray(each.xyz) for each in files])
-        classes = np.concatenate([np.asarray(each.classification) for each in files])
+        xyz = np.concatenate([np.asarray(cloud.xyz) for cloud in files])
+        classes = np.concatenate([np.asarray(cloud.classification) for cloud in files])
         x, y = (xyz[:, :2] - self.corner).T
         return x, y, xyz[:, 2], classes
 
     def drawn(self, name: str) -> list[np.ndarray]:
         """Return the polygons or lines that the reader draws."""
         found = json.loads((self.folder / name).read_text(encoding="utf-8"))["features"]
-        shapes = (each["geometry"]["coordinates"] for each in found)
-        return [np.array(each[0] if np.ndim(each) > 2 else each) - self.corner for each in shapes]
+        shapes = (feature["geometry"]["coordinates"] for feature in found)
+        return [np.array(part[0] if np.ndim(part) > 2 else part) - self.corner for part in shapes]
 
 
 def tutorial_figures(job: str) -> None:
     """Run the tutorial of a job, and make its figures."""
     with tempfile.TemporaryDirectory() as name:
-        made = _run(job, Path(name))
-        _FIRST[job](made)
-        _corrected(job, made)
+        tutorial = _run(job, Path(name))
+        _FIRST[job](tutorial)
+        _corrected(job, tutorial)
 
 
 def _run(job: str, folder: Path) -> Tutorial:
@@ -111,37 +111,39 @@ _CORRECTED: dict[str, tuple[str, tuple[str, ...], tuple[float, ...] | None]] = {
 _NAMES = {"archaeology": "vat", "flood": "corrected"}
 
 
-def _corrected(job: str, made: Tutorial) -> None:
+def _corrected(job: str, tutorial: Tutorial) -> None:
     """Draw the same raster before and after the correction, and what was drawn."""
     name, files, part = _CORRECTED[job]
-    west, east, south, north = part or made.raster(made.first, name).extent
+    west, east, south, north = part or tutorial.raster(tutorial.first, name).extent
     high = 4.1 * (north - south) / (east - west) + 0.2
     figure, panels = pyplot.subplots(1, 2, figsize=(8.2, high), layout="constrained")
-    for panel, delivery, title in zip(panels, (made.first, made.second), ("before", "after")):
-        raster = made.raster(delivery, name)
+    for panel, delivery, title in zip(
+        panels, (tutorial.first, tutorial.second), ("before", "after")
+    ):
+        raster = tutorial.raster(delivery, name)
         if name == "chm":
             panel.imshow(raster.values, cmap="YlGn", extent=raster.extent, vmin=0, vmax=8)
         else:
             _grey(panel, raster)
         for file in files:
-            for shape in made.drawn(file):
+            for shape in tutorial.drawn(file):
                 panel.plot(*shape.T, color=LINE, lw=1.0)
         _bare(panel, f"{title}: {name}.tif")
         panel.set(xlim=(west, east), ylim=(south, north))
     save(figure, f"tutorial-{job}-{_NAMES.get(job, 'corrected')}", colours=48)
 
 
-def _section(panel: Axes, job: str, made: Tutorial) -> None:
+def _section(panel: Axes, job: str, tutorial: Tutorial) -> None:
     """Draw the points of a strip 2 m wide by their classes, and the terrain model."""
     axis, middle, limits = _SECTIONS[job]
-    x, y, z, classes = made.points(made.first)
+    x, y, z, classes = tutorial.points(tutorial.first)
     along, across = (x, y) if axis == 0 else (y, x)
     near = (np.abs(across - middle) < 1.0) & (along > limits[0]) & (along < limits[1])
     for value, (colour, label) in _CLASSES.items():
         some = near & (classes == value)
         if some.any():
             panel.scatter(along[some], z[some], 2.4, colour, lw=0, label=label)
-    terrain = made.raster(made.first, "dtm")
+    terrain = tutorial.raster(tutorial.first, "dtm")
     west, east, south, north = terrain.extent
     rows, columns = terrain.values.shape
     if axis == 0:
@@ -166,15 +168,15 @@ def _beside(wide: float) -> tuple[Axes, Axes, Callable[[str], None]]:
     return left, right, lambda name: save(figure, name, colours=128)
 
 
-def _survey(made: Tutorial) -> None:
+def _survey(tutorial: Tutorial) -> None:
     plan, side, finish = _beside(1.4)
-    _grey(plan, made.raster(made.first, "hillshade"))
-    heights = made.raster(made.first, "dtm")
+    _grey(plan, tutorial.raster(tutorial.first, "hillshade"))
+    heights = tutorial.raster(tutorial.first, "dtm")
     plan.imshow(heights.values, cmap="gist_earth", extent=heights.extent, alpha=0.45)
     rows = np.genfromtxt(
-        made.folder / "checkpoints.csv", delimiter=",", names=True, dtype=None, encoding="utf-8"
+        tutorial.folder / "checkpoints.csv", delimiter=",", names=True, dtype=None, encoding="utf-8"
     )
-    x, y = rows["East"] - made.corner[0], rows["North"] - made.corner[1]
+    x, y = rows["East"] - tutorial.corner[0], rows["North"] - tutorial.corner[1]
     for cover, colour in (("open", "#ffffff"), ("forest", "#2f7d43")):
         some = rows["Land_cover"] == cover
         plan.scatter(x[some], y[some], 16, colour, ec="black", lw=0.6, label=f"checkpoint, {cover}")
@@ -182,35 +184,35 @@ def _survey(made: Tutorial) -> None:
     plan.plot((middle, middle), limits, color=LINE, ls="--", lw=1.2)
     plan.legend(fontsize=6, loc="lower left")
     _bare(plan, "terrain model of the first run")
-    _section(side, "survey", made)
+    _section(side, "survey", tutorial)
     finish("tutorial-survey-map")
 
 
-def _archaeology(made: Tutorial) -> None:
+def _archaeology(tutorial: Tutorial) -> None:
     figure, panel = pyplot.subplots(figsize=(8.4, 3.2), layout="constrained")
-    _section(panel, "archaeology", made)
+    _section(panel, "archaeology", tutorial)
     save(figure, "tutorial-archaeology-section")
 
 
-def _forestry(made: Tutorial) -> None:
+def _forestry(tutorial: Tutorial) -> None:
     plan, side, finish = _beside(1.6)
-    canopy = made.raster(made.first, "chm")
+    canopy = tutorial.raster(tutorial.first, "chm")
     drawn = plan.imshow(canopy.values, cmap="YlGn", extent=canopy.extent, vmin=0)
     plan.figure.colorbar(drawn, ax=plan, shrink=0.7, label="m")
     _, middle, limits = _SECTIONS["forestry"]
     plan.plot(limits, (middle, middle), color=LINE, ls="--", lw=1.2)
     _bare(plan, "chm.tif of the first run")
-    _section(side, "forestry", made)
+    _section(side, "forestry", tutorial)
     finish("tutorial-forestry-canopy")
 
 
-def _flood(made: Tutorial) -> None:
+def _flood(tutorial: Tutorial) -> None:
     figure, panel = pyplot.subplots(figsize=(8.4, 2.8), layout="constrained")
-    line = made.drawn("rivers.geojson")[0]
+    line = tutorial.drawn("rivers.geojson")[0]
     for delivery, colour, label in (
-        (made.first, ADDED, "first run"), (made.second, LINE, "with your polygons"),
+        (tutorial.first, ADDED, "first run"), (tutorial.second, LINE, "with your polygons"),
     ):  # fmt: skip
-        terrain = made.raster(delivery, "dtm")
+        terrain = tutorial.raster(delivery, "dtm")
         west, east, south, north = terrain.extent
         rows, columns = terrain.values.shape
         x = np.linspace(0.5, 149.5, 300)
@@ -224,10 +226,10 @@ def _flood(made: Tutorial) -> None:
     save(figure, "tutorial-flood-river", colours=FEW_COLOURS)
 
 
-def _drone_site(made: Tutorial) -> None:
+def _drone_site(tutorial: Tutorial) -> None:
     plan, side, finish = _beside(1.6)
-    _grey(plan, made.raster(made.first, "hillshade"))
-    heights = made.raster(made.first, "dtm")
+    _grey(plan, tutorial.raster(tutorial.first, "hillshade"))
+    heights = tutorial.raster(tutorial.first, "dtm")
     levels = np.arange(np.floor(np.nanmin(heights.values)), np.nanmax(heights.values), 1.0)
     plan.contour(
         heights.values[::-1], levels, extent=heights.extent, colors="#9a5b1c", linewidths=0.5
@@ -235,7 +237,7 @@ def _drone_site(made: Tutorial) -> None:
     _, middle, limits = _SECTIONS["drone-site"]
     plan.plot(limits, (middle, middle), color=LINE, ls="--", lw=1.2)
     _bare(plan, "hillshade, and contour lines every metre")
-    _section(side, "drone-site", made)
+    _section(side, "drone-site", tutorial)
     finish("tutorial-drone-site-map")
 
 

@@ -38,7 +38,7 @@ GROUPS = {
     "filters": (22, "filters/*.py"),
     "stages": (24, "filters/stages/*.py"),
     "grids": (24, "grids/*.py"),
-    "classes": (14, " ".join(f"survey/{each}.py" for each in (
+    "classes": (14, " ".join(f"survey/{module}.py" for module in (
         "selection", "point_counts", "corrections", "ground_classes", "point_chooser",
     ))),
     "las": (10, "las/writing.py las/records.py las/edits.py las/header_edits.py"),
@@ -46,15 +46,15 @@ GROUPS = {
 }  # fmt: skip
 # cosmic-ray could also make `a << b` of `a + b`: any run would see that.
 OPERATORS = [
-    *(f"ReplaceComparisonOperator_{each}" for each in (
+    *(f"ReplaceComparisonOperator_{kind}" for kind in (
         "Lt_LtE", "LtE_Lt", "Gt_GtE", "GtE_Gt", "Lt_Gt", "Gt_Lt", "LtE_GtE", "GtE_LtE", "Eq_NotEq",
         "NotEq_Eq", "Is_IsNot", "IsNot_Is",
     )),
-    *(f"ReplaceBinaryOperator_{each}" for each in (
+    *(f"ReplaceBinaryOperator_{kind}" for kind in (
         "Add_Sub", "Sub_Add", "Mul_Div", "Div_Mul", "FloorDiv_Mul", "Mod_FloorDiv", "BitAnd_BitOr",
         "BitOr_BitAnd", "BitXor_BitOr",
     )),
-    *(f"ReplaceUnaryOperator_{each}" for each in ("Delete_USub", "Delete_Invert", "Delete_Not")),
+    *(f"ReplaceUnaryOperator_{kind}" for kind in ("Delete_USub", "Delete_Invert", "Delete_Not")),
     "AddNot", "ReplaceAndWithOr", "ReplaceOrWithAnd", "ReplaceTrueWithFalse",
     "ReplaceFalseWithTrue", "ReplaceBreakWithContinue", "ReplaceContinueWithBreak",
     "NumberReplacer", "ZeroIterationForLoop",
@@ -84,7 +84,9 @@ def _places(group: str, path: Path) -> Iterator[tuple[tuple, Mutant]]:
     source = path.read_text(encoding="utf-8")
     nodes, name = list(ast_nodes(get_ast(source))), str(path.relative_to(COPY))
     for operator in OPERATORS:
-        positions = (at for node in nodes for at in _operator(operator).mutation_positions(node))
+        positions = (
+            place for node in nodes for place in _operator(operator).mutation_positions(node)
+        )
         for number, (start, _) in enumerate(positions):
             yield (name, start), Mutant(group, name, start[0], operator, number)
 
@@ -93,9 +95,9 @@ def _annotations(path: Path) -> list[tuple[tuple, tuple]]:
     """Return where types stand: what is wrong there no run can see."""
     found = []
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        for each in (getattr(node, "annotation", None), getattr(node, "returns", None)):
-            if each is not None:
-                ends = (each.lineno, each.col_offset), (each.end_lineno, each.end_col_offset)
+        for hint in (getattr(node, "annotation", None), getattr(node, "returns", None)):
+            if hint is not None:
+                ends = (hint.lineno, hint.col_offset), (hint.end_lineno, hint.end_col_offset)
                 found.append(ends)
     return found
 
@@ -107,7 +109,7 @@ def sample(count: int, seed: int, only: list[str]) -> list[Mutant]:
         if only and group not in only:
             continue
         random = np.random.default_rng((seed, number))
-        files = {path for each in patterns.split() for path in (COPY / "algorithms").glob(each)}
+        files = {path for mask in patterns.split() for path in (COPY / "algorithms").glob(mask)}
         places: dict[tuple, list[Mutant]] = {}
         for path in sorted(files):
             types = _annotations(path)
@@ -159,7 +161,7 @@ class Tests:
 
         self._data = CoverageData(str(COVERAGE))
         self._data.read()
-        self._files = {each.split("/algorithms/")[-1]: each for each in self._data.measured_files()}
+        self._files = {path.split("/algorithms/")[-1]: path for path in self._data.measured_files()}
         self._seconds: Counter = Counter()
         for found in re.finditer(r"^([\d.]+)s \w+ +(tests/.*)$", TIMES.read_text(), re.MULTILINE):
             self._seconds[found[2].strip()] += float(found[1])
@@ -169,14 +171,14 @@ class Tests:
         name = self._files[mutant.path.partition("algorithms/")[2]]
         contexts = self._data.contexts_by_lineno(name)
         lines = _statement(COPY / mutant.path, mutant.line)
-        tests = {each.split("|")[0] for line in lines for each in contexts.get(line, ()) if each}
+        tests = {test.split("|")[0] for line in lines for test in contexts.get(line, ()) if test}
         if not tests and any("" in contexts.get(line, ()) for line in lines):
             # Run when the module is imported: whoever uses anything of it may see the fault.
-            tests = {each.split("|")[0] for found in contexts.values() for each in found if each}
-        chosen, taken = [], 0.0
-        for test in sorted(tests, key=lambda each: (self._seconds[each], each)):
-            taken += self._seconds[test] + 0.02
-            if chosen and taken > seconds:
+            tests = {test.split("|")[0] for found in contexts.values() for test in found if test}
+        chosen, total = [], 0.0
+        for test in sorted(tests, key=lambda test: (self._seconds[test], test)):
+            total += self._seconds[test] + 0.02
+            if chosen and total > seconds:
                 break
             chosen.append(test)
         return chosen
@@ -211,7 +213,7 @@ def see(tests: list[str], seconds: float) -> tuple[bool, str]:
         done, status = os.waitpid(child, os.WNOHANG)
         if done:
             said = log.read_text(errors="replace").strip().splitlines()
-            why = [each for each in said if "Error" in each or each.startswith("E ")]
+            why = [line for line in said if "Error" in line or line.startswith("E ")]
             return status != 0, (why or said or [""])[-1 if not why else 0][:160]
         time.sleep(0.05)
     os.killpg(child, signal.SIGKILL)
@@ -228,7 +230,7 @@ def try_out(mutant: Mutant, tests: list[str], number: int, seconds: float) -> di
     wrong = mutate_code(sound, _operator(mutant.operator), mutant.occurrence)
     lines = sound.splitlines(), wrong.splitlines()
     changed = next((old, new) for old, new in zip(*lines) if old != new)
-    result["was"], result["is"] = (each.strip() for each in changed)
+    result["was"], result["is"] = (line.strip() for line in changed)
     began = time.monotonic()
     try:
         _write(path, wrong, number)
@@ -246,15 +248,15 @@ def _write(path: Path, source: str, number: int) -> None:
 
 def tell(results: list[dict]) -> None:
     """Print what no test saw, and the score."""
-    for each in results:
-        if not each["seen"]:
-            print(f"\n{each['path']}:{each['line']} {each['operator']} ({each['tests']} tests)")
-            print(f"  - {each['was']}\n  + {each['is']}")
+    for row in results:
+        if not row["seen"]:
+            print(f"\n{row['path']}:{row['line']} {row['operator']} ({row['tests']} tests)")
+            print(f"  - {row['was']}\n  + {row['is']}")
     print(f"\n{'group':10} {'faults':>6} {'seen':>6}")
-    for group in dict.fromkeys(each["group"] for each in results):
-        seen = [each["seen"] for each in results if each["group"] == group]
+    for group in dict.fromkeys(row["group"] for row in results):
+        seen = [row["seen"] for row in results if row["group"] == group]
         print(f"{group:10} {len(seen):6} {sum(seen):6}")
-    print(f"{'all':10} {len(results):6} {sum(each['seen'] for each in results):6}")
+    print(f"{'all':10} {len(results):6} {sum(row['seen'] for row in results):6}")
 
 
 def main() -> None:
@@ -275,17 +277,17 @@ def main() -> None:
     os.chdir(COPY)
     os.environ.update(_in_copy())
     sys.path.insert(0, str(PLACE))
-    for each in ("laspy", "lazrs", "pytest", "rasterio", "scipy.ndimage", "scipy.spatial"):
-        importlib.import_module(each)  # once, not in each process of tests
+    for module in ("laspy", "lazrs", "pytest", "rasterio", "scipy.ndimage", "scipy.spatial"):
+        importlib.import_module(module)  # once, not in each process of tests
 
     known, kept, again = Tests(), [], []
     mutants = sample(asked.count, asked.seed, asked.only)
     if asked.again:
-        for each in json.loads(RESULTS.read_text()):
-            if each["seen"] or (asked.only and each["group"] not in asked.only):
-                kept.append(each)
+        for row in json.loads(RESULTS.read_text()):
+            if row["seen"] or (asked.only and row["group"] not in asked.only):
+                kept.append(row)
             else:
-                again.append(Mutant(*(each[name] for name in Mutant._fields)))
+                again.append(Mutant(*(row[name] for name in Mutant._fields)))
         mutants = again
     results: list[dict] = []
     for number, mutant in enumerate(mutants):

@@ -72,7 +72,7 @@ def _packages() -> dict[str, bytes]:
         )  # fmt: skip
         for wheel in Path(folder).iterdir():
             with zipfile.ZipFile(wheel) as packed:
-                found.update((f"packages/{each}", packed.read(each)) for each in packed.namelist())
+                found.update((f"packages/{name}", packed.read(name)) for name in packed.namelist())
     return found
 
 
@@ -86,7 +86,7 @@ def _help(repository: str, packed: set[str]) -> dict[str, bytes]:
 
 def _translations() -> dict[str, bytes]:
     """Make what Qt reads of the translations."""
-    files = {name: each for name, each in _committed("plugin/i18n").items() if name[-3:] == ".ts"}
+    files = {name: text for name, text in _committed("plugin/i18n").items() if name[-3:] == ".ts"}
     return {f"{name[:-3]}.qm": qm.compiled(qm.read_ts(content)) for name, content in files.items()}
 
 

@@ -23,20 +23,20 @@ class Message(NamedTuple):
 def read_ts(text: bytes) -> list[Message]:
     """Return the messages of a .ts file."""
     return [
-        Message(context.findtext("name", ""), each.findtext("source", ""),
-                each.findtext("translation") or "")
+        Message(context.findtext("name", ""), message.findtext("source", ""),
+                message.findtext("translation") or "")
         for context in ElementTree.fromstring(text).iter("context")
-        for each in context.iter("message")
+        for message in context.iter("message")
     ]  # fmt: skip
 
 
 def compiled(messages: list[Message]) -> bytes:
     """Return the .qm file of messages; those without a translation are left out."""
     body, places = b"", []
-    for each in messages:
-        if each.translation:
-            places.append((_hash(each.source.encode()), len(body)))
-            body += _packed(each)
+    for message in messages:
+        if message.translation:
+            places.append((_hash(message.source.encode()), len(body)))
+            body += _packed(message)
     hashes = b"".join(struct.pack(">II", *place) for place in sorted(places))
     return _MAGIC + _section(_HASHES, hashes) + _section(_MESSAGES, body)
 

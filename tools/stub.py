@@ -30,8 +30,8 @@ from .algorithms.core.version import __version__ as __version__
 
 def stub() -> str:
     """Return the text of the stub."""
-    results = {declared(each).result for each in names()} - {None}
-    lines = sorted(f"from {each.__module__[10:]} import {each.__name__}\n" for each in results)
+    results = {declared(name).result for name in names()} - {None}
+    lines = sorted(f"from {kind.__module__[10:]} import {kind.__name__}\n" for kind in results)
     head = [f"{_HEAD}{''.join(lines)}", f"_Path = {_PATH}\n"]
     return "\n".join([*head, "def classFactory(iface: Any) -> Any: ...\n", *map(_of, names())])
 
@@ -39,11 +39,11 @@ def stub() -> str:
 def _of(name: str) -> str:
     function = declared(name)
     lines, is_keyword = [], False
-    for each in (described.parameter for described in function.parameters):
-        if each.kind is inspect.Parameter.KEYWORD_ONLY and not is_keyword:
+    for argument in (described.parameter for described in function.parameters):
+        if argument.kind is inspect.Parameter.KEYWORD_ONLY and not is_keyword:
             lines, is_keyword = [*lines, "*,"], True
-        default = "" if each.default is inspect.Parameter.empty else f" = {each.default!r}"
-        lines.append(f"{each.name}: {each.annotation.replace(_PATH, '_Path')}{default},")
+        default = "" if argument.default is inspect.Parameter.empty else f" = {argument.default!r}"
+        lines.append(f"{argument.name}: {argument.annotation.replace(_PATH, '_Path')}{default},")
     text = textwrap.indent(f'"""{function.documentation}"""', "    ").replace("\\", "\\\\")
     head, result = textwrap.indent("\n".join(lines), "    "), function.returns
     return f"def {name}(\n{head}\n) -> {result}:\n{text}\n"

@@ -26,7 +26,7 @@ def written_texts() -> set[str]:
     for path in (ROOT / "plugin").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") in _FUNCTIONS:
-                found |= {each.value for each in node.args if isinstance(each, ast.Constant)}
+                found |= {text.value for text in node.args if isinstance(text, ast.Constant)}
     return found
 
 
@@ -75,14 +75,14 @@ def visible_texts(algorithm) -> list[str]:
     """Return all texts that a user of an algorithm sees before it runs."""
     texts = [algorithm.displayName(), algorithm.group(), algorithm.shortDescription()]
     texts += [algorithm.shortHelpString(), *algorithm.tags()]
-    for each in algorithm.parameterDefinitions():
-        texts += [each.description(), each.help(), *each.metadata().get("labels", [])]
-    return texts + [each.description() for each in algorithm.outputDefinitions()]
+    for field in algorithm.parameterDefinitions():
+        texts += [field.description(), field.help(), *field.metadata().get("labels", [])]
+    return texts + [field.description() for field in algorithm.outputDefinitions()]
 
 
 def update(path: Path, texts: set[str]) -> int:
     """Write a .ts file with these texts; return how many of them have no translation yet."""
-    known = {each.source: each.translation for each in qm.read_ts(path.read_bytes())}
+    known = {message.source: message.translation for message in qm.read_ts(path.read_bytes())}
     language = path.stem.rpartition("_")[2]
     lines = [
         '<?xml version="1.0" encoding="utf-8"?>', "<!DOCTYPE TS>",

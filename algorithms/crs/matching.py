@@ -7,59 +7,59 @@ from .system import Crs, same_unit, unit_name
 from .wkt import VerticalDatum
 
 
-def is_same_crs(one: Crs, other: Crs) -> bool:
+def is_same_crs(first: Crs, second: Crs) -> bool:
     """Return whether two CRS, their units and what heights are measured from are the same."""
     # Programs write the same CRS differently, so codes and names are compared, not texts. A CRS
     # that is not stated differs from all others; a vertical datum that is not stated differs from
     # none.
-    if one == other:
+    if first == second:
         return True
-    if Crs() in (one, other) or not has_same_units(one, other):
+    if Crs() in (first, second) or not has_same_units(first, second):
         return False
-    if is_other_datum(one.datum, other.datum):
+    if is_other_datum(first.datum, second.datum):
         return False
-    if one.epsg and other.epsg:
-        return one.epsg == other.epsg
-    return _map_name(one) == _map_name(other)
+    if first.epsg and second.epsg:
+        return first.epsg == second.epsg
+    return _map_name(first) == _map_name(second)
 
 
-def is_other_datum(one: VerticalDatum | None, other: VerticalDatum | None) -> bool | None:
+def is_other_datum(first: VerticalDatum | None, second: VerticalDatum | None) -> bool | None:
     """Return whether two vertical datums differ, None if that is not certain."""
     # Programs also use names of their own, or one is not stated.
-    if one is None or other is None:
+    if first is None or second is None:
         return None
-    names = {_bare(datum.name) for datum in (one, other)}
-    for codes in ((one.epsg, other.epsg), (one.crs_epsg, other.crs_epsg)):
+    names = {_bare(datum.name) for datum in (first, second)}
+    for codes in ((first.epsg, second.epsg), (first.crs_epsg, second.crs_epsg)):
         if all(codes) and codes[0] == codes[1]:
             return False
-    if ("" not in names and len(names) == 1) or (one.is_ellipsoid and other.is_ellipsoid):
+    if ("" not in names and len(names) == 1) or (first.is_ellipsoid and second.is_ellipsoid):
         return False
-    if one.is_ellipsoid != other.is_ellipsoid or (one.epsg and other.epsg):
+    if first.is_ellipsoid != second.is_ellipsoid or (first.epsg and second.epsg):
         return True
     # Two vertical CRS can have one datum and different units, so their codes alone say nothing.
-    has_codes = all(datum.epsg or datum.crs_epsg for datum in (one, other))
+    has_codes = all(datum.epsg or datum.crs_epsg for datum in (first, second))
     return True if has_codes and "" not in names else None
 
 
-def is_same_map(one: Crs, other: Crs) -> bool:
+def is_same_map(first: Crs, second: Crs) -> bool:
     """Return whether x and y of two stated CRS are the same, whatever their heights."""
-    if one.is_geographic != other.is_geographic or not same_unit(
-        one.horizontal_unit, other.horizontal_unit
+    if first.is_geographic != second.is_geographic or not same_unit(
+        first.horizontal_unit, second.horizontal_unit
     ):
         return False
-    if one.epsg and other.epsg:
-        return one.epsg == other.epsg
-    if _map_name(one) == _map_name(other):
+    if first.epsg and second.epsg:
+        return first.epsg == second.epsg
+    if _map_name(first) == _map_name(second):
         return True
-    return bool(one.wkt and other.wkt and are_same(one.wkt, other.wkt))
+    return bool(first.wkt and second.wkt and are_same(first.wkt, second.wkt))
 
 
-def has_same_units(one: Crs, other: Crs) -> bool:
+def has_same_units(first: Crs, second: Crs) -> bool:
     """Return whether two CRS have the same units of x and y, and of heights."""
     return (
-        one.is_geographic == other.is_geographic
-        and same_unit(one.horizontal_unit, other.horizontal_unit)
-        and same_unit(one.vertical_unit, other.vertical_unit)
+        first.is_geographic == second.is_geographic
+        and same_unit(first.horizontal_unit, second.horizontal_unit)
+        and same_unit(first.vertical_unit, second.vertical_unit)
     )
 
 

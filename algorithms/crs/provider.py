@@ -28,11 +28,11 @@ def wkt_of_text(text: str) -> str | None:
     return None if "://" in text else _answer("wkt_of_text", text)
 
 
-def are_same(one: str, other: str) -> bool | None:
+def are_same(first: str, second: str) -> bool | None:
     """Return whether two well-known texts have the same horizontal CRS, None if there is no
     library, or it does not understand a text.
     """
-    return _answer("are_same", one, other)
+    return _answer("are_same", first, second)
 
 
 def to_wgs84(wkt: str, places: np.ndarray) -> np.ndarray | None:
@@ -100,12 +100,12 @@ class _Gdal:
         return None if failed else reference.ExportToWkt()
 
     @staticmethod
-    def are_same(one: str, other: str) -> bool | None:
+    def are_same(first: str, second: str) -> bool | None:
         from osgeo import osr
 
         references = osr.SpatialReference(), osr.SpatialReference()
         with _quiet():
-            for reference, text in zip(references, (one, other)):
+            for reference, text in zip(references, (first, second)):
                 if reference.ImportFromWkt(text):
                     return None
                 if reference.IsCompound():
@@ -163,10 +163,10 @@ class _Pyproj:
         return crs.to_wkt("WKT1_GDAL") or crs.to_wkt()
 
     @staticmethod
-    def are_same(one: str, other: str) -> bool:
+    def are_same(first: str, second: str) -> bool:
         from pyproj import CRS
 
-        pair = [CRS.from_wkt(text) for text in (one, other)]
+        pair = [CRS.from_wkt(text) for text in (first, second)]
         flat = [crs.sub_crs_list[0] if crs.is_compound else crs for crs in pair]
         return bool(flat[0].equals(flat[1], ignore_axis_order=True))
 

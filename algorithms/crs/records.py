@@ -39,59 +39,59 @@ def crs_of_records(
     if not found:
         return None
     whole = found[0]
-    for other in found[1:]:
-        whole = _joined(whole, other, progress)
+    for further in found[1:]:
+        whole = _joined(whole, further, progress)
     return crs_of_facts(whole.wkt, whole.facts, progress)
 
 
-def _joined(one: _Statement, other: _Statement, progress: Progress) -> _Statement:
+def _joined(used: _Statement, further: _Statement, progress: Progress) -> _Statement:
     """Return a statement, with what it lacks from another one; tell how they differ."""
-    contradicts_map = _contradicts_map(one.facts, other.facts)
-    if contradicts_map or _contradicts_heights(one.facts, other.facts):
+    contradicts_map = _contradicts_map(used.facts, further.facts)
+    if contradicts_map or _contradicts_heights(used.facts, further.facts):
         progress.warning(
-            f"The records of the file contradict each other: its CRS is {_shown(one)} by the"
-            f" {one.kind}, which is used, and {_shown(other)} by the {other.kind}. If the first is"
-            f" wrong, give the CRS: {HOW}."
+            f"The records of the file contradict each other: its CRS is {_shown(used)} by the"
+            f" {used.kind}, which is used, and {_shown(further)} by the {further.kind}. If the"
+            f" first is wrong, give the CRS: {HOW}."
         )
-    has_text = one.wkt is not None or contradicts_map or other.wkt is None
-    first, second = (one, other) if has_text else (other, one)
+    has_text = used.wkt is not None or contradicts_map or further.wkt is None
+    first, second = (used, further) if has_text else (further, used)
     facts, more = first.facts, second.facts
     if not contradicts_map:
         facts = facts._replace(
-            horizontal_unit=one.facts.horizontal_unit or other.facts.horizontal_unit,
+            horizontal_unit=used.facts.horizontal_unit or further.facts.horizontal_unit,
             epsg=facts.epsg or more.epsg,
         )
-    unit = one.facts.vertical_unit or other.facts.vertical_unit
-    if one.facts.vertical_unit is None and unit and not same_unit(unit, facts.horizontal_unit):
-        progress.info(f"The unit of the heights, {unit_name(unit)}, is that of the {other.kind}.")
+    unit = used.facts.vertical_unit or further.facts.vertical_unit
+    if used.facts.vertical_unit is None and unit and not same_unit(unit, facts.horizontal_unit):
+        progress.info(f"The unit of the heights, {unit_name(unit)}, is that of the {further.kind}.")
     facts = facts._replace(
         vertical_unit=unit,
         has_vertical=facts.has_vertical or more.has_vertical,
-        datum=one.facts.datum or other.facts.datum,
+        datum=used.facts.datum or further.facts.datum,
     )
-    return _Statement(one.kind, first.wkt, facts)
+    return _Statement(used.kind, first.wkt, facts)
 
 
-def _contradicts_map(one: WktFacts, other: WktFacts) -> bool:
+def _contradicts_map(first: WktFacts, second: WktFacts) -> bool:
     """Return whether two statements differ in x and y, as far as both state them."""
-    if not (_states_map(one) and _states_map(other)):
+    if not (_states_map(first) and _states_map(second)):
         return False
-    if one.is_geographic != other.is_geographic:
+    if first.is_geographic != second.is_geographic:
         return True
-    units = one.horizontal_unit, other.horizontal_unit
-    if not one.is_geographic and all(units) and not same_unit(*units):
+    units = first.horizontal_unit, second.horizontal_unit
+    if not first.is_geographic and all(units) and not same_unit(*units):
         return True
-    return bool(one.epsg and other.epsg and one.epsg != other.epsg)
+    return bool(first.epsg and second.epsg and first.epsg != second.epsg)
 
 
 def _states_map(facts: WktFacts) -> bool:
     return bool(facts.is_geographic or facts.epsg or facts.horizontal_unit)
 
 
-def _contradicts_heights(one: WktFacts, other: WktFacts) -> bool:
+def _contradicts_heights(first: WktFacts, second: WktFacts) -> bool:
     """Return whether two statements differ in heights, as far as both state them."""
-    units = one.vertical_unit, other.vertical_unit
-    return (all(units) and not same_unit(*units)) or bool(is_other_datum(one.datum, other.datum))
+    units = first.vertical_unit, second.vertical_unit
+    return (all(units) and not same_unit(*units)) or bool(is_other_datum(first.datum, second.datum))
 
 
 def _shown(statement: _Statement) -> str:

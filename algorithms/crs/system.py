@@ -27,9 +27,9 @@ class Crs:
     datum: VerticalDatum | None = None  # None if it is not stated
 
 
-def same_unit(one: float | None, other: float | None) -> bool:
+def same_unit(first: float | None, second: float | None) -> bool:
     """Return whether two units are equal; the two kinds of feet differ by two millionths."""
-    return one is not None and other is not None and math.isclose(one, other, rel_tol=1e-8)
+    return first is not None and second is not None and math.isclose(first, second, rel_tol=1e-8)
 
 
 def unit_name(metres: float) -> str:

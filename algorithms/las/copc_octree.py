@@ -143,13 +143,13 @@ class SortedPoints:
         records: np.ndarray,  # uint8 (n, record length), in file order, also of others
         codes: np.ndarray,  # uint64 (k,), of the points of the branch, ascending
         order: np.ndarray,  # unsigned integers (k,), their rows in `records`
-        taken: Sequence[Taken] = (),  # cells of each depth that earlier points took
+        taken_cells: Sequence[TakenCells] = (),  # cells of each depth that earlier points took
         progress: Progress = SILENT,
     ) -> None:
         self.branch, self._records = branch, records
         finest = np.uint64(3 * (_CUBE_BITS - branch.depth - branch.depths))
         cells = (codes >> finest & np.uint64(branch.cell_count - 1)).astype(np.uint16)
-        cells += np.uint16(branch.cell_count) * _depths(branch, codes, order, taken, progress)
+        cells += np.uint16(branch.cell_count) * _depths(branch, codes, order, taken_cells, progress)
         self.counts = np.bincount(cells, minlength=(branch.depths + 1) * branch.cell_count)
         self.counts = self.counts.reshape(-1, branch.cell_count)
         by_group = np.argsort(cells, kind="stable")
@@ -161,7 +161,7 @@ class SortedPoints:
         branch: Branch,
         records: np.ndarray,
         cube: Cube,
-        taken: Sequence[Taken] = (),
+        taken_cells: Sequence[TakenCells] = (),
         progress: Progress = SILENT,
     ) -> SortedPoints:
         """Sort points that are in file order."""
@@ -169,7 +169,7 @@ class SortedPoints:
         order = np.argsort(codes, kind="stable").astype(np.min_scalar_type(len(codes)))
         progress(0.7)
         codes = codes[order]
-        return cls(branch, records, codes, order, taken, progress.part(0.75, 1.0))
+        return cls(branch, records, codes, order, taken_cells, progress.part(0.75, 1.0))
 
     def records(self, groups: np.ndarray) -> np.ndarray:
         """Return the points of some depths and branches in file order."""
@@ -190,7 +190,7 @@ def most_in_memory(memory: int, record_length: int) -> int:
     return max(memory // (record_length + _BYTES_TO_SORT), _LEAF_POINTS)
 
 
-class Taken:
+class TakenCells:
     """The cells of a depth below that of the branch from which points were taken, as bits."""
 
     def __init__(self, depth: int) -> None:
@@ -211,7 +211,7 @@ def _depths(
     branch: Branch,
     codes: np.ndarray,
     order: np.ndarray,
-    taken: Sequence[Taken],
+    taken_cells: Sequence[TakenCells],
     progress: Progress,
 ) -> np.ndarray:
     """Return the depth below the branch that takes each point, if no node above ends the branch,
@@ -225,8 +225,8 @@ def _depths(
         sizes, rows = np.diff(starts, append=len(cells)), order[left]
         # The first point of each cell in file order.
         takes = rows == np.repeat(np.minimum.reduceat(rows, starts), sizes)
-        if taken:
-            takes &= np.repeat(taken[depth].add(cells[starts]), sizes)
+        if taken_cells:
+            takes &= np.repeat(taken_cells[depth].add(cells[starts]), sizes)
         depths[left[takes]] = depth
         left = left[~takes]
         progress((depth + 1) / branch.depths)

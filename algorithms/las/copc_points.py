@@ -16,7 +16,7 @@ import numpy as np
 
 from ..core.progress import Progress
 from ..core.unnamed import reach_disk, unnamed_file
-from .copc_octree import Branch, Cube, SortedPoints, Taken, runs
+from .copc_octree import Branch, Cube, SortedPoints, TakenCells, runs
 from .records import column
 
 # Most points that are sorted and written at a time.
@@ -81,9 +81,9 @@ class WaitingPoints:
         self.counts = np.zeros(shape, dtype=np.int64)
         # Position of each part in the file, and its counts.
         self._parts: list[tuple[int, np.ndarray]] = []
-        taken = [Taken(depth) for depth in range(branch.depths)]
+        taken_cells = [TakenCells(depth) for depth in range(branch.depths)]
         for records in parts:
-            some = SortedPoints.of(branch, records, room.cube, taken, room.progress)
+            some = SortedPoints.of(branch, records, room.cube, taken_cells, room.progress)
             rows = np.empty((len(records), _NUMBER + records.shape[1]), dtype=np.uint8)
             column(rows, 0, "<u4")[:] = some.order
             rows[:, _NUMBER:] = records[some.order]
@@ -106,14 +106,14 @@ class WaitingPoints:
         """Yield points in file order, part by part."""
         file, width = self._room.file, self._width
         for begin, counts in self._parts:
-            rows, at = np.empty((counts[groups].sum(), width), dtype=np.uint8), 0
+            rows, done = np.empty((counts[groups].sum(), width), dtype=np.uint8), 0
             if not len(rows):
                 continue
             for start, end in runs(counts, groups).tolist():
                 file.seek(begin + start * width)
                 data = file.read((end - start) * width)
-                rows[at : at + end - start] = np.frombuffer(data, np.uint8).reshape(-1, width)
-                at += end - start
+                rows[done : done + end - start] = np.frombuffer(data, np.uint8).reshape(-1, width)
+                done += end - start
             yield rows[np.argsort(column(rows, 0, "<u4")), _NUMBER:]
             self._room.progress(0.0)
 

@@ -125,7 +125,7 @@ def _descriptors(layout: LasFile) -> list[bytes] | None:
     record = layout.vlr(EXTRA_BYTES)
     data = b"" if record is None else record.data or b""
     whole = len(data) // _DESCRIPTOR * _DESCRIPTOR
-    descriptors = [data[at : at + _DESCRIPTOR] for at in range(0, whole, _DESCRIPTOR)]
+    descriptors = [data[start : start + _DESCRIPTOR] for start in range(0, whole, _DESCRIPTOR)]
     return None if sum(map(_size, descriptors)) > layout.extra_bytes else descriptors
 
 
@@ -173,10 +173,10 @@ def _with_record(layout: LasFile, descriptors: list[bytes]) -> LasFile:
     vlrs = list(layout.vlrs)
     keys = [vlr.key for vlr in vlrs]
     if EXTRA_BYTES in keys:
-        at = keys.index(EXTRA_BYTES)
-        head = bytearray(vlrs[at].raw[: -len(vlrs[at].data) or None])
+        place = keys.index(EXTRA_BYTES)
+        head = bytearray(vlrs[place].raw[: -len(vlrs[place].data) or None])
         struct.pack_into("<H", head, 20, len(data))
-        vlrs[at] = Vlr(bytes(head) + data)
+        vlrs[place] = Vlr(bytes(head) + data)
     else:
         vlrs.append(new_vlr(EXTRA_BYTES, data, "Extra Bytes Record"))
     # A second record behind the points would contradict this one.

@@ -298,9 +298,9 @@ class LasFile:
         known = [fields.WAVEFORM_START, fields.EVLR_START][: max(self.minor_version - 2, 0)]
         found = {field.start: field.get(self.header) for field in known}
         return {
-            place: new_start + sum(min(max(at - start, 0), end - start) for start, end in tail)
-            for place, at in found.items()
-            if self.tail_start <= at <= self.size
+            place: new_start + sum(min(max(old - start, 0), end - start) for start, end in tail)
+            for place, old in found.items()
+            if self.tail_start <= old <= self.size
         }
 
 

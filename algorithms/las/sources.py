@@ -54,11 +54,11 @@ class FileState(NamedTuple):
         now = os.fstat(file.fileno())
         return cls(now.st_size, now.st_mtime_ns, now.st_ino, now.st_dev)
 
-    def is_same(self, other: FileState) -> bool:
+    def is_same(self, state: FileState) -> bool:
         """Return whether two states belong to the same, unchanged file."""
         # Other computers of a cluster have other inodes and devices for the same file.
-        is_here = self.device == other.device
-        return self[:2] == other[:2] and (self.inode == other.inode or not is_here)
+        is_here = self.device == state.device
+        return self[:2] == state[:2] and (self.inode == state.inode or not is_here)
 
 
 def changed(path: Path) -> BareEarthError:

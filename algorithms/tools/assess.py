@@ -280,13 +280,13 @@ def _map(picture: Picture, units: Units) -> tuple[Html, Html, Html]:
 
 def _confusion(a: Assessment) -> Html:
     ground = a.ground_as_ground, a.ground_as_other
-    other = a.other_as_ground, a.other_as_other
+    rest = a.other_as_ground, a.other_as_other
     rows = [
         (name, f"{first:,}", f"{second:,}", f"{first + second:,}", f"{percent(wrong)} ({kind})")
         for name, (first, second), wrong, kind in (
             ("Reference: ground", ground, a.type_1_error, "type I"),
-            ("Reference: other", other, a.type_2_error, "type II"),
-            ("All", map(sum, zip(ground, other)), a.total_error, "total"),
+            ("Reference: other", rest, a.type_2_error, "type II"),
+            ("All", map(sum, zip(ground, rest)), a.total_error, "total"),
         )
     ]
     head = ("", "Classified as ground", "Classified as other", "All", "Wrong")

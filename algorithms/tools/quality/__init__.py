@@ -16,7 +16,7 @@ from ...las.reading import read_parts
 from ...survey.files import Survey, open_survey
 from ...survey.ground_classes import GroundClasses
 from ...survey.repeated_points import RepeatedPoints
-from ..declaration import CLOUD, CRS, TERRAIN, FileTool, Input, Output
+from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, FileTool, Output
 from .cells import Grids, QualityCells, Store
 from .figures import Quality
 from .measuring import quality_of
@@ -126,16 +126,7 @@ TOOL = FileTool(
     work=measure_quality,
     sets=(QualityOptions, GroundClasses),
     titles=("What is measured", "Ground points"),
-    inputs=(
-        Input(
-            "sources",
-            "clouds",
-            help="a classified file, or ",
-            label="Classified point cloud",
-            named="INPUT",
-        ),
-        CRS,
-    ),
+    inputs=(CLASSIFIED, CRS),
     outputs=(
         Output(
             "page",
