@@ -90,8 +90,7 @@ class DeliverySteps:
             name = source.name if kind == "same" else f"{split_name(source)[0]}.{kind}"
             target = self.work.points / name
         (target.parent if self.is_one else target).mkdir(parents=True, exist_ok=True)
-        as_survey = not self.is_one
-        done = classify(self.sources, target, how, progress, self.workers, as_survey=as_survey)
+        done = classify(self.sources, target, how, progress, self.workers)
         if self.is_one:
             self.cloud, self.files = target, [target]
             summary.point_count, summary.ground_count = done.area_count, done.area_ground_count

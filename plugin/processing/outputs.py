@@ -10,7 +10,6 @@ from qgis.core import (
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingOutputLayerDefinition,
-    QgsProcessingParameterDefinition,
     QgsProcessingParameterRasterDestination,
     QgsProcessingParameterVectorDestination,
     QgsProperty,
@@ -52,17 +51,11 @@ def usual_rasters(*reliefs: str) -> list[str]:
     return [name for name, row in RASTERS.items() if not row.is_relief or name in reliefs]
 
 
-def add_cloud(
-    algorithm: QgsProcessingAlgorithm,
-    label: str = "Classified point cloud",
-    text: str = "The same points with their new classes.",
-    optional: bool = False,
-) -> None:
-    """Add the field of an output point cloud."""
-    field = compat.point_cloud_output("OUTPUT", label, point_cloud_formats())
-    if optional:
-        field.setFlags(field.flags() | QgsProcessingParameterDefinition.Flag.FlagOptional)
-    algorithm.addParameter(field, text)
+def add_cloud(algorithm: QgsProcessingAlgorithm) -> None:
+    """Add the optional field of an output point cloud."""
+    field = compat.point_cloud_output("OUTPUT", "Classified point cloud", point_cloud_formats())
+    field.setFlags(field.flags() | compat.OPTIONAL)
+    algorithm.addParameter(field, "The same points with their new classes.")
 
 
 def add_contours(algorithm: QgsProcessingAlgorithm) -> None:

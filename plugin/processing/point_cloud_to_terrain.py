@@ -45,7 +45,7 @@ class PointCloudToTerrainAlgorithm(BareEarthAlgorithm):
         self.add_declared()
         add_limits(self)
         delivery.add_delivery(self)
-        outputs.add_cloud(self, optional=True)
+        outputs.add_cloud(self)
         rasters = outputs.usual_rasters("hillshade", "relief")
         outputs.add_rasters(self, rasters, ("dtm", "hillshade", "dsm", "chm"))
         outputs.add_contours(self)
