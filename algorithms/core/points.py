@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -66,7 +66,7 @@ class Points(_Columns):
         )
 
     @cached_property
-    def found(self) -> dict[str, float]:
+    def found(self) -> dict[str, Any]:
         """What functions have found out about the points, by name, to look it up again."""
         return {}
 

@@ -9,7 +9,8 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.store import BlockPoints
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.grids.cells import spacing
+from bare_earth.algorithms.filters.stages.noise import noise_of_squares
+from bare_earth.algorithms.grids.cells import Cells, spacing
 from bare_earth.algorithms.tools.ground import step
 from bare_earth.algorithms.tools.ground.labelling import blocks_of
 from bare_earth.algorithms.tools.ground.surroundings import near, tell_spacing, thinned
@@ -81,3 +82,18 @@ def test_blocks_with_thinned_surroundings_give_the_labels_of_the_whole(
         bare_earth.classify(files, tmp_path / "out", method=method)
         found = points_of(finished(tmp_path / "out"))
         assert np.array_equal(found, points_of([tmp_path / "blocks.las"]))
+
+
+def test_the_noise_is_that_of_points_that_are_not_thinned():
+    whole = contents(500_000)
+    left = thinned(whole, BOX).points
+    inside = left.take(left.within(BOX))
+    assert noise_in(left) != noise_in(inside)  # the lowest points of cells scatter less
+    tell_spacing(left, BOX)
+    assert noise_in(left) == noise_in(inside) > 0.2
+
+
+def noise_in(points):
+    cells = Cells.over(points, 1.0)
+    level = np.zeros(cells.shape)
+    return noise_of_squares(points, cells, level, (level, level))

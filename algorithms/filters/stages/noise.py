@@ -26,6 +26,9 @@ _NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
 # The lowest of n points lies below the ground by so many times the noise, times sqrt(2 ln n).
 _LOWEST_FACTOR = 0.8
 _POINTS_A_PART, _POINTS_A_SUM = 1 << 15, 1 << 19
+# Under this name points tell the box outside of which only the lowest of them are left: these are
+# less noisy than all.
+UNTHINNED = "unthinned"
 
 
 def middle_of_noise(
@@ -38,7 +41,7 @@ def middle_of_noise(
     # number of points; then the points near the guess are averaged.
     rises = _rises(points, cells, surface, slopes)
     sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
-    noise = _noise(sums, _NOISE_PERCENTILE)
+    noise = _noise(sums[:, _unthinned(points, cells)], _NOISE_PERCENTILE)
     level = below_middle(np.maximum(sums[0], 1)) * noise
     for _ in range(_MEANS if noise else 0):
         count, total = _sums(rises, level, _NOISE_FACTOR * noise, powers=1)
@@ -55,9 +58,20 @@ def noise_of_squares(
     # It is a little too large, because it includes the errors of the surface.
     rises = _rises(points, cells, surface, slopes)
     sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
+    sums *= _unthinned(points, cells)
     squares = CellBlocks.over(cells, _SQUARE * cells.size)
     sums = np.array([squares.total(values.reshape(cells.shape)).ravel() for values in sums])
     return round(_noise(sums, _SQUARE_PERCENTILE), 2)
+
+
+def _unthinned(points: Points, cells: Cells) -> np.ndarray:
+    """Return the cells (cells,) in which all points are there, by their middles."""
+    west, south, east, north = points.found.get(UNTHINNED, (-np.inf, -np.inf, np.inf, np.inf))
+    y, x = (
+        (first + np.arange(count) + 0.5) * cells.size
+        for first, count in zip(cells.first, cells.shape)
+    )
+    return np.logical_and.outer((y >= south) & (y < north), (x >= west) & (x < east)).ravel()
 
 
 def below_middle(number: np.ndarray) -> np.ndarray:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...core.points import Box, Points
 from ...engine.store import BlockPoints
+from ...filters.stages.noise import UNTHINNED
 from ...grids.cells import Cells, keep_spacing
 
 # The box that all points are in.
@@ -47,9 +48,10 @@ def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
 
 
 def tell_spacing(points: Points, box: Box) -> None:
-    """Let points have the spacing of those in a box, which are not thinned."""
+    """Let points have the spacing and the noise of those in a box, which are not thinned."""
     if points.are_within(box):
         return
     inside = points.within(box)
     if inside.any():
         keep_spacing(points, points.take(inside))
+        points.found[UNTHINNED] = box
