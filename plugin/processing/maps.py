@@ -85,11 +85,13 @@ class MapAlgorithm(ToolAlgorithm):
         words += [paths[output.name] for output in self._outputs if output.is_main]
         options: dict[str, Any] = {"method": self._tool.method}
         for declared in self._inputs:
-            options.update(self._given[declared.name].options)
+            # The CRS is told of several inputs, and stated in one.
+            given = self._given[declared.name].options
+            options.update((option, value) for option, value in given.items() if value)
         options.update(
             (output.option, paths[output.name]) for output in self._outputs if not output.is_main
         )
-        extent = options.pop("extent")
+        extent = options.pop("extent", None)
         line = command_line(self._tool.command, words, as_command(chosen), options)
         return " ".join([line, "--extent", *extent] if extent else [line])
 
