@@ -81,18 +81,9 @@ class MapAlgorithm(ToolAlgorithm):
         """Return the command line that does the same without QGIS."""
         if not any(paths.values()):
             raise Refusal(mark("Choose at least one raster to make."))
-        words = [word for found in self._given.values() for word in found.arguments]
-        words += [paths[output.name] for output in self._outputs if output.is_main]
-        options: dict[str, Any] = {"method": self._tool.method}
-        for declared in self._inputs:
-            # The CRS is told of several inputs, and stated in one.
-            given = self._given[declared.name].options
-            options.update((option, value) for option, value in given.items() if value)
-        options.update(
-            (output.option, paths[output.name]) for output in self._outputs if not output.is_main
-        )
+        options = {"method": self._tool.method, **self._options(paths)}
         extent = options.pop("extent", None)
-        line = command_line(self._tool.command, words, as_command(chosen), options)
+        line = command_line(self._tool.command, self._words(paths), as_command(chosen), options)
         return " ".join([line, "--extent", *extent] if extent else [line])
 
 

@@ -168,14 +168,6 @@ class ToolAlgorithm(BareEarthAlgorithm):
 
     def _command(self, paths: dict[str, str], chosen: list[ParameterSet]) -> str:
         """Return the command line that does the same without QGIS."""
-        words = [word for found in self._given.values() for word in found.arguments]
-        words += [paths[output.name] for output in self._outputs if output.is_main]
-        options: dict[str, Any] = {}
-        for declared in self._inputs:
-            options.update(self._given[declared.name].options)
-        options.update(
-            (output.option, paths[output.name]) for output in self._outputs if not output.is_main
-        )
         # The command can have other defaults.
         sets = [
             of_command(**vars(values))
@@ -183,7 +175,24 @@ class ToolAlgorithm(BareEarthAlgorithm):
             for values in chosen
             if isinstance(values, of_command)
         ]
-        return command_line(self._tool.command, words, sets, options)
+        return command_line(self._tool.command, self._words(paths), sets, self._options(paths))
+
+    def _words(self, paths: dict[str, str]) -> list[str]:
+        """Return the arguments of the command without a flag."""
+        words = [word for found in self._given.values() for word in found.arguments]
+        return words + [paths[output.name] for output in self._outputs if output.is_main]
+
+    def _options(self, paths: dict[str, str]) -> dict[str, Any]:
+        """Return the options of the command for inputs and outputs."""
+        options: dict[str, Any] = {}
+        for declared in self._inputs:
+            # Several inputs have an option for the CRS, which one of them gives.
+            found = self._given[declared.name].options
+            options.update((option, value) for option, value in found.items() if value)
+        options.update(
+            (output.option, paths[output.name]) for output in self._outputs if not output.is_main
+        )
+        return options
 
 
 class FileToolAlgorithm(ToolAlgorithm):
