@@ -5,14 +5,14 @@ from __future__ import annotations
 import contextlib
 from dataclasses import asdict
 from pathlib import Path
-from typing import Callable, Iterable, Iterator
+from typing import Callable, Iterator, Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..core.files import temporary_folder
 from ..core.progress import SILENT, PassingOn, Progress
 from ..core.version import __version__
 from ..engine.workers import Workers
-from ..survey.files import Survey, is_one_file, open_survey
+from ..survey.files import Inputs, Sources, Survey, open_survey
 from ..survey.shapes import Place
 from ..tools import POINT_TOOLS
 from .folder import PAGE, DeliveryFolder
@@ -23,17 +23,16 @@ from .summary import DeliverySummary
 
 
 def deliver(
-    sources: str | Path | Iterable[str | Path],
+    sources: Sources,
     folder: str | Path,
     request: DeliveryRequest = DeliveryRequest(),
     progress: Progress = SILENT,
     workers: Workers | None = None,
 ) -> DeliverySummary:
     """Make all outputs of a job from raw points: a delivery."""
-    given = [sources] if isinstance(sources, (str, Path)) else list(sources)
-    paths, place = [Path(path) for path in given], DeliveryFolder(Path(folder))
+    paths, place = Inputs(sources), DeliveryFolder(Path(folder))
     place.check(paths)
-    is_one = is_one_file(paths)
+    is_one = not paths.is_survey
     messages = _Messages(progress)
     survey = _opened(paths, request, messages)
     if not is_one:
@@ -109,7 +108,7 @@ class _Messages(PassingOn):
                 kept.append(text)
 
 
-def _opened(paths: list[Path], request: DeliveryRequest, progress: Progress) -> Survey:
+def _opened(paths: Sequence[Path], request: DeliveryRequest, progress: Progress) -> Survey:
     """Open the files, and refuse now what would fail after hours."""
     recursive, stated = request.files.recursive, request.stated
     survey = open_survey(paths, recursive, progress.part(0.0, 0.01), stated)

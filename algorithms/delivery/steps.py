@@ -19,7 +19,7 @@ from ..report.units import Units
 from ..runs.entry import classify, terrain, write
 from ..runs.requests import TerrainRequest
 from ..survey.feature_files import feature_writer
-from ..survey.files import Survey, open_survey
+from ..survey.files import Inputs, Survey, open_survey
 from ..survey.overview import overview_of
 from ..survey.shapes import Place
 from ..tools import file_tool, point_tool
@@ -48,7 +48,7 @@ class DeliverySteps:
 
     request: DeliveryRequest
     survey: Survey  # the raw files
-    sources: list[Path]  # files and folders as the user gave them
+    sources: Inputs  # files and folders as the user gave them
     is_one: bool  # file
     work: DeliveryFolder  # where outputs are made that get their places at the end
     folder: DeliveryFolder  # where many files are classified, as finished ones stay after a cancel

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Callable
 from ..core.progress import SILENT, Progress
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
+from ..survey.files import Inputs
 
 if TYPE_CHECKING:
     from ..engine.memory import Resources
@@ -37,11 +38,6 @@ def progress_of(given: Any) -> Progress:
     if given is None or isinstance(given, Progress):
         return given or SILENT
     return CallingProgress(given)
-
-
-def paths_of(sources: Any) -> list[Path]:
-    """Return paths, given one or several."""
-    return [Path(sources)] if isinstance(sources, (str, Path)) else [Path(path) for path in sources]
 
 
 def path_of(given: Any) -> Path | None:
@@ -120,19 +116,18 @@ def checkpoints_of(values: SimpleNamespace) -> Checkpoints | None:
     return None if given is None else Checkpoints.of(given)
 
 
-def run_on(values: SimpleNamespace, resources: Resources) -> tuple[Workers | None, bool | None]:
-    """Return the workers for many files, and whether one file is a survey, too; the command line
-    works in processes.
+def inputs_of(values: SimpleNamespace, is_survey: bool = False) -> Inputs:
+    """Return the files; a cluster works on one file as on a survey, too."""
+    return Inputs(values.sources, True if is_survey or values.scheduler else None)
+
+
+def workers_of(values: SimpleNamespace, resources: Resources) -> Workers | None:
+    """Return the workers for many files: None for threads of this process; the command line works
+    in processes.
     """
     scheduler = values.scheduler
-    as_survey = True if scheduler else None
     if scheduler is None and getattr(values, "in_processes", False):
         scheduler = PROCESSES
-    return workers_of(scheduler, resources), as_survey
-
-
-def workers_of(scheduler: str | None, resources: Resources) -> Workers | None:
-    """Return the workers for many files: None for threads of this process."""
     if scheduler is None:
         return None
     if scheduler == PROCESSES:

@@ -20,8 +20,8 @@ from .given import (
     constraints_of,
     corrections_of,
     progress_of,
-    run_on,
     target_of,
+    workers_of,
 )
 from .tools import of_tool
 
@@ -43,7 +43,7 @@ def _deliver() -> Function:
             corrections=corrections_of(values), area=area_of(values),
             constraints=constraints_of(values), raster_target=target_of(values),
         )  # fmt: skip
-        workers, _ = run_on(values, request.resources)
+        workers = workers_of(values, request.resources)
         progress = progress_of(values.progress)
         return deliver(values.sources, values.output, request, progress, workers)
 

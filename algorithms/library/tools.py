@@ -13,6 +13,7 @@ from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
+from ..survey.files import Inputs
 from ..survey.ground_classes import GroundClasses
 from ..survey.vector_files import FORMATS
 from ..tools import FILE_TOOLS, MAP_TOOLS, POINT_TOOLS, file_tool, map_tool, point_tool
@@ -25,13 +26,13 @@ from .given import (
     checkpoints_of,
     constraints_of,
     corrections_of,
+    inputs_of,
     is_automatic,
     path_of,
-    paths_of,
     polygons_of,
     progress_of,
-    run_on,
     target_of,
+    workers_of,
 )
 
 CLASSIFIED = replace(arguments.SOURCES, help=f"classified {arguments.SOURCES.help}")
@@ -129,7 +130,7 @@ def _input(declared: Input, values: SimpleNamespace) -> Any:
         return checkpoints_of(values)
     value = getattr(values, declared.name)
     if declared.kind == "clouds":
-        return paths_of(value)
+        return Inputs(value)
     if declared.kind == "words":
         return tuple(value or ())
     if value is None or declared.kind == "crs":
@@ -147,12 +148,14 @@ def _of_point_tool(command: str) -> Function:
         from ..runs.entry import write
         from ..runs.requests import PointRequest
 
-        progress, inputs = progress_of(values.progress), {}
+        progress, inputs, given = progress_of(values.progress), inputs_of(values), {}
         for declared in tool.inputs:
-            inputs[declared.name], progress = _tool_input(tool, declared, values, sets, progress)
-        request = PointRequest.of(tool, sets, inputs, values.crs)
-        workers, as_survey = run_on(values, request.resources)
-        return write(values.sources, values.output, request, progress, workers, as_survey)
+            given[declared.name], progress = _tool_input(
+                tool, declared, values, inputs, sets, progress
+            )
+        request = PointRequest.of(tool, sets, given, values.crs)
+        workers = workers_of(values, request.resources)
+        return write(inputs, values.output, request, progress, workers)
 
     return Function(
         POINT_TOOLS[command].file,
@@ -180,17 +183,18 @@ def _of_map_tool(command: str) -> Function:
         from ..runs.entry import make
         from ..runs.requests import map_request
 
-        progress, inputs = progress_of(values.progress), {}
+        progress, given = progress_of(values.progress), {}
+        inputs = inputs_of(values, tool.is_survey)
         for declared in tool.inputs:
-            inputs[declared.name], progress = _tool_input(tool, declared, values, sets, progress)
+            given[declared.name], progress = _tool_input(
+                tool, declared, values, inputs, sets, progress
+            )
         outputs = _outputs_of(tool, values)
-        request = map_request(tool, sets, outputs, crs=values.crs, **inputs)
-        workers, as_survey = run_on(values, request.resources)
+        request = map_request(tool, sets, outputs, crs=values.crs, **given)
+        workers = workers_of(values, request.resources)
         if tool.classifies:
             outputs.update(output=Path(values.output), vpc=path_of(values.vpc))
-        return make(
-            values.sources, outputs, request, progress, workers, tool.is_survey or as_survey
-        )
+        return make(inputs, outputs, request, progress, workers)
 
     first = [_argument_of(output) for output in tool.all_outputs if not output.advanced]
     inputs = [argument for declared in tool.inputs for argument in _arguments_of(declared)]
@@ -221,7 +225,12 @@ def _outputs_of(tool: Tool, values: SimpleNamespace) -> dict[str, Path | None]:
 
 
 def _tool_input(
-    tool: Tool, declared: Input, values: SimpleNamespace, sets: list[Any], progress: Progress
+    tool: Tool,
+    declared: Input,
+    values: SimpleNamespace,
+    inputs: Inputs,
+    sets: list[Any],
+    progress: Progress,
 ) -> tuple[Any, Progress]:
     """Return a further input of a tool as its run has it, and what is left of the progress."""
     from ..survey.outputs import check_outputs
@@ -241,10 +250,10 @@ def _tool_input(
         given = None if is_found else declared.of(polygons_of(getattr(values, declared.name)))
     if not is_found or declared.found is None:
         return given, progress
-    paths, places = paths_of(values.sources), _outputs_of(tool, values)
+    places = _outputs_of(tool, values)
     kinds = [(output.kind, places[output.name]) for output in tool.all_outputs]
     # To find polygons can take minutes.
-    check_outputs([(kind, path) for kind, path in kinds if path is not None], paths)
+    check_outputs([(kind, path) for kind, path in kinds if path is not None], inputs)
     ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
-    found = declared.found(paths, ground, values.crs, part)
+    found = declared.found(inputs, ground, values.crs, part)
     return (found if given is None else given.with_water(found, part)), progress.part(0.4, 1.0)

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.files import temporary_folder
 from ..core.progress import SILENT, Progress
 from ..rasters.virtual import virtual_of
-from ..survey.files import is_one_file
+from ..survey.files import Inputs, Sources
 from ..survey.outputs import check_outputs
 from ..tools.contours import Interval, write_contours
 from ..tools.rasters.output import RasterSize
@@ -24,7 +24,6 @@ from .requests import ClassifyRequest, PointRequest, RasterRequest, TerrainReque
 if TYPE_CHECKING:
     from ..engine.workers import Workers
 
-Sources = Union[str, Path, Iterable[Union[str, Path]]]
 _Request = TypeVar("_Request", bound=RasterRequest)
 
 
@@ -35,19 +34,18 @@ def classify(
     progress: Progress = SILENT,
     workers: Workers | None = None,
     vpc: Path | None = None,
-    as_survey: bool | None = None,
 ) -> Any:
     """Classify the ground points of a file, or of many files as one survey."""
-    paths, target = _paths(sources), Path(output)
+    inputs, target = Inputs(sources), Path(output)
 
     def run(request: ClassifyRequest, progress: Progress) -> Any:
-        if _is_one(paths, as_survey):
-            return classify_file(paths[0], target, request, progress)
+        if not inputs.is_survey:
+            return classify_file(inputs[0], target, request, progress)
         from .many_files import classify_files
 
-        return classify_files(paths, target, request, progress, workers, vpc)
+        return classify_files(inputs, target, request, progress, workers, vpc)
 
-    return with_contours(run, paths, request, progress)[0]
+    return with_contours(run, inputs, request, progress)[0]
 
 
 def terrain(
@@ -57,21 +55,21 @@ def terrain(
     workers: Workers | None = None,
 ) -> RasterSize:
     """Write rasters of the terrain and of the objects on it; all of them or none."""
-    paths = _paths(sources)
+    inputs = Inputs(sources)
     if not request.rasters.wanted and request.contour_lines is None:
         raise BareEarthError("Choose at least one raster to make.")
     if not request.ground.ground_classes:
         raise BareEarthError("Choose at least one ground class.")
-    check_outputs(request.rasters.outputs(), paths)
+    check_outputs(request.rasters.outputs(), inputs)
 
     def run(request: TerrainRequest, progress: Progress) -> RasterSize:
-        if _is_one(paths):
-            return rasters_of_file(paths[0], request, progress)
+        if not inputs.is_survey:
+            return rasters_of_file(inputs[0], request, progress)
         from .many_files import rasters_of_files
 
-        return rasters_of_files(paths, request, progress, workers)
+        return rasters_of_files(inputs, request, progress, workers)
 
-    return with_contours(run, paths, request, progress)[0]
+    return with_contours(run, inputs, request, progress)[0]
 
 
 def make(
@@ -80,18 +78,17 @@ def make(
     request: ClassifyRequest | TerrainRequest,
     progress: Progress = SILENT,
     workers: Workers | None = None,
-    as_survey: bool | None = None,
 ) -> Any:
     """Write what a request of `map_request` asks for, given its outputs."""
     if isinstance(request, TerrainRequest):
         return terrain(sources, request, progress, workers)
     cloud, vpc = outputs["output"] or Path(), outputs.get("vpc")
-    return classify(sources, cloud, request, progress, workers, vpc, as_survey)
+    return classify(sources, cloud, request, progress, workers, vpc)
 
 
 def with_contours(
     run: Callable[[_Request, Progress], Any],
-    sources: list[Path],
+    sources: Sequence[Path],
     request: _Request,
     progress: Progress,
 ) -> tuple[Any, Interval | None]:
@@ -124,20 +121,9 @@ def write(
     vpc: Path | None = None,
 ) -> Any:
     """Write classified files with what the step of a request finds; for `vpc`, see `classify`."""
-    paths, target = _paths(sources), Path(output)
-    if _is_one(paths, as_survey):
-        return write_points(paths[0], target, request, progress)
+    inputs, target = Inputs(sources, as_survey), Path(output)
+    if not inputs.is_survey:
+        return write_points(inputs[0], target, request, progress)
     from .many_files import write_files
 
-    return write_files(paths, target, [request.step], request, progress, workers, vpc)
-
-
-def _is_one(paths: list[Path], as_survey: bool | None = None) -> bool:
-    """Return whether a run works on one file."""
-    return is_one_file(paths) if as_survey is None else not as_survey
-
-
-def _paths(sources: Sources) -> list[Path]:
-    if isinstance(sources, (str, Path)):
-        return [Path(sources)]
-    return [*map(Path, sources)]
+    return write_files(inputs, target, [request.step], request, progress, workers, vpc)

@@ -11,7 +11,7 @@ from typing import NamedTuple, Sequence
 from ..core.files import Outputs, temporary_folder
 from ..core.progress import SILENT, Progress
 from ..engine.options import TileOutput
-from ..survey.files import is_one_file
+from ..survey.files import Inputs
 from ..survey.outputs import check_outputs, place
 from ..tools.contours import Interval
 from ..tools.ground.output import Output
@@ -65,7 +65,8 @@ def make_maps(
     wanted = [files.cloud, *files.rasters.wanted.values(), files.contours]
     folders = [path.parent for path in wanted if path]
     beside = next((folder for folder in folders if folder.is_dir()), Path(tempfile.gettempdir()))
-    is_one = is_one_file(sources)
+    sources = Inputs(sources)
+    is_one = not sources.is_survey
     # All or none: the outputs get their names when all of them are finished.
     with temporary_folder(beside) as waiting, Outputs() as outputs:
         cloud = files.cloud or waiting / "cloud.las"

@@ -7,7 +7,7 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Iterable, Iterator, Sequence
+from typing import Iterable, Iterator, Tuple, Union
 
 import numpy as np
 
@@ -26,10 +26,27 @@ from .overview import is_overview
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import no_extent, read_vpc
 
+# What users give: a path, or several.
+Sources = Union[str, Path, Iterable[Union[str, Path]]]
 _CLOUDS = (".las", ".laz")
 _LISTS = (".txt", ".lst", ".list")
 # Most names in a sentence. It gives the number of the others.
 _MOST_NAMES = 3
+
+
+class Inputs(Tuple[Path, ...]):
+    """The files, folders and lists that a user gives: one file, or a survey of many."""
+
+    is_survey: bool
+
+    def __new__(cls, sources: Sources, is_survey: bool | None = None) -> Inputs:
+        """Return them; a single file is no survey unless `is_survey`."""
+        if isinstance(sources, Inputs) and is_survey is None:
+            return sources
+        new = super().__new__(cls, map(Path, _several(sources)))
+        is_file = len(new) == 1 and not new[0].is_dir() and is_cloud(new[0])
+        new.is_survey = not is_file if is_survey is None else is_survey
+        return new
 
 
 @dataclass(frozen=True)
@@ -71,7 +88,7 @@ class Survey:
 
 
 def open_survey(
-    sources: Iterable[Path],
+    sources: Sources,
     recursive: bool = False,
     progress: Progress = SILENT,
     stated: str | None = None,
@@ -79,9 +96,9 @@ def open_survey(
     """Find the files of a survey in sources as of `find_files`, and read their headers; refuse a
     survey if nothing can be read, or the files differ in CRS or units.
     """
-    sources = [Path(sources)] if isinstance(sources, (str, Path)) else [*map(Path, sources)]
-    paths = find_files(sources, recursive, progress)
-    files = [source for source in sources if not source.is_dir()]
+    inputs = Inputs(sources)
+    paths = find_files(inputs, recursive, progress)
+    files = [path for path in inputs if not path.is_dir()]
     named = set(map(_key, find_files(files, may_be_none=True)))
     notes, tiles, found, broken = Notes(), [], [], []
     for number, path in enumerate(paths, start=1):
@@ -109,7 +126,7 @@ def open_survey(
 
 
 def find_files(
-    sources: Iterable[Path],
+    sources: Sources,
     recursive: bool = False,
     progress: Progress = SILENT,
     may_be_none: bool = False,
@@ -117,16 +134,18 @@ def find_files(
     """Return the paths of all point clouds in files, folders (with subfolders if recursive), .vpc,
     and .txt with one path in each line relative to it, sorted, without duplicates.
     """
-    if isinstance(sources, (str, Path)):
-        sources = [Path(sources)]
     found: dict[str, Path] = {}
-    for source in sources:
+    for source in _several(sources):
         for path in _expand(Path(source), recursive, progress):
             found.setdefault(_key(path), path)
     if not found and not may_be_none:
-        names = ", ".join(map(str, sources)) or "what was given"
+        names = ", ".join(map(str, _several(sources))) or "what was given"
         raise BareEarthError(f"No .las, .laz or .copc.laz file is found in {names}.")
     return sorted(found.values(), key=lambda path: path.as_posix())
+
+
+def _several(sources: Sources) -> Iterable[str | Path]:
+    return (sources,) if isinstance(sources, (str, Path)) else sources
 
 
 def _key(path: Path) -> str:
@@ -180,11 +199,6 @@ def _tell_of_files_elsewhere(source: Path, paths: list[Path], progress: Progress
 def is_cloud(path: Path) -> bool:
     """Return whether a path has the suffix of a point cloud."""
     return path.suffix.lower() in _CLOUDS
-
-
-def is_one_file(paths: Sequence[Path]) -> bool:
-    """Return whether the input is a single point cloud file, not a folder or a list."""
-    return len(paths) == 1 and not paths[0].is_dir() and is_cloud(paths[0])
 
 
 def _listed(source: Path) -> list[Path]:

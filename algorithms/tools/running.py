@@ -10,6 +10,7 @@ from typing import Any, Mapping, Sequence
 from ..core.files import Outputs, new_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
+from ..survey.files import Inputs
 from ..survey.outputs import check_outputs, place
 from .declaration import FileTool
 
@@ -28,6 +29,9 @@ def run(
     """
     given: dict[str, Any] = {declared.name: None for declared in tool.inputs}
     given.update({output.name: None for output in tool.outputs}, **inputs)
+    for declared in tool.inputs:
+        if declared.kind == "clouds":
+            given[declared.name] = Inputs(given[declared.name] or ())
     paths = {name: Path(path) for name, path in outputs.items() if path}
     wanted = [
         (output, paths[output.name], output.paths(paths[output.name], sets))

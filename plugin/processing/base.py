@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from html import escape
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Iterable, Iterator, Mapping
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -22,6 +22,7 @@ from ...algorithms.core.commands import shell_line
 from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.core.parameters import Declaration, ParameterSet, shown_value
 from ...algorithms.las.backends import install_hint, missing_packages
+from ...algorithms.survey.files import Inputs
 from .. import compat
 from ..help_pages import address_of
 from ..i18n import mark, tr
@@ -55,7 +56,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     shown: tuple[str, ...] | None = None  # parameters that are not advanced; None: as declared
     stated: str | None = None  # the CRS that the user states; set before `prepare`
     unused: tuple[str, ...] = ()  # parameters without a field, since no output depends on them
-    inputs: Sequence[Path] = ()  # files and folders; set by `find_inputs`
+    inputs = Inputs((), is_survey=False)  # files and folders; set by `find_inputs`
     _has_page = False
 
     def __init__(self) -> None:

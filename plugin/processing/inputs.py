@@ -36,7 +36,7 @@ from ...algorithms.crs.system import Crs
 from ...algorithms.las.crs_records import read_crs
 from ...algorithms.las.opening import open_las
 from ...algorithms.survey.area import Polygon
-from ...algorithms.survey.files import find_files, open_survey
+from ...algorithms.survey.files import Inputs, find_files, open_survey
 from .. import compat
 from ..i18n import mark, tr
 from ..styles.loaded import filter_of, has_edits
@@ -146,7 +146,7 @@ def _add_folder(algorithm: QgsProcessingAlgorithm) -> None:
 
 def survey_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
-) -> list[Path]:
+) -> Inputs:
     """Return the inputs in the fields of `add_survey`, at least one, which must exist."""
     paths = []
     if not compat.is_empty(parameters.get("INPUT")):
@@ -157,7 +157,7 @@ def survey_of(
     paths += [Path(folder)] if folder else []
     if not paths:
         raise Refusal(mark("Choose a point cloud, or a folder of them."))
-    return paths
+    return Inputs(paths)
 
 
 def name_of(path: Path) -> str:

@@ -8,7 +8,6 @@ from typing import Any
 from qgis.core import QgsProcessingContext
 
 from ...algorithms.core.parameters import ParameterSet
-from ...algorithms.survey.files import is_one_file
 from ...algorithms.tools import map_tool
 from ...algorithms.tools.declaration import MapTool
 from ...algorithms.tools.ground.tool import METHOD_TOOLS, as_command
@@ -52,8 +51,7 @@ class MapAlgorithm(ToolAlgorithm):
         paths = {name: Path(path) for name, path in outputs.items() if path}
         given = {declared.name: inputs[declared.name] for declared in tool.inputs}
         request = map_request(tool, as_command(chosen), paths, crs=self.stated, **given)
-        as_survey = tool.is_survey if tool.classifies else None
-        done = make(self.inputs, paths, request, progress, as_survey=as_survey)
+        done = make(self.inputs, paths, request, progress)
         if tool.is_survey:
             progress.info(f"{done.text}.")
             outputs["vpc"] = done.vpc
@@ -64,7 +62,7 @@ class MapAlgorithm(ToolAlgorithm):
             progress.info(f"The rasters have {done.columns:,} x {done.rows:,} cells.")
         fields = {output.name: output.field_name for output in self._outputs}
         results = {fields[name]: path for name, path in outputs.items() if path}
-        if tool.is_survey or not (tool.classifies or is_one_file(self.inputs)):
+        if self.inputs.is_survey:
             rasters = {output.field_name for output in self._outputs if output.kind == "raster"}
             drawn = {name: path for name, path in results.items() if name in rasters}
             results.update(shown_rasters(drawn, RasterOutput.among(chosen), context))

@@ -16,6 +16,7 @@ from qgis.core import (
 
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.survey.files import Inputs
 from ...algorithms.tools.contours import Interval
 from ...algorithms.tools.declaration import CANOPY, CLOUD, GROUND, TERRAIN
 from ...algorithms.tools.ground.method import TileMethod
@@ -115,7 +116,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         if possible:
             try:
                 source = Path(self.parameterAsFile(parameters, "INPUT", context))
-                check_outputs(self, parameters, context, [source])
+                check_outputs(self, parameters, context, Inputs(source))
             except BareEarthError as error:
                 possible, text = False, str(error)
         return possible, text

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Iterable, Sequence
+from typing import Any, Iterable
 
 from qgis.core import (
     QgsProcessing,
@@ -18,7 +18,7 @@ from qgis.core import (
 from ...algorithms.core.files import split_name
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from ...algorithms.rasters.virtual import virtual_of
-from ...algorithms.survey.files import is_one_file
+from ...algorithms.survey.files import Inputs
 from ...algorithms.tools.rasters.parameters import RasterOutput
 from ...algorithms.tools.rasters.rows import RASTERS, RasterFiles
 from .. import compat
@@ -27,9 +27,9 @@ NOTHING_STAYS = "Cancelled; nothing was written."
 TILES_STAY = "Cancelled. The finished tiles stay, and a later run can continue with them."
 
 
-def after_cancel(sources: Sequence[Path]) -> str:
+def after_cancel(inputs: Inputs) -> str:
     """Return the message in the log after a cancel, for one file or for many."""
-    return NOTHING_STAYS if is_one_file(sources) else TILES_STAY
+    return TILES_STAY if inputs.is_survey else NOTHING_STAYS
 
 
 def add_rasters(

@@ -18,7 +18,7 @@ from qgis.core import (
 from ...algorithms.core.files import split_name
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
-from ...algorithms.survey.files import is_one_file
+from ...algorithms.survey.files import Inputs
 from ...algorithms.survey.ground_classes import GroundClasses
 from ...algorithms.survey.kept_classes import GROUND
 from ...algorithms.survey.outputs import check_outputs
@@ -103,7 +103,9 @@ class ToolAlgorithm(BareEarthAlgorithm):
             for declared in self._inputs
             if declared.kind in _FILES
         }
-        self.inputs = [path for found in self._given.values() for path in found.paths]
+        paths = [path for found in self._given.values() for path in found.paths]
+        kind = next(declared.kind for declared in self._inputs if declared.kind in _FILES)
+        self.inputs = Inputs(paths, {"cloud": False, "files": True}.get(kind))
         self.subject = next(found.name for found in self._given.values() if found.name)
 
     def prepare(
@@ -159,7 +161,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         """
         _, parameters, context, progress = request
         path = self.point_cloud_destination(parameters, name, context)
-        if not is_one_file(self.inputs):
+        if self.inputs.is_survey:
             do_not_load(context, [path])
             return str(Path(path).with_name(split_name(Path(path))[0]))
         if not compat.can_load(path):
@@ -286,9 +288,9 @@ class PointToolAlgorithm(ToolAlgorithm):
             if declared.name in inputs:
                 further[declared.name] = value
         request = PointRequest.of(self._tool, chosen, further, self.stated)
-        found = write(self.inputs[0], Path(output), request, progress.part(start, 1.0))
+        found = write(self.inputs, Path(output), request, progress.part(start, 1.0))
         progress.info(found.text)
-        if not is_one_file(self.inputs):
+        if self.inputs.is_survey:
             output = found.vpc
             if compat.can_load(output):
                 compat.load_point_cloud(output, context)

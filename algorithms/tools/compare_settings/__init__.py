@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any
 
 from ...core.errors import BareEarthError
 from ...core.points import Box
@@ -13,6 +13,7 @@ from ...core.threads import may_use
 from ...engine.file_points import fits_in_memory
 from ...engine.memory import Resources
 from ...report.units import Units
+from ...survey.files import Inputs
 from ..declaration import CLOUD, CRS, GROUND, TERRAIN, FileTool, Input, Output
 from .page import comparison, figures_of
 from .profile import Profile, line_across, line_between
@@ -43,7 +44,7 @@ class TrialSummary:
 
 
 def compare(
-    sources: Sequence[Path],
+    sources: Inputs,
     extent: Box | None,
     crs: str | None,
     page: Path,

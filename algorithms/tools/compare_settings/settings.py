@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, NamedTuple, Sequence
+from typing import Any, NamedTuple
 
 from ...core.commands import shell_line
 from ...core.errors import BareEarthError
@@ -12,7 +11,7 @@ from ...core.files import split_name
 from ...core.parameters import ParameterSet, parameter
 from ...filters import METHODS
 from ...filters.method import Method
-from ...survey.files import is_one_file
+from ...survey.files import Inputs
 from ..ground.method import TileMethod
 
 # By default at most so many metres are read round the window.
@@ -36,11 +35,11 @@ class Setting(NamedTuple):
         """The parameters of the method."""
         return self.method.parameters(preset=self.preset)
 
-    def commands(self, paths: Sequence[Path], crs: str | None) -> tuple[str, str]:
+    def commands(self, paths: Inputs, crs: str | None) -> tuple[str, str]:
         """Return what runs the setting on all points of a file, or inputs of a survey: in a shell,
         and in the Python console of QGIS, which is empty if there is no such call.
         """
-        is_one, (stem, suffix) = is_one_file(paths), split_name(paths[0])
+        is_one, (stem, suffix) = not paths.is_survey, split_name(paths[0])
         output = f"{stem}_{self.name.replace(':', '_')}{suffix if is_one else ''}"
         target = paths[0].with_name(output)
         words = ["bare-earth", "classify", *map(str, paths), str(target)]

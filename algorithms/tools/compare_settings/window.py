@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import NamedTuple, Sequence
 
 import numpy as np
@@ -26,7 +25,7 @@ from ...las.lasfile import LasFile
 from ...las.opening import open_las
 from ...report.units import Units
 from ...survey.area import Area
-from ...survey.files import is_one_file, open_survey
+from ...survey.files import Inputs, open_survey
 from ...survey.middle import middle_window, nearest_window
 from ...survey.window import may_touch, read_window
 from ...tools.ground.step import LabelGround
@@ -170,18 +169,18 @@ class Window:
 
 
 def read_points(
-    paths: Sequence[Path], box: Box | None, context: float, progress: Progress, stated: str | None
+    inputs: Inputs, box: Box | None, context: float, progress: Progress, stated: str | None
 ) -> Window:
     """Read the points in a window, in units of the CRS, or in the middle of the survey, which a
     message tells, and in `context` metres round it.
     """
     # An error says if the window is invalid, too wide or empty.
     area, reading = None if box is None else Area(tuple(map(float, box))), progress
-    if is_one_file(paths):
-        las = open_las(paths[0], stated)
+    if not inputs.is_survey:
+        las = open_las(inputs[0], stated)
         files, crs, extent = [las], read_crs(las), las.box
     else:
-        survey = open_survey(paths, progress=progress.part(0.0, 0.1), stated=stated)
+        survey = open_survey(inputs, progress=progress.part(0.0, 0.1), stated=stated)
         files, crs, extent = survey.tiles, survey.crs, survey.box
         reading = progress.quiet()  # the messages were given
     require_measurable("The survey", crs, extent)
