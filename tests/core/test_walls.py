@@ -18,6 +18,7 @@ FLOORS = {
     "las": "core crs",
     "survey": "core crs las rasters",
     "rasters": "core crs grids",
+    "remote": "core crs las rasters survey",
     "filters": "core grids",
     "report": "core grids",
     "engine": "core crs las survey",

@@ -1,0 +1,80 @@
+"""Addresses of remote files: which are followed, and how they are shown without their secrets."""
+
+from __future__ import annotations
+
+import re
+from urllib.parse import quote, unquote, urljoin, urlsplit, urlunsplit
+
+from ..core.errors import BareEarthError
+
+WEB, STORES = ("http", "https"), ("s3", "gs", "az", "abfs")
+# Such as "s3://", but not a single letter: that is a drive of Windows.
+_SCHEME = re.compile(r"([a-z][a-z0-9+.-]+)://", re.IGNORECASE)
+# What must not be encoded again, since signatures depend on it.
+_SAFE = "%/:?&=#+@!$'()*,;~[]|"
+
+
+def is_address(text: str) -> bool:
+    """Return whether a text is an address, and not a path on this computer."""
+    return _SCHEME.match(text) is not None
+
+
+def checked(address: str) -> str:
+    """Return an address without spaces and other characters that servers do not know; refuse one
+    of another kind than those that are read here.
+    """
+    scheme = _SCHEME.match(address)
+    if scheme is None or scheme[1].lower() not in (*WEB, *STORES):
+        raise BareEarthError(
+            f"{shown(address)} cannot be fetched. Give an address that begins with https://, http://,"
+            " s3://, gs:// or az://."
+        )
+    try:
+        parts = urlsplit(quote(address.strip(), safe=_SAFE))
+        parts.port  # noqa: B018  a ValueError if it is no number
+    except ValueError:
+        parts = urlsplit("")
+    if not parts.hostname:
+        raise BareEarthError(f"{shown(address)} names no server. Check the address.")
+    return urlunsplit(parts._replace(fragment=""))
+
+
+def shown(address: str) -> str:
+    """Return an address without user, password, query and fragment, which may be secret."""
+    scheme = _SCHEME.match(address)
+    if scheme is None:
+        return address
+    host, slash, path = re.split("[?#]", address[scheme.end() :])[0].partition("/")
+    return f"{scheme[0]}{host.rpartition('@')[2]}{slash}{path}"
+
+
+def host_of(address: str) -> str:
+    """Return the server of an address, or what stands for it: the bucket of a store."""
+    return (urlsplit(address).hostname or "").lower()
+
+
+def name_of(address: str) -> str:
+    """Return the last part of the path of an address or of a path."""
+    path = urlsplit(address).path if is_address(address) else address.replace("\\", "/")
+    return unquote(path.rstrip("/").rpartition("/")[2])
+
+
+def ends_with(address: str, *endings: str) -> bool:
+    """Return whether the path of an address has one of some endings, whatever its query is."""
+    return name_of(address).lower().endswith(endings)
+
+
+def beside(address: str, name: str) -> str:
+    """Return the address of a file in the folder of another one, with the same query, in which the
+    signature of a whole folder may stand.
+    """
+    parts = urlsplit(address)
+    folder = parts.path.rpartition("/")[0]
+    return urlunsplit(parts._replace(path=f"{folder}/{name}"))
+
+
+def referred(base: str, reference: str) -> str:
+    """Return the address that a document at `base` refers to."""
+    if not is_address(base) or is_address(reference) or urlsplit(base).scheme in WEB:
+        return urljoin(base, reference)
+    return beside(base, reference)  # urljoin knows no stores

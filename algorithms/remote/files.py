@@ -1,0 +1,160 @@
+"""A file on a server, or on this computer, of which only some ranges are read."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import Iterable, NamedTuple, Protocol
+
+from ..core.errors import BareEarthError
+from ..core.progress import Progress
+from ..las.sources import open_source
+from .addresses import name_of, shown
+from .parts import Parts
+from .transfers import Transfers
+
+# Bytes of the first request: enough for the header and most records.
+_FIRST = 1 << 16
+# Fewer bytes than these are not worth a request.
+_LEAST = 1 << 14
+# Most bytes of a request of several pieces.
+_MOST = 1 << 23
+# Most bytes of a gap, and of all gaps in proportion to what is wanted.
+_WIDEST_GAP, _GAPS = 1 << 20, 0.12
+
+Range = tuple[int, int]  # first byte, and the one after the last
+
+
+class Plan(NamedTuple):
+    """The requests for some pieces of a file."""
+
+    requests: list[Range]  # without what is here already
+    size: int  # bytes of them
+
+
+class RangeFile(Protocol):
+    """A file of which ranges are read, by position as an open file."""
+
+    name: str
+    size: int
+    address: str
+
+    def plan(self, pieces: Iterable[Range]) -> Plan:
+        """Return the requests that give some pieces."""
+
+    def fetch(self, plan: Plan, progress: Progress) -> None:
+        """Get what was planned, before it is read."""
+
+    def seek(self, position: int, whence: int = 0) -> int:
+        """Move to a position."""
+
+    def read(self, count: int = -1) -> bytes:
+        """Return the bytes from the position on."""
+
+
+class RemoteFile(io.RawIOBase):
+    """A file on a server; what was not fetched before is asked for when it is read."""
+
+    def __init__(self, transfers: Transfers, address: str, folder: Path) -> None:
+        super().__init__()
+        self.address, self.name = address, name_of(address)
+        self._transfers, self._parts, self._position = transfers, Parts(folder, address), 0
+        # Asked for in any case, since it tells the version of the file.
+        self._head, self._state = transfers.one(lambda: transfers.read(address, 0, _FIRST, None))
+        self.size, self.kept = self._state.size, self._parts.begin(self._state)
+
+    def plan(self, pieces: Iterable[Range]) -> Plan:
+        """Return the requests that give some pieces, joined across gaps."""
+        missing = sorted(piece for piece in pieces if not self._has(*piece))
+        if any(stop > self.size for _, stop in missing):
+            raise BareEarthError(f"{shown(self.address)} is cut off. Check the address.")
+        requests = _joined(missing)
+        return Plan(requests, sum(stop - start for start, stop in requests))
+
+    def fetch(self, plan: Plan, progress: Progress) -> None:
+        """Get what was planned, in threads, and keep it on disk."""
+        tasks = [lambda piece=piece: self._fetch(*piece) for piece in plan.requests]
+        self._transfers.run(tasks, progress, plan.size)
+
+    def readable(self) -> bool:
+        """Return that it can be read."""
+        return True
+
+    def seekable(self) -> bool:
+        """Return that positions can be chosen."""
+        return True
+
+    def tell(self) -> int:
+        """Return the position."""
+        return self._position
+
+    def seek(self, position: int, whence: int = 0) -> int:
+        """Move to a position, relative to the start, here or the end."""
+        self._position = position + (0, self._position, self.size)[whence]
+        return self._position
+
+    def read(self, count: int = -1) -> bytes:
+        """Return the bytes from the position on."""
+        start = min(self._position, self.size)
+        stop = self.size if count < 0 else min(start + count, self.size)
+        data = self._kept(start, stop)
+        if data is None:
+            piece = start, min(max(stop, start + _LEAST), self.size)
+            self._transfers.one(lambda: self._fetch(*piece))
+            data = self._kept(start, stop)
+        if data is None:
+            raise BareEarthError(f"What was fetched of {self.name} has changed. Run it again.")
+        self._position = stop
+        return data
+
+    def _has(self, start: int, stop: int) -> bool:
+        return stop <= len(self._head) or self._parts.holding(start, stop) is not None
+
+    def _kept(self, start: int, stop: int) -> bytes | None:
+        """Return bytes that are here already."""
+        if stop <= len(self._head):
+            return self._head[start:stop]
+        return self._parts.read(start, stop)
+
+    def _fetch(self, start: int, stop: int) -> None:
+        data, _ = self._transfers.read(self.address, start, stop, self._state)
+        self._parts.add(start, data)
+
+
+class LocalFile(io.FileIO):
+    """A file on this computer, from which nothing has to be fetched."""
+
+    def __init__(self, path: str) -> None:
+        open_source(Path(path)).close()  # which says what is wrong
+        super().__init__(path, "rb")
+        self.address, self.name, self.kept = path, Path(path).name, 0
+        self.size = Path(path).stat().st_size
+
+    def plan(self, pieces: Iterable[Range]) -> Plan:
+        """Return that no request is needed."""
+        return Plan([], 0)
+
+    def fetch(self, plan: Plan, progress: Progress) -> None:
+        """Get nothing."""
+
+
+def _joined(pieces: list[Range]) -> list[Range]:
+    """Return sorted pieces as fewer requests, across the narrowest gaps."""
+    wanted = sum(stop - start for start, stop in pieces)
+    gaps = sorted(max(later[0] - piece[1], 0) for piece, later in zip(pieces, pieces[1:]))
+    allowed, total = 0, 0
+    for gap in gaps:
+        total += gap
+        if gap > _WIDEST_GAP or total > max(_GAPS * wanted, _LEAST):
+            allowed = min(allowed, gap - 1)
+            break
+        allowed = gap
+    requests: list[Range] = []
+    for start, stop in pieces:
+        if requests:
+            first, last = requests[-1]
+            if start - last <= allowed and max(stop, last) - first <= _MOST:
+                requests[-1] = first, max(stop, last)
+                continue
+        requests.append((start, stop))
+    return requests

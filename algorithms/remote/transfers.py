@@ -1,0 +1,185 @@
+"""Reads from servers in a few threads, again where an answer fails, while the caller can cancel."""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from typing import Callable, Protocol, Sequence, TypeVar
+from urllib.parse import urlsplit
+
+from ..core.errors import BareEarthError
+from ..core.progress import Progress
+from .addresses import STORES, host_of
+from .answers import State, Unfinished
+from .connections import WebReader
+from .object_stores import StoreReader
+
+_Result = TypeVar("_Result")
+
+# Servers allow about six connections.
+_THREADS = 6
+_ATTEMPTS = 6
+# Seconds before the second attempt, doubled before each further one, and the most that a server may
+# ask for.
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.25, 120.0
+# Seconds after which the caller looks again whether the user has cancelled.
+_BEAT = 0.1
+# Requests a second that hosts allow, by the ends of their names. IGN shuts out who asks for more.
+_LIMITS = {"geopf.fr": 9.0, "ign.fr": 9.0}
+
+
+class Reader(Protocol):
+    """Who makes single requests: here http.client or fsspec, in QGIS its network manager."""
+
+    # What it reads was checked as in `answers.py`. An answer that may be right at the next attempt
+    # is an `Unfinished`.
+    requests: int  # made so far
+    received: int  # bytes
+    notes: list[str]  # what the user should know, not yet told
+
+    def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
+        """Return bytes of a file, of the known version of it."""
+
+    def read_whole(self, address: str, most: int) -> bytes:
+        """Return a whole file of at most so many bytes."""
+
+    def close(self) -> None:
+        """End all connections, also those in use by other threads."""
+
+
+class _Pace:
+    """Keeps requests of all threads to a host apart."""
+
+    def __init__(self) -> None:
+        self._next: dict[str, float] = {}
+        self._lock = threading.Lock()
+
+    def pause(self, host: str) -> float:
+        """Return the seconds to wait before the next request."""
+        limits = [rate for end, rate in _LIMITS.items() if f".{host}".endswith(f".{end}")]
+        if not limits:
+            return 0.0
+        with self._lock:
+            now = time.monotonic()
+            start = max(now, self._next.get(host, now))
+            self._next[host] = start + 1.0 / min(limits)
+            return start - now
+
+
+# Of this process: two runs in QGIS share the limit of a host.
+_PACE = _Pace()
+
+
+class Transfers:
+    """Requests of a run, which end with the block."""
+
+    def __init__(self, progress: Progress, web: Reader | None = None) -> None:
+        self._progress, self._share = progress, 0.0
+        self._web, self._stores = web or WebReader(), StoreReader()
+        self._stopped = threading.Event()
+
+    def __enter__(self) -> Transfers:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self._stopped.set()
+        for reader in (self._web, self._stores):
+            reader.close()
+
+    @property
+    def requests(self) -> int:
+        """Number of requests so far."""
+        return self._web.requests + self._stores.requests
+
+    @property
+    def received(self) -> int:
+        """Bytes of answers so far."""
+        return self._web.received + self._stores.received
+
+    def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
+        """Return bytes of a file, of the known version of it, in as many attempts as it takes."""
+        reader = self._reader(address)
+        return self._patiently(address, lambda: reader.read(address, start, stop, known))
+
+    def read_whole(self, address: str, most: int) -> bytes:
+        """Return a whole file of at most so many bytes."""
+        reader = self._reader(address)
+        return self._patiently(address, lambda: reader.read_whole(address, most))
+
+    def run(
+        self,
+        tasks: Sequence[Callable[[], _Result]],
+        progress: Progress | None = None,
+        size: int = 0,
+    ) -> list[_Result]:
+        """Do tasks, which call `read`, in threads, and return their results in order; the progress
+        tells the share of `size` bytes.
+        """
+        # Not `core.threads`: these threads wait, and a cancel must not wait for them.
+        results: dict[int, _Result] = {}
+        waiting = iter(enumerate(tasks))
+        done: queue.Queue[tuple[int, _Result | None, BaseException | None]] = queue.Queue()
+        lock, before = threading.Lock(), self.received
+
+        def work() -> None:
+            while not self._stopped.is_set():
+                with lock:
+                    number, task = next(waiting, (-1, None))
+                if task is None:
+                    return
+                try:
+                    done.put((number, task(), None))
+                except BaseException as error:  # told in the thread of the caller
+                    done.put((number, None, error))
+
+        for _ in range(min(_THREADS, len(tasks))):
+            threading.Thread(target=work, name="download", daemon=True).start()
+        while len(results) < len(tasks):
+            try:
+                number, result, error = done.get(timeout=_BEAT)
+            except queue.Empty:
+                number, result, error = -1, None, None
+            if error is not None:
+                self._stopped.set()
+                raise error
+            if number >= 0:
+                results[number] = result  # type: ignore[assignment]
+            self._tell(progress, (self.received - before) / size if size else 0.0)
+        return [results[number] for number in range(len(tasks))]
+
+    def one(self, task: Callable[[], _Result]) -> _Result:
+        """Do one task, as `run`."""
+        return self.run([task])[0]
+
+    def _tell(self, progress: Progress | None, share: float) -> None:
+        """Tell what is done, which also notices a cancel, and what the user should know."""
+        for reader in (self._web, self._stores):
+            while reader.notes:
+                self._progress.info(reader.notes.pop(0))
+        if progress is None:
+            self._progress(self._share)
+        else:
+            progress(share)
+
+    def _reader(self, address: str) -> Reader:
+        return self._stores if urlsplit(address).scheme.lower() in STORES else self._web
+
+    def _patiently(self, address: str, ask: Callable[[], _Result]) -> _Result:
+        """Ask until there is an answer, at most some times."""
+        host, attempt = host_of(address), 0
+        while True:
+            self._stopped.wait(_PACE.pause(host))
+            if self._stopped.is_set():
+                raise Unfinished("cancelled")
+            try:
+                return ask()
+            except Unfinished as error:
+                attempt += not error.is_stale
+                pause = error.pause or _FIRST_PAUSE * 2 ** (attempt - 1)
+                if attempt >= _ATTEMPTS or pause > _LONGEST_PAUSE:
+                    raise BareEarthError(
+                        f"{host} cannot be read: {error}, after {attempt} attempts. Check the"
+                        " connection and the address, or run it again later."
+                    ) from error
+                self._stopped.wait(0.0 if error.is_stale else pause)

@@ -1,0 +1,234 @@
+"""Ranges of remote files: the same bytes as in the file, or one sentence, never other bytes."""
+
+import threading
+import time
+
+import numpy as np
+import pytest
+from remote_server import serving
+
+from bare_earth import BareEarthError
+from bare_earth.algorithms.core.errors import Cancelled
+from bare_earth.algorithms.core.progress import SILENT, Notes, Progress
+from bare_earth.algorithms.remote import connections, transfers
+from bare_earth.algorithms.remote.addresses import beside, checked, ends_with, referred, shown
+from bare_earth.algorithms.remote.files import RemoteFile
+from bare_earth.algorithms.remote.transfers import Transfers
+
+DATA = np.random.default_rng(0).integers(0, 256, 1_000_000, dtype=np.uint8).tobytes()
+PIECES = [(100_000, 140_000), (141_000, 180_000), (400_000, 500_000), (900_000, 950_000)]
+
+
+@pytest.fixture
+def server():
+    with serving() as running:
+        yield running
+
+
+@pytest.fixture(autouse=True)
+def no_pauses(monkeypatch):
+    monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
+
+
+def fetched(address, folder, progress=SILENT, pieces=PIECES):
+    """Return the pieces as they are read, and the transfers, which count."""
+    with Transfers(progress) as transfer:
+        file = RemoteFile(transfer, address, folder)
+        file.fetch(file.plan(pieces), progress)
+        found = []
+        for start, stop in pieces:
+            file.seek(start)
+            found.append(file.read(stop - start))
+        return found, transfer
+
+
+def wanted(data=DATA):
+    return [data[start:stop] for start, stop in PIECES]
+
+
+def test_pieces_are_joined_and_counted(server, tmp_path):
+    found, transfer = fetched(server.add("a", DATA), tmp_path / "parts")
+    assert found == wanted()
+    # The head, two pieces with a small gap in one request, and two others.
+    assert transfer.requests == len(server.asked) == 4
+    needed = 65_536 + sum(stop - start for start, stop in PIECES) + 1_000
+    assert transfer.received == server.sent == needed
+    for _, _, headers, _ in server.asked[1:]:
+        assert headers["If-Match"] == '"1000000-1"' and headers["Accept-Encoding"] == "identity"
+
+
+def test_connections_are_kept(server, tmp_path, monkeypatch):
+    made, connect = [], connections.http.client.HTTPConnection.connect
+    monkeypatch.setattr(
+        connections.http.client.HTTPConnection,
+        "connect",
+        lambda self: (made.append(self), connect(self)),
+    )
+    pieces = [(start, start + 10) for start in range(70_000, 900_000, 30_000)]
+    fetched(server.add("a", DATA), tmp_path / "parts", pieces=pieces)
+    assert len(server.asked) == 1 + len(pieces) and len(made) <= 6
+
+
+@pytest.mark.parametrize("fault", ["", "old", "cut", "short", "503", "429"])
+def test_what_fails_sometimes_gives_the_same_bytes(server, tmp_path, fault):
+    server.fault = lambda number, path: fault if number % 3 == 0 or fault == "old" else ""
+    assert fetched(server.add("a", DATA), tmp_path / "parts")[0] == wanted()
+    assert {path.name for path in (tmp_path / "parts").iterdir()} >= {"about.json"}
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        ("no ranges", "knows no ranges"),
+        ("gzip", "compressed by gzip"),
+        ("shifted", "in place of"),
+        ("fewer", "in place of"),
+        ("cut", "after 6 attempts"),
+        ("short", "after 6 attempts"),
+        ("503", "status 503, after 6 attempts"),
+        ("403", "you may not read it, or it does not exist"),
+        ("404", "does not exist"),
+        ("416", "cut off|changed"),
+        ("400", "status 400"),
+        ("to file:///etc/passwd", "leads to file:///etc/passwd, which is not followed"),
+        ("to ftp://127.0.0.1/a", "which is not followed"),
+        ("to /a", "from one address to the next"),
+    ],
+)
+@pytest.mark.parametrize("first", [0, 1])
+def test_what_stays_wrong_is_one_sentence(server, tmp_path, fault, words, first):
+    server.fault = lambda number, path: fault if number >= first else ""
+    with pytest.raises(BareEarthError, match=words) as told:
+        fetched(f"{server.add('a', DATA)}?token=SECRET", tmp_path / "parts")
+    assert "SECRET" not in str(told.value) and "\n" not in str(told.value)
+    # A whole file is refused before it is read.
+    assert server.sent <= 65_536 * 20
+
+
+def test_a_signature_that_has_expired_is_told(server, tmp_path):
+    server.fault = lambda number, path: "403"
+    with pytest.raises(BareEarthError, match=r"has expired\. Get a new address") as told:
+        fetched(f"{server.add('a', DATA)}?se=2026&sig=SECRET", tmp_path / "parts")
+    assert "SECRET" not in str(told.value)
+
+
+@pytest.mark.parametrize("fault", ["", "ignores versions"])
+def test_a_file_that_is_replaced_meanwhile_is_refused(server, tmp_path, fault):
+    address = server.add("a", DATA)
+
+    def replace(number, path):
+        if number == 2:
+            server.files["a"], server.etags["a"] = DATA[::-1], '"1000000-2"'
+        return fault
+
+    server.fault = replace
+    with pytest.raises(BareEarthError, match="has changed while it was downloaded"):
+        fetched(address, tmp_path / "parts")
+    # The next run begins anew.
+    assert fetched(address, tmp_path / "parts")[0] == wanted(DATA[::-1])
+
+
+def test_a_run_goes_on_where_it_stopped(server, tmp_path):
+    address = server.add("a", DATA)
+    server.fault = lambda number, path: "400" if number == 3 else ""
+    with pytest.raises(BareEarthError, match="status 400"):
+        fetched(f"{address}?sig=first", tmp_path / "parts")
+    server.asked.clear()
+    assert fetched(f"{address}?sig=second", tmp_path / "parts")[0] == wanted()
+    ranges = [headers for _, headers, _, _ in server.asked]
+    assert 2 <= len(ranges) <= 3 and ranges[0] == "bytes=0-65535"
+    assert "first" not in (tmp_path / "parts" / "about.json").read_text()
+
+
+def test_parts_of_others_are_not_touched(server, tmp_path):
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "thesis.txt").write_text("mine")
+    with pytest.raises(BareEarthError, match="is in the way"):
+        fetched(server.add("a", DATA), tmp_path / "parts")
+    assert (tmp_path / "parts" / "thesis.txt").read_text() == "mine"
+
+
+def test_redirects_to_another_host_are_told_and_get_no_password(server, tmp_path):
+    address, notes = server.add("b", DATA), Notes()
+    address = server.address("a").replace("//", "//user:SECRET@")
+    server.fault = lambda number, path: (
+        f"to {server.address('b', 'localhost')}?sig=SECRET" if path == "a" else ""
+    )
+    assert fetched(address, tmp_path / "parts", notes)[0] == wanted()
+    assert notes.messages == [("info", "127.0.0.1 passes the request on to localhost.")]
+    by_path = {path: headers for path, _, headers, _ in server.asked}
+    assert by_path["a"]["Authorization"].startswith("Basic ")
+    assert "Authorization" not in by_path["b"]
+    assert [path for path, *_ in server.asked].count("a") == 1  # where it leads is known then
+
+
+class Cancelling(Progress):
+    """Cancels some time after the work has begun."""
+
+    def __init__(self, seconds):
+        self.end = time.monotonic() + seconds
+
+    def report(self, fraction):
+        if time.monotonic() > self.end:
+            raise Cancelled
+
+
+@pytest.mark.parametrize("fault", ["silent", "slow"])
+@pytest.mark.parametrize("first", [0, 1])
+def test_a_cancel_is_noticed_within_two_seconds(server, tmp_path, fault, first):
+    server.fault = lambda number, path: fault if number >= first else ""
+    address, begun = server.add("a", DATA), time.monotonic()
+    with pytest.raises(Cancelled):
+        fetched(address, tmp_path / "parts", Cancelling(0.3))
+    assert time.monotonic() - begun < 2.3
+    server.released.set()
+    for thread in threading.enumerate():
+        if thread.name == "download":
+            thread.join(5)
+            assert not thread.is_alive()
+
+
+def test_a_server_that_is_not_there_is_told(tmp_path):
+    with pytest.raises(BareEarthError, match=r"127\.0\.0\.1 cannot be read: connection refused"):
+        fetched("http://127.0.0.1:9/a", tmp_path / "parts")
+
+
+def test_a_silent_server_is_given_up(server, tmp_path, monkeypatch):
+    monkeypatch.setattr(connections, "_TIMEOUT", 0.1)
+    server.fault = lambda number, path: "silent"
+    with pytest.raises(BareEarthError, match=r"127\.0\.0\.1 cannot be read"):
+        fetched(server.add("a", DATA), tmp_path / "parts")
+
+
+def test_a_host_gets_no_more_requests_than_it_allows(server, tmp_path, monkeypatch):
+    monkeypatch.setitem(transfers._LIMITS, "localhost", 20.0)
+    server.add("a", DATA)
+    pieces = [(start, start + 10) for start in range(70_000, 900_000, 60_000)]
+    begun = time.monotonic()
+    fetched(server.address("a", "localhost"), tmp_path / "parts", pieces=pieces)
+    assert len(server.asked) == 1 + len(pieces)
+    assert time.monotonic() - begun >= len(pieces) / 20.0
+
+
+def test_a_proxy_is_asked_for_the_address(server, tmp_path, monkeypatch):
+    server.add("http://far.example/a", DATA)
+    server.files["ttp://far.example/a"] = DATA
+    server.etags["ttp://far.example/a"] = '"1"'
+    monkeypatch.setenv("http_proxy", f"http://me:word@127.0.0.1:{server.port}")
+    assert fetched("http://far.example/a", tmp_path / "parts")[0] == wanted()
+    assert server.asked[0][2]["Proxy-Authorization"].startswith("Basic ")
+    monkeypatch.setenv("http_proxy", "socks5://127.0.0.1:1")
+    with pytest.raises(BareEarthError, match="of a kind that is not known"):
+        fetched("http://far.example/a", tmp_path / "parts")
+
+
+def test_addresses_are_shown_without_secrets():
+    assert shown("https://me:word@host.org:8/a b?sig=x#y") == "https://host.org:8/a b"
+    assert checked("https://host.org/a b.laz?sig=%2F+=") == "https://host.org/a%20b.laz?sig=%2F+="
+    assert ends_with("https://host.org/A.COPC.LAZ?sig=x.json", ".copc.laz")
+    assert beside("https://h/e/ept.json?s=1", "ept-data/0.laz") == "https://h/e/ept-data/0.laz?s=1"
+    assert referred("https://h/a/b.json", "../c.laz") == "https://h/c.laz"
+    assert referred("s3://bucket/a/b.json", "c.laz") == "s3://bucket/a/c.laz"
+    for address in ("file:///etc/passwd", "ftp://host/a", "https:///a", "https://host:x/a"):
+        with pytest.raises(BareEarthError):
+            checked(address)
