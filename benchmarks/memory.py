@@ -1,10 +1,12 @@
 """Measures whether runs keep to the memory that they were given: `python -m benchmarks.memory`.
 
 A survey of generated tiles is classified as many files and as one file, with and without products,
-with all the memory and with --memory. What counts is the sum over all processes of a run of their
-proportional set sizes (`/proc/*/smaps_rollup`, Linux): memory that processes share counts once.
+with all the memory and with --memory; then a large file, if wanted. What counts is the sum over all
+processes of a run of their proportional set sizes (`/proc/*/smaps_rollup`, Linux): memory that
+processes share counts once.
 
-Tiles are kept in ~/.cache/bare-earth/benchmarks (or $BARE_EARTH_CACHE).
+Tiles are kept in ~/.cache/bare-earth/benchmarks (or $BARE_EARTH_CACHE). For 200 million points,
+this needs about 1.5 GB there, and 12 GB for the files of a run.
 """
 
 from __future__ import annotations
@@ -35,86 +37,80 @@ _GIGABYTE = 1e9
 _COMMAND = (sys.executable, "-m", "bare_earth.algorithms")
 # What the libraries of a process take, in GB; this is not part of --memory.
 LIBRARIES = 0.25
+RASTERS = "dtm", "dsm", "chm", "hillshade"
 
 
 class Use(NamedTuple):
-    """What a run used.
+    """What a run used; processor time, memory and disk are those of all its processes together."""
 
-    Attributes
-    ----------
-    wall, cpu : float
-        Seconds; the processor time includes all processes.
-    memory : float
-        Largest sum of the proportional set sizes, in GB.
-    processes : int
-        Largest number of processes at a time.
-    problem : str
-        The end of what a run said that failed.
-    """
-
-    wall: float
-    cpu: float
-    memory: float
-    processes: int
-    problem: str = ""
+    wall: float  # seconds
+    cpu: float  # seconds
+    memory: float  # largest sum of the proportional set sizes, in GB
+    largest: float  # largest resident memory of a single process (`wait4`), in GB
+    disk: float  # most that its files took at a time, outputs included, in GB
+    processes: int  # most at a time
+    problem: str = ""  # the end of what a run said that failed
 
 
 class Scenario(NamedTuple):
-    """A run that is measured.
-
-    Attributes
-    ----------
-    title : str
-        Its name in the table.
-    arguments : tuple of str
-        Those of the command.
-    most : float or None
-        Memory that it may use, in GB; None if it may use what there is.
-    """
+    """A run that is measured; without arguments, reading and writing."""
 
     title: str
     arguments: tuple[str, ...]
-    most: float | None = None
+    points: float  # in millions
+    most: float | None = None  # GB of memory that it may use; None for what there is
 
 
-def measure(command: Sequence[str]) -> Use:
-    """Run a command as a process group, and return what it used."""
+def measure(command: Sequence[str], folder: Path) -> Use:
+    """Run a command that writes to a folder as a process group, and return what it used."""
     with tempfile.TemporaryFile() as said:
-        begun, before = time.perf_counter(), os.times()
+        begun = time.perf_counter()
         process = subprocess.Popen(
             command, stdout=said, stderr=said, cwd=ROOT, env=environment(), start_new_session=True
         )
-        looking = _Looking(process.pid)
-        code = process.wait()
-        wall, after = time.perf_counter() - begun, os.times()
-        most, count = looking.end()
-        cpu = after.children_user + after.children_system
-        cpu -= before.children_user + before.children_system
+        looking = _Looking(process.pid, folder)
+        _, status, usage = os.wait4(process.pid, 0)
+        wall = time.perf_counter() - begun
+        looking.end()
+        process.returncode = os.waitstatus_to_exitcode(status)
         said.seek(max(said.seek(0, os.SEEK_END) - 500, 0))
         text = said.read().decode(errors="replace").strip()
-    return Use(wall, cpu, most / _GIGABYTE, count, text.splitlines()[-1] if code else "")
+    return Use(
+        wall,
+        usage.ru_utime + usage.ru_stime,
+        looking.memory / _GIGABYTE,
+        usage.ru_maxrss * 1024 / _GIGABYTE,
+        looking.disk / _GIGABYTE,
+        looking.processes,
+        text.splitlines()[-1] if process.returncode else "",
+    )
 
 
 class _Looking:
-    """Looks at the memory of a process group until it ends."""
+    """Looks at the memory and the files of a process group until it ends."""
 
-    def __init__(self, group: int) -> None:
-        self._group, self._most, self._count = group, 0, 0
+    def __init__(self, group: int, folder: Path) -> None:
+        self._group, self._folder = group, folder
+        self.memory = self.disk = self.processes = 0  # the largest, in bytes
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._look, daemon=True)
         self._thread.start()
 
-    def end(self) -> tuple[int, int]:
-        """Return the largest sum in bytes, and the largest number of processes."""
+    def end(self) -> None:
+        """End looking."""
         self._stop.set()
         self._thread.join()
-        return self._most, self._count
 
     def _look(self) -> None:
-        while not self._stop.wait(_LOOKING):
-            sizes = [size for size in map(_shared_size, _members(self._group)) if size]
-            self._most = max(self._most, sum(sizes))
-            self._count = max(self._count, len(sizes))
+        for number in itertools.count():
+            if self._stop.wait(_LOOKING):
+                return
+            members = list(_members(self._group))
+            sizes = [size for size in map(_shared_size, members) if size]
+            self.memory = max(self.memory, sum(sizes))
+            self.processes = max(self.processes, len(sizes))
+            if number % 10 == 0:
+                self.disk = max(self.disk, _on_disk(members, self._folder))
 
 
 def _members(group: int) -> Iterator[int]:
@@ -136,6 +132,21 @@ def _shared_size(process: int) -> int:
     return 1024 * sum(int(line.split()[1]) for line in lines if line.startswith("Pss:"))
 
 
+def _on_disk(processes: Sequence[int], folder: Path) -> int:
+    """Return the bytes of the files in a folder, and of open ones without a name."""
+    paths = [*folder.rglob("*")]
+    paths += [path for number in processes for path in Path(f"/proc/{number}/fd").glob("*")]
+    sizes = {}
+    for path in paths:
+        try:
+            status = path.stat()
+            if path.parent.name != "fd" or not status.st_nlink:
+                sizes[status.st_dev, status.st_ino] = 512 * status.st_blocks
+        except OSError:  # it is gone
+            continue
+    return sum(sizes.values())
+
+
 def survey(count: int, points: int) -> list[Path]:
     """Return the generated tiles of a survey, which are made if they are missing."""
     folder = cache.FOLDER / f"survey-{count}-{points}-{tiles.SEED}"
@@ -149,25 +160,33 @@ def survey(count: int, points: int) -> list[Path]:
     return paths
 
 
-def scenarios(paths: Sequence[Path], one: Path, folder: Path, memory: float) -> list[Scenario]:
-    """Return the runs on many files and on one file."""
-    many, given = tuple(map(str, paths)), ("--memory", f"{memory:g}")
-    products = "--dtm", str(folder / "dtm.tif"), "--hillshade", str(folder / "hillshade.tif")
-    everything = *products, "--height-above-ground"
-    found = [Scenario("reading and writing", ())]
-    for title, inputs, output in (
-        (f"{len(paths)} files", many, str(folder / "out")),
-        ("one file", (str(one),), str(folder / "one.laz")),
+def scenarios(
+    many: Sequence[Path], one: Path, large: Path | None, points: Sequence[float], memory: float
+) -> list[Scenario]:
+    """Return the runs on many files, on one and on a large one, with their million points; outputs
+    are relative to the folder of the run.
+    """
+    everything = [text for name in RASTERS for text in (f"--{name}", f"{{}}/{name}.tif")]
+    everything.append("--height-above-ground")
+    given, limit = ("--memory", f"{memory:g}"), f", {memory:g} GB"
+    found = [Scenario("reading and writing", (), points[0])]
+    for title, inputs, output, count in (
+        (f"{len(many)} files", many, "{}/out", points[0]),
+        ("one file", [one], "{}/one.laz", points[0]),
+        (f"{points[1]:g} million points", [large], "{}/large.laz", points[1]),
     ):
-        classify = ("classify", *inputs, output)
+        if inputs == [None]:
+            continue
+        classify = ("classify", *map(str, inputs), output)
+        if inputs != [large]:
+            found += [
+                Scenario(f"{title}: classes", classify, count),
+                Scenario(f"{title}: all products", (*classify, *everything), count),
+            ]
         found += [
-            Scenario(f"{title}: classes", classify),
-            Scenario(f"{title}: and DTM, hillshade", (*classify, *products)),
-            Scenario(f"{title}: classes, {memory:g} GB", (*classify, *given), memory),
+            Scenario(f"{title}: classes{limit}", (*classify, *given), count, memory),
             Scenario(
-                f"{title}: and DTM, hillshade, heights, {memory:g} GB",
-                (*classify, *everything, *given),
-                memory,
+                f"{title}: all products{limit}", (*classify, *everything, *given), count, memory
             ),
         ]
     return found
@@ -175,7 +194,7 @@ def scenarios(paths: Sequence[Path], one: Path, folder: Path, memory: float) -> 
 
 def _command(scenario: Scenario, paths: Sequence[Path], folder: Path) -> list[str]:
     if scenario.arguments:
-        return [*_COMMAND, *scenario.arguments]
+        return [*_COMMAND, *(text.replace("{}", str(folder)) for text in scenario.arguments)]
     copies = (
         "import sys, laspy\n"
         "for number, path in enumerate(sys.argv[2:]):\n"
@@ -184,19 +203,19 @@ def _command(scenario: Scenario, paths: Sequence[Path], folder: Path) -> list[st
     return [sys.executable, "-c", copies, str(folder), *map(str, paths)]
 
 
-def rows(
-    found: Sequence[tuple[Scenario, Use]],
-) -> list[list[str]]:
-    """Return the lines of the table."""
-    floor = found[0][1]
+def rows(found: Sequence[tuple[Scenario, Use]]) -> list[list[str]]:
+    """Return the lines of the table; the first is reading and writing."""
+    first, floor = found[0]
     lines = []
     for scenario, use in found:
         allowed = "-"
         if scenario.most is not None:
             allowed = f"{scenario.most + LIBRARIES * use.processes:.2f}"
-        times = [f"{use.wall / floor.wall:.2f}", f"{use.cpu / floor.cpu:.2f}"]
-        figures = [*times, f"{use.memory:.2f}", allowed, str(use.processes)]
-        lines.append([scenario.title, *(figures if not use.problem else [use.problem] * 5)])
+        size = scenario.points / first.points
+        times = [f"{use.wall / floor.wall / size:.2f}", f"{use.cpu / floor.cpu / size:.2f}"]
+        memory = [f"{use.memory:.2f}", allowed, f"{use.largest:.2f}"]
+        figures = [*times, *memory, f"{use.disk:.1f}", str(use.processes)]
+        lines.append([scenario.title, *(figures if not use.problem else [use.problem] * 7)])
     return lines
 
 
@@ -207,32 +226,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--points", type=float, default=2.0, help="million points of a tile (default: 2)"
     )
+    parser.add_argument(
+        "--large", type=int, default=0,
+        help="also one file of so many times the points of all tiles: 4 gives 200 million",
+    )  # fmt: skip
     parser.add_argument("--memory", type=float, default=1.0, help="GB that runs get (default: 1)")
     parser.add_argument("--only", help="only runs whose name contains this, and the floor")
     parser.add_argument("--write", action="store_true", help="write docs/memory.md")
     options = parser.parse_args(arguments)
     paths = survey(options.tiles, int(options.points * 1e6))
-    one = cache.FOLDER / f"one-{options.tiles}-{options.points:g}.laz"
-    if not one.exists():
-        joined(paths, one)
+    count = options.tiles * options.points
+    one, large = joined(paths, 1), joined(paths, options.large) if options.large else None
+    every = scenarios(paths, one, large, (count, count * options.large), options.memory)
     load, found = os.getloadavg()[0], []
-    with tempfile.TemporaryDirectory(prefix="bare-earth-memory-", dir=cache.FOLDER) as place:
-        every = scenarios(paths, one, Path(place), options.memory)
-        chosen = [
-            scenario
-            for scenario in every
-            if not scenario.arguments or (options.only or "") in scenario.title
-        ]
-        for number, scenario in enumerate(chosen):
-            folder = Path(place) / str(number)
-            folder.mkdir()
-            named = [text.replace(place, str(folder)) for text in scenario.arguments]
-            command = _command(scenario._replace(arguments=tuple(named)), paths, folder)
-            found.append((scenario, measure(command)))
-            print(" | ".join(rows([found[0], found[-1]])[-1]), flush=True)
-            subprocess.run(["rm", "-r", str(folder)], check=True)
-    head = ["", "wall clock", "processor time", "memory, GB", "allowed, GB", "processes"]
-    lines = tables.table(head, rows(found))
+    for scenario in every:
+        if scenario.arguments and (options.only or "") not in scenario.title:
+            continue
+        with tempfile.TemporaryDirectory(prefix="memory-", dir=cache.FOLDER) as folder:
+            command = _command(scenario, paths, Path(folder))
+            found.append((scenario, measure(command, Path(folder))))
+        print(" | ".join(rows([found[0], found[-1]])[-1]), flush=True)
+    head = ["", "wall clock", "processor time", "memory, GB", "allowed, GB"]
+    lines = tables.table([*head, "largest process, GB", "disk, GB", "processes"], rows(found))
     print("\n".join(lines))
     if options.write:
         commit = subprocess.run(
@@ -248,20 +263,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def joined(paths: Sequence[Path], target: Path) -> None:
-    """Write one file of the points of several, part by part."""
+def joined(paths: Sequence[Path], times: int) -> Path:
+    """Return one file of the points of several, so many times side by side, made if missing."""
     import laspy
 
+    target = paths[0].parent / f"joined-{times}.laz"
+    if target.exists():
+        return target
     unfinished = target.with_name(f"unfinished-{target.name}")
-    with laspy.open(paths[0]) as first:
-        header = first.header
+    with laspy.open(paths[0]) as first, laspy.open(paths[-1]) as last:
+        header, width = first.header, np.ceil(last.header.maxs[0] - first.header.mins[0])
     backend = laspy.LazBackend.LazrsParallel
     with laspy.open(unfinished, "w", header=header, laz_backend=backend) as file:
-        for path in paths:
+        for copy, path in itertools.product(range(times), paths):
             with laspy.open(path) as source:
                 for points in source.chunk_iterator(1_000_000):
+                    points["X"] += int(copy * width / header.scales[0])
                     file.write_points(points)
     unfinished.replace(target)
+    return target
 
 
 if __name__ == "__main__":
