@@ -15,13 +15,15 @@ from typing import Any, Iterator, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError, Cancelled
+from ..core.files import replacing
 from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..survey.window import may_touch, read_window
-from .block_grid import code, memory_of
+from .block_grid import BlockIndex, code, memory_of
+from .blocks import Block
 from .disk_store import DiskStore
 from .file_points import FilePoints, TileResult, copies_all_else, memory_of_file
 from .manifest import Fingerprint, write_record
@@ -179,6 +181,40 @@ class PointJob(BlockJob):
                     values = store.values(which)[blocks == number]
                     of_files[path] = np.zeros_like(values) if failure else values
                 self.output.write(place, of_files, failure)
+
+
+@dataclass(frozen=True, eq=False)
+class SinkJob(BlockJob):
+    """A job that finds the results of a sink for some blocks."""
+
+    def run(self, share: Share, progress: Progress) -> None:
+        """Do it."""
+        step, files, has_points = self.output.grid.step, self.output.files, False
+        counts = step.counts()
+        found: dict[BlockIndex, list[Any]] = {place: [] for place in files}
+        with self.store(share, step.kind) as store:
+            for cloud in self.clouds(progress.part(0.0, 0.5)):
+                marks = step.marks(cloud, counts)
+                has_points |= bool(marks.selected.any())
+                store.append(cloud, marks)
+            store.finish(progress.part(0.5, 0.6))
+            if has_points:
+                rest = progress.part(0.6, 0.95)
+                for block, result in step.work(store, share.resources, rest, self._is_wanted):
+                    found[self._place(block)].append(result)
+        progress(1.0)  # ends a job of a run that was cancelled, before it writes
+        for place, file in files.items():
+            with replacing(file) as temporary, temporary.open("wb") as stream:
+                step.save(found[place], stream)
+
+    def _is_wanted(self, block: Block) -> bool:
+        """Return whether a block, or a part of one, is one of this job."""
+        return self._place(block) in self.output.files
+
+    def _place(self, block: Block) -> BlockIndex:
+        """Return the index of the block that holds a smaller block."""
+        share = round(self.output.grid.blocks.side / block.side)
+        return BlockIndex(block.column // share, block.row // share)
 
 
 @dataclass(frozen=True, eq=False)

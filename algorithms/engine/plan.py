@@ -13,7 +13,7 @@ from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
@@ -44,6 +44,8 @@ from .step import PointStep
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, numbered, with_values
 from .workers import Workers
+
+_Job = TypeVar("_Job", bound=BlockJob)
 
 
 class _PlannedBlock:
@@ -198,18 +200,15 @@ class Plan:
         workers.start(outputs, max(least, default=0), len(missing), len(self.todo))
         blocks: list[BlockJob] = []
         for number, (grid, survey) in enumerate(zip(self.grids, self.surveys)):
-            places = [place for of_step, place in missing if of_step == number]
-            for group in grouped(grid, survey, places, workers.at_once, workers.share.bytes):
-                some = [missing[number, place] for place in group]
-                blocks.append(
-                    PointJob(
-                        output=BlockFiles(grid, {block.place: block.file for block in some}),
-                        sources=tuple(sorted({path for block in some for path in block.sources})),
-                        count=points_in(survey, grid.window(group)),
-                        before=self._files_of(set().union(*(block.needs for block in some))),
-                        unpacking=unpacking,
-                    )
-                )
+            of_step = {block.place: block for block in missing.values() if block.step == number}
+
+            def before(group: Sequence[BlockIndex], of_step: Any = of_step) -> Any:
+                return self._files_of(set().union(*(of_step[place].needs for place in group)))
+
+            blocks += block_jobs(
+                PointJob, grid, survey, {place: one.file for place, one in of_step.items()},
+                {place: one.sources for place, one in of_step.items()}, before, workers, unpacking,
+            )  # fmt: skip
         tiles = [
             TileJob(
                 self._files_of(self._wanted(tile)), unpacking, tile, self._targets[tile.path],
@@ -257,6 +256,31 @@ class Plan:
                 read_from[output.path] = tile
                 needed.update(blocks)
         return Results(outputs, read_from, self._files_of(needed))
+
+
+def block_jobs(
+    kind: type[_Job],
+    grid: BlockGrid,
+    survey: Survey,
+    files: Mapping[BlockIndex, Path],
+    sources: Mapping[BlockIndex, Iterable[Path]],
+    before: Callable[[Sequence[BlockIndex]], tuple[BlockFiles, ...]],
+    workers: Workers,
+    unpacking: Unpacking | None,
+) -> list[_Job]:
+    """Return jobs on groups of blocks, given the file for the result of each and the files with its
+    points, and what other steps found before round a group.
+    """
+    return [
+        kind(
+            output=BlockFiles(grid, {place: files[place] for place in group}),
+            sources=tuple(sorted({path for place in group for path in sources[place]})),
+            count=points_in(survey, grid.window(group)),
+            before=before(group),
+            unpacking=unpacking,
+        )
+        for group in grouped(grid, survey, list(files), workers.at_once, workers.share.bytes)
+    ]
 
 
 class Results:

@@ -2,7 +2,8 @@
 
 A step chooses the points that it needs (`marks`) and the blocks in which it works (`blocks`), and
 computes its result from the points in a store (`work`). It knows neither files nor threads. So it
-runs on one file or many, in memory, from disk, and in the jobs of a survey.
+runs on one file or many, in memory, from disk, and in the jobs of a survey. What it finds is a
+value for each point (`PointStep`), or stays by block until outputs are made of it (`Sink`).
 """
 
 from __future__ import annotations
@@ -12,19 +13,22 @@ import hashlib
 from collections import Counter
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Callable, Sequence
+from typing import Any, BinaryIO, Callable, Iterable, Sequence
 
 import numpy as np
 
+from ..core.files import Outputs
 from ..core.parameters import ParameterSet
-from ..core.points import Box
+from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
+from ..crs.system import Crs
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..survey.corrections import to_remember
 from ..survey.shapes import Geometry, Place
-from .blocks import Blocks
+from .block_grid import BlockGrid, BlockIndex
+from .blocks import Block, Blocks
 from .memory import Resources
 from .store import Marks, Store
 
@@ -37,6 +41,26 @@ class Step:
 
     kind: type = np.uint8  # of the value that a store holds for each point
     counts: type  # of the counters that `marks` adds to
+    weight_of_outputs = 0.0  # in the progress, as a share of `weight`
+
+    @property
+    def weight(self) -> float:
+        """Its share of the progress."""
+        return 3.0
+
+    @property
+    def gives_classes(self) -> bool:
+        """Whether it changes classes, so that later steps must see its result."""
+        return False
+
+    @property
+    def looks_first(self) -> bool:
+        """Whether `seeing` reads the points."""
+        return False
+
+    def outputs(self, is_survey: bool) -> list[tuple[str, Path]]:
+        """Return the kinds and paths of the files that it writes beside points."""
+        return []
 
     @property
     def origin(self) -> tuple[float, float]:
@@ -48,6 +72,14 @@ class Step:
         """The blocks in which the step works."""
         raise NotImplementedError
 
+    def placed(self, crs: Crs, box: Box | None = None, progress: Progress = SILENT) -> Any:
+        """Return the step for points in a CRS and, as far as it is known, a box."""
+        return self
+
+    def seeing(self, parts: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT) -> Any:
+        """Return the step after a look at all points, with what was found for them."""
+        return self
+
     def marks(self, part: PointCloud, counts: Any) -> Marks:
         """Return the flags of points of a part of a file and count them, or refuse the file."""
         raise NotImplementedError
@@ -58,6 +90,18 @@ class Step:
     def work(self, store: Store, resources: Resources, progress: Progress) -> Any:
         """Compute the result from the points of a store."""
         raise NotImplementedError
+
+    def finish(
+        self,
+        result: Any,
+        frame: Frame,
+        outputs: Outputs,
+        progress: Progress,
+        tiles: Sequence[LasFile] | None = None,
+    ) -> Any:
+        """Write what `outputs` named, given the result of `work` and the files of a survey; return
+        what to tell of it.
+        """
 
     @cached_property
     def settings(self) -> dict[str, Any]:
@@ -132,6 +176,34 @@ class PointStep(Step):
     def result(self, path: Path, allocate: Allocate) -> PointResult:
         """Return an object that collects the values of a file."""
         return CountedPoints(self)
+
+
+class Sink(Step):
+    """Base of the steps whose result is of blocks, and goes into files of its own."""
+
+    weight_of_outputs = 0.25
+
+    def wanted(self, places: Sequence[BlockIndex], grid: BlockGrid) -> Sequence[BlockIndex]:
+        """Return those of the blocks with points that matter, at least one."""
+        return places
+
+    def work(
+        self,
+        store: Store,
+        resources: Resources,
+        progress: Progress,
+        is_wanted: Callable[[Block], bool] | None = None,
+    ) -> list[tuple[Block, Any]]:
+        """Return the blocks, or parts of blocks, that are wanted, and the result of each."""
+        raise NotImplementedError
+
+    def save(self, results: Sequence[Any], stream: BinaryIO) -> None:
+        """Write the results of a block, or of its parts, for `load`."""
+        raise NotImplementedError
+
+    def load(self, file: Path) -> Iterable[Any]:
+        """Return the results that `save` wrote."""
+        raise NotImplementedError
 
 
 class CountedClasses:

@@ -25,6 +25,7 @@ from ..engine.jobs import JobCost
 from ..engine.manifest import folders_of, remove_record
 from ..engine.options import RunOptions
 from ..engine.plan import Plan
+from ..engine.sinks import run_sink
 from ..engine.step import PointStep, located
 from ..engine.unpacking import Unpacking
 from ..engine.workers import Threads, Workers
@@ -33,7 +34,6 @@ from ..survey.files import Survey, open_survey
 from ..survey.outputs import check_outputs
 from ..survey.shapes import Place
 from ..survey.vpc import write_vpc
-from ..tools.rasters.jobs import make_rasters
 from ..tools.rasters.output import RasterSize
 from ..tools.rasters.step import MakeRasters
 from .requests import ClassifyRequest, TerrainRequest
@@ -211,7 +211,7 @@ class _SurveyRun:
             paths = [self._folder / summary.name for summary in self._done]
             classified = open_survey(paths, progress=progress.quiet(), stated=self._survey.stated)
             results, part = plan.results(classified), progress.part(end, 1.0)
-            make_rasters(classified, waiting, self._rasters, workers, part, results, unpacking)
+            run_sink(classified, waiting, self._rasters, workers, part, results, unpacking)
 
     def _tell(self, done: Sequence[Any], progress: Progress) -> None:
         """Report on all files; remove the outputs of this run if they are refused together."""
@@ -289,7 +289,7 @@ def rasters_of_files(
         part = progress.part(0.05, 1.0)
         (step,) = located([request.raster_step], _place_of(survey), progress)
         unpacking = _unpacking(folder, survey, workers, is_whole=False)
-        return make_rasters(survey, folder, step, workers, part, unpacking=unpacking)
+        return run_sink(survey, folder, step, workers, part, unpacking=unpacking)
 
 
 def _unpacking(folder: Path, survey: Survey, workers: Workers, is_whole: bool) -> Unpacking | None:

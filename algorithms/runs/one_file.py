@@ -26,18 +26,16 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
-from ..rasters.writing import raster_file
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.outputs import check_outputs
 from ..survey.selection import Selection
 from ..tools.ground.step import LabelGround
-from ..tools.rasters.output import RasterSize, write_rasters
-from ..tools.rasters.step import MakeRasters
+from ..tools.rasters.output import RasterSize
 from .requests import ClassifyRequest, PointRequest, TerrainRequest
 
-# Shares of the progress bar: of reading, of each step, and of writing.
-_READING, _FILTER, _STEP, _WRITING = 1.5, 5.0, 3.0, 0.8
+# Share of reading in the progress, as the `weight` of steps.
+_READING = 1.5
 
 
 @dataclass(frozen=True)
@@ -89,12 +87,12 @@ class _FileRun:
         self.steps: list[Any] = located(steps, points.place, progress)  # in the CRS of the points
         self.counts = [step.counts() for step in self.steps]  # by the steps, among the points
         self.points, self.outputs = points, outputs or Outputs()
-        self.size: RasterSize | None = None
+        self.told: list[Any] = []  # what `finish` of the steps returned
         self._values: list[PointValues] = []
 
     def work(self, progress: Progress) -> None:
         """Run the steps, each of which sees what those before it have found."""
-        start, weights = 0, _weights(self.steps)
+        start, weights = 0, [step.weight for step in self.steps]
         total = sum(weights)
         while start < len(self.steps):
             end = self._end_of_group(start)
@@ -104,11 +102,8 @@ class _FileRun:
 
     def _end_of_group(self, start: int) -> int:
         """Return the end of the steps that see the same points, so that these are read once."""
-        for number in range(start, len(self.steps)):
-            step = self.steps[number]
-            if isinstance(step, PointStep) and step.gives_classes:
-                return number + 1
-        return len(self.steps)
+        ends = (n + 1 for n in range(start, len(self.steps)) if self.steps[n].gives_classes)
+        return next(ends, len(self.steps))
 
     def _work_group(self, group: slice, progress: Progress) -> None:
         """Run steps that see the same points."""
@@ -116,29 +111,27 @@ class _FileRun:
         reading = points.sparing(progress.part(0.0, 0.08))
         parts = with_values(points.parts(reading, self._reads_once), self._values)
         stores = points.gathered(steps, parts, progress.part(0.08, 0.12))
-        shares = progress.part(0.12, 1.0).shares(*_weights(self.steps[group]))
+        shares = progress.part(0.12, 1.0).shares(*(step.weight for step, _ in steps))
         for (step, _), share in zip(steps, shares):
-            store = stores.pop(0)
-            if isinstance(step, MakeRasters):
-                self.size = self._draw(step, store, share)
-            else:
-                step.work(store, points.resources, share)
-                self._values.append(StoreValues(step, store))
+            self._work_step(step, stores.pop(0), share)
 
     @property
     def _reads_once(self) -> bool:
-        """Whether the points are read only once, for rasters without constraints."""
-        first, *others = self.steps
-        return isinstance(first, MakeRasters) and not (others or first.constraints.any)
+        """Whether the points are read only once, as no step gives values or looks at them first."""
+        return not any(isinstance(step, PointStep) or step.looks_first for step in self.steps)
 
-    def _draw(self, step: MakeRasters, store: Store, progress: Progress) -> RasterSize:
-        """Make the rasters of the points of a store."""
-        drawing, writing = progress.shares(4.0, 1.0)
+    def _work_step(self, step: Any, store: Store, progress: Progress) -> None:
+        """Run a step on the points of a store, and let it write its own outputs."""
+        working, writing = progress.shares(1.0, step.weight_of_outputs)
         frame = survey_frame(self.points.cloud.crs, step.origin)
-        parts = with_values(self.points.parts(), self._values)
-        step = step.seeing((part for _, part in parts), frame, progress)
-        drawn = step.work(store, self.points.resources, drawing)
-        return write_rasters(drawn, frame, step, self.outputs, writing)
+        seen = with_values(self.points.parts(), self._values)
+        step = step.seeing((part for _, part in seen), frame, progress)
+        result = step.work(store, self.points.resources, working)
+        if isinstance(step, PointStep):
+            self._values.append(StoreValues(step, store))
+        else:
+            result = [found for _, found in result]
+        self.told.append(step.finish(result, frame, self.outputs, writing))
 
     def found(self, progress: Progress) -> TileResult:
         """Return what the steps found for each point."""
@@ -155,15 +148,6 @@ class _FileRun:
         return result
 
 
-def _weights(steps: Sequence[Step]) -> list[float]:
-    """Return the shares of the progress bar of some steps."""
-    weights = []
-    for step in steps:
-        rasters = len(step.files.wanted) if isinstance(step, MakeRasters) else 0
-        weights.append(_FILTER if isinstance(step, LabelGround) else _STEP + rasters)
-    return weights
-
-
 @contextlib.contextmanager
 def _worked(
     las: LasFile, target: Path, steps: Sequence[Step], resources: Resources, progress: Progress
@@ -171,7 +155,7 @@ def _worked(
     """Yield a run whose steps have worked on a file; its outputs get their names at the end."""
     for_points = [step for step in steps if isinstance(step, PointStep)]
     needs_records = bool(for_points) and not copies_all_else(las, target, for_points)
-    reading, working = progress.shares(_READING, sum(_weights(steps)))
+    reading, working = progress.shares(_READING, sum(step.weight for step in steps))
     with Outputs() as outputs:
         outputs.enter_context(may_use(resources.thread_count))
         points = FilePoints.opened(las, target, resources, needs_records, reading)
@@ -199,15 +183,11 @@ def classify_file(
         steps.insert(before, _placed(request.raster_step, las, progress))
     import_early("scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph")
     with _worked(las, target, steps, request.resources.now(), progress.part(0.0, 0.92)) as run:
-        if request.explain is not None:
-            explained = raster_file(run.outputs, request.explain)
-            frame = survey_frame(run.points.cloud.crs)
-            run.steps[0].explanation.write(explained, frame, progress)
         result = run.written(target, progress.part(0.92, 1.0))
     return _summary(result, run.counts[0])
 
 
-def _placed(step: MakeRasters, las: LasFile, progress: Progress) -> MakeRasters:
+def _placed(step: Step, las: LasFile, progress: Progress) -> Any:
     """Return a step that knows where its cells lie, given the file of the points."""
     crs, box = read_crs(las), las.outer_box if las.states_extent else None
     require_measurable(las.path, crs, box)
@@ -246,4 +226,5 @@ def rasters_of_file(
     beside = next(iter(request.rasters.wanted.values()))
     step = _placed(request.raster_step, las, progress)
     with _worked(las, beside, [step], resources, progress) as run:
-        return run.size
+        (size,) = run.told
+    return size

@@ -20,7 +20,6 @@ from ..tools.above_ground import ClassifyAboveGround
 from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.contours import Contours
 from ..tools.declaration import MapTool, PointTool
-from ..tools.ground.explanation import Explanation
 from ..tools.ground.method import TileMethod
 from ..tools.ground.output import Output
 from ..tools.ground.step import LabelGround
@@ -68,8 +67,8 @@ class RasterRequest(Request):
     def rasters_of(self, ground: GroundClasses, roads: tuple[int, ...]) -> MakeRasters:
         """Return the step that makes them, given which points are ground; see `MakeRasters`."""
         return MakeRasters(
-            self.rasters, self.terrain, self.surface, ground, roads, constraints=self.constraints,
-            per_file=self.raster_output.raster_per_file, target=self.raster_target,
+            self.rasters, self.terrain, self.surface, ground=ground, roads=roads,
+            constraints=self.constraints, per_file=self.raster_output.raster_per_file, target=self.raster_target,
             area=self.area,
         )  # fmt: skip
 
@@ -142,7 +141,7 @@ class ClassifyRequest(RasterRequest):
             self.area,
             self.output,
             corrections=self.corrections,
-            explanation=None if self.explain is None else Explanation(),
+            explain=self.explain,
         )
 
     @property

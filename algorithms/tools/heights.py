@@ -86,13 +86,9 @@ class MeasureHeights(PointStep):
     counts = GroundCounts
     kind = np.float64
     blocks = _BLOCKS
+    gives_classes = False
     summary_type = HeightSummary
     vpc_name = "heights.vpc"
-
-    @property
-    def gives_classes(self) -> bool:
-        """Whether classes change: they do not."""
-        return False
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return all points, which of them are ground, and which lie in the area."""

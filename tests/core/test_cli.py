@@ -18,9 +18,9 @@ from bare_earth.algorithms.runs.one_file import Summary
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground.explanation import (
     ExplainedCells,
-    Explanation,
     described,
     rules_in,
+    write_explanation,
 )
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
@@ -405,8 +405,7 @@ def test_the_raster_of_rules_is_no_other_output(file, out, capsys):
 
 def test_decided_cells_that_spread_too_far_are_refused(tmp_path):
     places, codes = np.array([0, 10**6]), np.array([1, 1], dtype=np.uint8)
-    explanation = Explanation()
-    explanation.add(ExplainedCells(places, places, codes, 1.0, ("lowest-points",)))
+    cells = ExplainedCells(places, places, codes, 1.0, ("lowest-points",))
     with pytest.raises(BareEarthError, match="stray coordinates"):
-        explanation.write(tmp_path / "rules.tif", Frame(), Progress())
+        write_explanation(tmp_path / "rules.tif", [cells], Frame(), Progress())
     assert not (tmp_path / "rules.tif").exists()

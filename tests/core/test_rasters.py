@@ -14,9 +14,9 @@ import bare_earth
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.engine import blocks as blocks_module
+from bare_earth.algorithms.engine.jobs import SinkJob
 from bare_earth.algorithms.engine.workers import Threads
 from bare_earth.algorithms.grids.tin import Tin, hull_corners
-from bare_earth.algorithms.tools.rasters.jobs import RasterJob
 
 rasterio = pytest.importorskip("rasterio")
 
@@ -178,7 +178,7 @@ def raster_jobs(monkeypatch):
     jobs, submit = SimpleNamespace(count=0, most=None), Threads.submit
 
     def counting(workers, job):
-        jobs.count += isinstance(job, RasterJob)
+        jobs.count += isinstance(job, SinkJob)
         if jobs.count == jobs.most:
             raise Cancelled
         return submit(workers, job)

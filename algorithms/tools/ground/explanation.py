@@ -1,9 +1,9 @@
-"""Collects which rule of a filter decided each cell, and writes it as a raster."""
+"""Tells which rule of a filter decided each cell, and writes it as a raster."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Sequence
 
 import numpy as np
 
@@ -70,29 +70,21 @@ class ExplainedCells(NamedTuple):
         return ExplainedCells(row, column, code, size, self.rules)
 
 
-class Explanation:
-    """The cells of the blocks of a run."""
-
-    def __init__(self) -> None:
-        self._parts: list[ExplainedCells] = []
-
-    def add(self, cells: ExplainedCells) -> None:
-        """Add the cells of a block."""
-        self._parts.append(cells)
-
-    def write(self, path: Path, frame: Frame, progress: Progress) -> None:
-        """Write the codes of all cells as a raster whose band lists the names of rules."""
-        parts = [part for part in self._parts if part.code.any()]
-        if not parts:
-            raise BareEarthError(
-                "This preset decides points, not cells: there is nothing to explain. Choose another"
-                " preset, or leave out the raster of rules."
-            )
-        size, rules = min(part.size for part in parts), parts[0].rules
-        finest = (part.in_cells_of(size)[:3] for part in parts)
-        row, column, code = (np.concatenate(values) for values in zip(*finest))
-        middles = Points((column + 0.5) * size, (row + 0.5) * size, np.zeros(len(code)))
-        grid = RasterGrid.over(middles, frame, size)
-        cells = np.zeros((grid.rows, grid.columns), dtype=np.uint8)
-        cells[row.max() - row, column - column.min()] = code
-        write_geotiff(path, cells, grid, 0.0, progress, described(rules))
+def write_explanation(
+    path: Path, blocks: Sequence[ExplainedCells], frame: Frame, progress: Progress
+) -> None:
+    """Write the codes of all cells as a raster whose band lists the names of rules."""
+    parts = [part for part in blocks if part.code.any()]
+    if not parts:
+        raise BareEarthError(
+            "This preset decides points, not cells: there is nothing to explain. Choose another"
+            " preset, or leave out the raster of rules."
+        )
+    size, rules = min(part.size for part in parts), parts[0].rules
+    finest = (part.in_cells_of(size)[:3] for part in parts)
+    row, column, code = (np.concatenate(values) for values in zip(*finest))
+    middles = Points((column + 0.5) * size, (row + 0.5) * size, np.zeros(len(code)))
+    grid = RasterGrid.over(middles, frame, size)
+    cells = np.zeros((grid.rows, grid.columns), dtype=np.uint8)
+    cells[row.max() - row, column - column.min()] = code
+    write_geotiff(path, cells, grid, 0.0, progress, described(rules))

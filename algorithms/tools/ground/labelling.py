@@ -24,7 +24,7 @@ from ...grids.bridge_decks import bridge_decks
 from ...grids.cells import apart
 from ...grids.high_groups import HighGroups
 from ...survey.selection import Selection
-from .explanation import ExplainedCells, Explanation
+from .explanation import ExplainedCells
 from .surroundings import EVERYWHERE, near, tell_spacing, thinned
 
 # Shares of the time of a block for finding bridges and low outliers.
@@ -65,10 +65,10 @@ def label_ground(
     selection: Selection = Selection(),
     resources: Resources = Resources(),
     progress: Progress = SILENT,
-    explanation: Explanation | None = None,
-) -> None:
+    explains: bool = False,
+) -> list[ExplainedCells]:
     """Label every wanted point of a store with a `Label`, or 0, in blocks as of `blocks_of`; refuse
-    a survey without ground in any.
+    a survey without ground in any; return the cells of the rules that decided, if it `explains`.
     """
     method = method_of(parameters)
     if store.has_known and not method.takes_known_ground:
@@ -76,18 +76,19 @@ def label_ground(
             f"{method.label} does not start from known ground; it only keeps these"
             " points as ground."
         )
-    label = partial(_label, parameters, selection, explanation is not None)
+    label = partial(_label, parameters, selection, explains)
     # Classic presets do what another program does with all points.
     thins = not method.is_classic(parameters)
     work = partial(_labelled, store, blocks, label, thins)
-    notes = {}
+    notes, cells = {}, []
     for number, result in over_blocks(store, blocks, work, resources, progress):
         store.put(result.positions, result.labels)
-        if explanation is not None and result.cells is not None:
-            explanation.add(result.cells)
+        if result.cells is not None:
+            cells.append(result.cells)
         if result.notes.count:
             notes[number] = result.notes
     _tell(progress, [notes[number] for number in sorted(notes)])
+    return cells
 
 
 def _label(

@@ -10,8 +10,9 @@ from typing import Sequence
 import numpy as np
 
 from ...core.errors import BareEarthError
+from ...core.files import Outputs
 from ...core.parameters import ParameterSet
-from ...core.points import Box
+from ...core.points import Box, Frame
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...engine.blocks import Blocks
@@ -22,13 +23,14 @@ from ...filters import method_of
 from ...las.cloud import PointCloud
 from ...las.edits import Edits
 from ...las.lasfile import LasFile
+from ...rasters.writing import raster_file
 from ...survey.area import Area
 from ...survey.corrections import NO_CORRECTIONS, ByHand, Corrections
 from ...survey.kept_classes import overlapping
 from ...survey.point_chooser import PointChooser
 from ...survey.point_counts import PointCounts, by_class, count_classes
 from ...survey.selection import Selection
-from .explanation import Explanation
+from .explanation import ExplainedCells, write_explanation
 from .labelling import Label, blocks_of, label_ground
 from .output import Output
 
@@ -70,9 +72,10 @@ class LabelGround(PointStep):
     output: Output = field(default_factory=Output)  # which points are written
     cut: Blocks | None = None  # the blocks, if not those of the method
     corrections: Corrections = NO_CORRECTIONS  # beside those that the files remember
-    explanation: Explanation | None = field(default=None, compare=False)  # receives the rules
+    explain: Path | None = None  # raster of the rules that decided, of one file
 
     counts = PointCounts
+    weight = 5.0
     summary_type = ClassifiedSummary
     vpc_name = "classified.vpc"
 
@@ -172,17 +175,26 @@ class LabelGround(PointStep):
         elif not any(summary.by_hand_count for summary in done):
             self.chooser.tell_of_corrections(progress)
 
-    def work(self, store: Store, resources: Resources, progress: Progress) -> None:
-        """Label the points."""
-        label_ground(
-            store,
-            self.parameters,
-            self.blocks,
-            self.selection,
-            resources,
-            progress,
-            self.explanation,
-        )
+    def outputs(self, is_survey: bool) -> list[tuple[str, Path]]:
+        """Return the raster of rules, if it is wanted."""
+        return [] if self.explain is None else [("raster", self.explain)]
+
+    def work(self, store: Store, resources: Resources, progress: Progress) -> list[ExplainedCells]:
+        """Label the points; return the cells of the rules that decided, if they are wanted."""
+        method, explains = (self.parameters, self.blocks, self.selection), self.explain is not None
+        return label_ground(store, *method, resources, progress, explains)
+
+    def finish(
+        self,
+        result: Sequence[ExplainedCells],
+        frame: Frame,
+        outputs: Outputs,
+        progress: Progress,
+        tiles: Sequence[LasFile] | None = None,
+    ) -> None:
+        """Write the raster of rules, if it is wanted."""
+        if self.explain is not None:
+            write_explanation(raster_file(outputs, self.explain), result, frame, progress)
 
     def result(self, path: Path, allocate: Allocate) -> ClassifiedPoints:
         """Return an object that turns the labels of a file into classes."""

@@ -23,11 +23,11 @@ from ...rasters.virtual import folder_of, virtual_of, write_virtual
 from ...rasters.writing import Band, Rows, raster_file, write_geotiff
 from ...survey.area import Area
 from .block import BlockRasters
+from .drawing import Drawing
 from .level_water import WaterCells
 from .mosaic import Mosaic, gathered_strips
 from .outlines import CellContents, Outlines, mosaics_of
 from .rows import RASTERS, How, Raster
-from .step import MakeRasters
 
 # Cells up to so many metres from the area are made as well, because the surroundings decide which
 # gaps lie inside the survey.
@@ -47,7 +47,7 @@ class RasterSize:
 def write_rasters(
     blocks: Sequence[BlockRasters],
     frame: Frame,
-    step: MakeRasters,
+    step: Drawing,
     outputs: Outputs,
     progress: Progress = SILENT,
     files: Mapping[str, Box] | None = None,
@@ -92,7 +92,7 @@ def _write(
     raster: Raster,
     layers: Sequence[Mosaic],
     frame: Frame,
-    step: MakeRasters,
+    step: Drawing,
     outputs: Outputs,
     path: Path,
     window: CellWindow,
@@ -134,7 +134,7 @@ def _window_of(blocks: Sequence[BlockRasters], cell: float) -> CellWindow:
     return window
 
 
-def _covered(window: CellWindow, step: MakeRasters, frame: Frame) -> CellWindow:
+def _covered(window: CellWindow, step: Drawing, frame: Frame) -> CellWindow:
     """Return the cells of the rasters, given those that have points."""
     wanted = step.cells.window
     if wanted is None:

@@ -4,40 +4,38 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import partial
+from operator import itemgetter
 from pathlib import Path
-from typing import Callable, Iterable
+from typing import Any, BinaryIO, Callable, Dict, Iterable, Iterator, Sequence
 
 import numpy as np
 
 from ...core.errors import BareEarthError
+from ...core.files import Outputs, split_name
 from ...core.points import Box, Frame
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...crs.system import Crs
+from ...engine.block_grid import BlockGrid, BlockIndex
 from ...engine.blocks import Block, Blocks
 from ...engine.blockwise import over_blocks
 from ...engine.memory import Cost, Resources
-from ...engine.step import Step
+from ...engine.step import Sink
 from ...engine.store import Marks, Store
 from ...grids.cell_window import CellWindow
 from ...grids.cells import first_of_each
 from ...grids.dense_surface import VERTICES_A_SIDE
 from ...grids.height_above_ground import with_roads
 from ...las.cloud import PointCloud, survey_frame
-from ...rasters.cell_grid import (
-    ANYWHERE,
-    CellGrid,
-    RasterTarget,
-    cell_grid,
-)
-from ...survey.area import Area
+from ...las.lasfile import LasFile
+from ...rasters.cell_grid import cell_grid
 from ...survey.ground_classes import GroundClasses, GroundCounts
 from ...survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
-from .block import LAYERS, BlockRasters, BlockView, RasterStep
+from .block import LAYERS, BlockRasters, BlockView
 from .constraints import NO_CONSTRAINTS, Constraints
-from .fixed_terrain import FixedTerrain, fixed_terrain
-from .parameters import SurfaceModel, TerrainModel
-from .rows import RasterFiles
+from .drawing import Drawing
+from .fixed_terrain import fixed_terrain
+from .output import AROUND_AREA, RasterSize, no_point_in, write_rasters
 
 # Points are thinned unless there are so many times as many cells.
 _MOST_THINNED = 10
@@ -54,23 +52,29 @@ class RasterCounts(GroundCounts):
 
 
 @dataclass(frozen=True)
-class MakeRasters(Step):
+class MakeRasters(Drawing, Sink):
     """Makes rasters from classified points."""
 
-    files: RasterFiles = field(default_factory=RasterFiles)
-    model: TerrainModel = field(default_factory=TerrainModel)
-    surface: SurfaceModel = field(default_factory=SurfaceModel)
     ground: GroundClasses = field(default_factory=GroundClasses)
     roads: tuple[int, ...] = ()  # classes that are ground as well, where they lie on it
     covers_ground: bool = False  # not all points without noise
     constraints: Constraints = NO_CONSTRAINTS  # breaklines, water, and areas without ground
-    per_file: bool = False  # each of many files gets its own rasters
-    fixed: FixedTerrain | None = None  # the vertices of the constraints; `seeing` finds these
-    target: RasterTarget = ANYWHERE  # a grid or an extent that the rasters must have
-    placed_cells: CellGrid | None = None  # where the cells lie; `placed` finds this
-    area: Area | None = None  # without values outside, where points still take part
 
     counts = RasterCounts
+
+    @property
+    def weight(self) -> float:
+        """Share of the progress, which grows with the number of rasters."""
+        return 3.0 + len(self.files.wanted)
+
+    @property
+    def looks_first(self) -> bool:
+        """Whether all points are read to find the heights of the constraints."""
+        return self.constraints.any
+
+    def outputs(self, is_survey: bool) -> list[tuple[str, Path]]:
+        """Return the kinds and paths of the rasters."""
+        return self.files.outputs(self.per_file and is_survey)
 
     @property
     def needs_ground(self) -> bool:
@@ -88,16 +92,6 @@ class MakeRasters(Step):
         return "surface" in self.files.layers
 
     @property
-    def cells(self) -> CellGrid:
-        """Where the cells lie; before that is known, as in metres."""
-        return self.placed_cells or self.model.cells(1.0)
-
-    @property
-    def cell(self) -> float:
-        """Side of a cell in metres."""
-        return self.cells.metres
-
-    @property
     def origin(self) -> tuple[float, float]:
         """The origin of the cells, in units of the CRS."""
         return self.cells.origin
@@ -108,19 +102,14 @@ class MakeRasters(Step):
         cells = cell_grid(self.target, usual, crs, box, progress)
         return replace(self, placed_cells=cells)
 
-    @property
-    def of_block(self) -> RasterStep:
-        """Makes the rasters of a single block."""
-        return RasterStep(self.cell, self.files.layers, self.surface.max_edge)
-
     def seeing(
-        self, clouds: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
+        self, parts: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
     ) -> MakeRasters:
         """Return the step with the vertices of its constraints among all points, with their
         classes, part by part; see `fixed_terrain`.
         """
         cell = self.cell / VERTICES_A_SIDE
-        fixed = fixed_terrain(self.constraints, clouds, frame, self.ground, cell, progress)
+        fixed = fixed_terrain(self.constraints, parts, frame, self.ground, cell, progress)
         return replace(self, fixed=fixed)
 
     @property
@@ -210,23 +199,83 @@ class MakeRasters(Step):
                 f"{counted(wet, *words)} left out of the surface model (classes {classes})."
             )
 
+    def wanted(self, places: Sequence[BlockIndex], grid: BlockGrid) -> Sequence[BlockIndex]:
+        """Return the blocks in the area and round it."""
+        if self.area is None:
+            return places
+        box = self.area.buffered_box(AROUND_AREA / grid.frame.horizontal_unit)
+        found = grid.among(places, box)
+        if not found:
+            raise no_point_in(self.area)
+        return found
+
     def work(
         self,
         store: Store,
         resources: Resources,
         progress: Progress,
         is_wanted: Callable[[Block], bool] | None = None,
-    ) -> list[BlockRasters]:
-        """Return the rasters of the blocks, or of those that are wanted."""
+    ) -> list[tuple[Block, BlockRasters]]:
+        """Return the blocks, or those that are wanted, with their rasters."""
         work = partial(_rasters_of, store, self, is_wanted is None)
         found = over_blocks(store, self.blocks, work, resources, progress, is_wanted)
-        return [rasters for _, rasters in sorted(found)]
+        return [block for _, block in sorted(found, key=itemgetter(0))]
+
+    def save(self, results: Sequence[BlockRasters], stream: BinaryIO) -> None:
+        """Write the rasters of a block, or of its parts."""
+        content: dict[str, Any] = {}
+        for number, part in enumerate(results):
+            arrays = {"window": np.array(part.window), "box": part.box, "counts": part.counts}
+            arrays |= {f"loose.{name}": places for name, places in part.loose.items()}
+            arrays |= {f"layers.{name}": cells for name, cells in part.layers.items()}
+            content |= {f"{number}.{name}": array for name, array in arrays.items()}
+        np.savez(stream, count=len(results), **content)
+
+    def load(self, file: Path) -> Iterator[BlockRasters]:
+        """Yield the rasters that `save` wrote; their layers stay in the file."""
+        with np.load(file, allow_pickle=False) as stored:
+            for number in range(int(stored["count"])):
+                start = f"{number}.loose."
+                loose = {
+                    name[len(start) :]: stored[name] for name in stored if name.startswith(start)
+                }
+                window, box, counts = (
+                    stored[f"{number}.{name}"] for name in ("window", "box", "counts")
+                )
+                layers = _StoredLayers(file, f"{number}.layers.")
+                yield BlockRasters(CellWindow(*window.tolist()), layers, loose, box, counts)
+
+    def finish(
+        self,
+        result: Sequence[BlockRasters],
+        frame: Frame,
+        outputs: Outputs,
+        progress: Progress,
+        tiles: Sequence[LasFile] | None = None,
+    ) -> RasterSize:
+        """Write the rasters, those of each file if the user asks for it."""
+        files = None
+        if self.per_file and tiles is not None:
+            files = {split_name(tile.path)[0]: tile.box for tile in tiles}
+        return write_rasters(result, frame, self, outputs, progress, files)
+
+
+class _StoredLayers(Dict[str, np.ndarray]):
+    """The layers of a part of a block, read from its file whenever they are used."""
+
+    def __init__(self, file: Path, start: str) -> None:
+        super().__init__()
+        self._file, self._start = file, start
+
+    def __missing__(self, name: str) -> np.ndarray:
+        with np.load(self._file, allow_pickle=False) as stored:
+            return stored[self._start + name]
 
 
 def _rasters_of(
     store: Store, step: MakeRasters, are_all: bool, block: Block, is_only: bool, progress: Progress
-) -> BlockRasters:
-    """Return the rasters of a block; `are_all` if no block was left out."""
+) -> tuple[Block, BlockRasters]:
+    """Return a block and its rasters; `are_all` if no block was left out."""
     contents = step.blocks.contents(block, store, progress.part(0.0, 0.1))
     points, top, corner = contents.points, contents.wanted, step.blocks.corner(block)
     # A single block holds all points.
@@ -236,4 +285,4 @@ def _rasters_of(
     view = BlockView(points, ground, top, core, corner)
     if step.fixed is not None and points.count:
         view = step.fixed.added_to(view)
-    return step.of_block.of(view, block.box, progress.part(0.2, 1.0))
+    return block, step.of_block.of(view, block.box, progress.part(0.2, 1.0))

@@ -1,0 +1,97 @@
+"""Runs a sink on a survey: its results wait in files of blocks until outputs are made of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Sequence
+
+from ..core.errors import BareEarthError, Cancelled
+from ..core.files import Outputs
+from ..core.progress import SILENT, Progress
+from ..core.temporary import remove
+from ..las.cloud import survey_frame
+from ..survey.files import Survey
+from .block_grid import BlockGrid, BlockIndex, least_memory, places_of, sources_of
+from .job_queue import JobQueue
+from .jobs import SinkJob
+from .manifest import block_file, stamp_of
+from .plan import Results, block_jobs
+from .step import Sink
+from .unpacking import Unpacking
+from .values import BlockFiles
+from .workers import Workers
+
+
+def run_sink(
+    survey: Survey,
+    folder: Path,
+    step: Sink,
+    workers: Workers,
+    progress: Progress = SILENT,
+    results: Results | None = None,
+    unpacking: Unpacking | None = None,
+) -> Any:
+    """Run a sink on a survey, or on `results` for its points, and return what it tells; an error
+    says if a block fails, and the workers are stopped.
+    """
+    # The results of blocks go to an existing folder that all workers see. Those that a run left
+    # there when it was cancelled or killed are not made again if nothing has changed.
+    results = results or Results(survey)
+    step = step.placed(survey.crs, survey.box, progress)
+    frame = survey_frame(survey.crs, step.origin)
+    reading, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
+    step = step.seeing(results.parts(unpacking, reading), frame, reading)
+    grid = BlockGrid(frame, step, survey.stated)
+    places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
+    sources = {place: sources_of(grid, survey, place) for place in step.wanted(places, grid)}
+    stamps = {path: stamp_of(source) for path, source in results.read_from.items()}
+    grids = [*(found.grid for found in results.found), grid]
+    files = {
+        place: block_file(grids, folder, place, [stamps[path] for path in paths])
+        for place, paths in sources.items()
+    }
+    is_cancelled = False
+    try:
+        missing = {place: file for place, file in files.items() if not file.exists()}
+        least = max((least_memory(grid, survey, place) for place in missing), default=0)
+        workers.start(folder, least, len(missing), 0)
+
+        def before(group: Sequence[BlockIndex]) -> tuple[BlockFiles, ...]:
+            return tuple(found.within(grid.window(group)) for found in results.found)
+
+        read = {place: [results.read_from[path] for path in sources[place]] for place in missing}
+        jobs = [
+            replace(job, finished=results.finished.intersection(job.sources))
+            for job in block_jobs(SinkJob, grid, survey, missing, read, before, workers, unpacking)
+        ]
+        jobs = _reading_once(jobs)
+        # What was found stays as long as a cancelled run may go on.
+        kept = {file for job in jobs for file in job.needs}
+        queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8), kept)
+        queue.work()
+        if queue.lost:
+            raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
+        found = [result for file in files.values() for result in step.load(file)]
+        with Outputs() as outputs:
+            return step.finish(found, frame, outputs, progress.part(0.8, 1.0), survey.tiles)
+    except Cancelled:
+        is_cancelled = True
+        raise
+    finally:
+        if not is_cancelled:
+            for file in files.values():
+                remove(file)
+
+
+def _reading_once(jobs: list[SinkJob]) -> list[SinkJob]:
+    """Return jobs that do not unpack files which only one of them reads."""
+    uses = Counter(path for job in jobs for path in job.sources)
+    once = frozenset(path for path, count in uses.items() if count == 1)
+    return [
+        job
+        if job.unpacking is None
+        else replace(job, unpacking=job.unpacking._replace(once=once.intersection(job.sources)))
+        for job in jobs
+    ]
