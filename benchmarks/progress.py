@@ -29,7 +29,7 @@ from bare_earth.algorithms.tools.assess import assess_files
 from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.heights import MeasureHeights
 from bare_earth.algorithms.tools.key_points import FindKeyPoints
-from bare_earth.algorithms.tools.rasters.step import RasterFiles
+from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 
 _RASTERS = ("dtm", "dsm", "chm", "hillshade", "confidence")
 

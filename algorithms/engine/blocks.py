@@ -168,17 +168,17 @@ class Blocks:
         block: Block,
         store: Store,
         progress: Progress = SILENT,
-        ground_only: bool = False,
+        known_or: str | None = None,
     ) -> BlockPoints:
-        """Return the points of a block and its buffer relative to its `corner`; if `ground_only`,
-        those that are ground, or are where they lie on it.
+        """Return the points of a block and its buffer relative to its `corner`; for `known_or`, see
+        `Store.read`.
         """
         box, corner = self.window(block), self.corner(block)
         leaves = store.leaves.within(box)
         west, south, east, north = (side - start for side, start in zip(box, corner * 2))
         is_inside = store.leaves.are_inside(leaves, box)
         part = None if is_inside else (west, south, east, north)
-        return store.read(leaves, part, corner, progress, ground_only)
+        return store.read(leaves, part, corner, progress, known_or)
 
     def core(self, block: Block, contents: BlockPoints, is_only: bool) -> np.ndarray:
         """Return which points of a block's contents, bool (n,), it is to say something of."""

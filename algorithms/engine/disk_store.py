@@ -23,7 +23,8 @@ from .store import BlockPoints, Corner, LeafIndex, Marks, Store, smallest_intege
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
 _INDEX = np.dtype("<i4")
-_KNOWN, _WANTED, _ROAD, _MULTI_RETURN = 1, 2, 4, 8
+# Bits of flags; those with names follow.
+_KNOWN, _WANTED, _FIRST_NAMED = 1, 2, 4
 # If fewer points than this lie between two labelled ones, one access to the file is cheaper.
 _GAP = 1 << 16
 # Points that are read at a time.
@@ -76,7 +77,7 @@ class DiskStore(Store):
         records = np.empty(len(which), dtype=_RECORD)
         for name in ("x", "y", "z"):
             records[name] = getattr(part, name)[which]
-        records["flags"] = _flags(part, marks, which)
+        records["flags"] = _flags(marks, which)
         self.has_known |= bool((records["flags"] & _KNOWN).any())
         with write_errors_told(self._target):
             self._records.write(records.tobytes())
@@ -95,27 +96,28 @@ class DiskStore(Store):
             self._values.truncate(self._stored * self._value_kind.itemsize)
 
     def pieces(
-        self, leaves: np.ndarray, corner: Corner, ground_only: bool = False
+        self, leaves: np.ndarray, corner: Corner, known_or: str | None = None
     ) -> tuple[list[int], Callable[[int], BlockPoints]]:
         """Return the numbers of points of runs of some leaves, and what reads a run."""
         starts, kind = [part.start for part in self._parts], smallest_integers(self.count)
         frame, runs = self._frame.moved(corner), list(_joined(*self._runs.of(leaves), starts))
+        named = _bits(self.flags)
 
         def read(number: int) -> BlockPoints:
             run = runs[number]
             with self._lock:
                 records = _read(self._records, _RECORD, *run)
             positions: np.ndarray = np.arange(*run, dtype=kind)
-            if ground_only:
-                which = np.flatnonzero(records["flags"] & (_KNOWN | _ROAD))
+            if known_or is not None:
+                which = np.flatnonzero(records["flags"] & (_KNOWN | named[known_or]))
                 records, positions = records[which], positions[which]
             x, y, z = (records[name] for name in "xyz")
             # Files can differ in scale and offset.
             part = self._parts[bisect.bisect_right(starts, run[0]) - 1]
             points = dataclasses.replace(part.cloud, x=x, y=y, z=z).points(slice(None), frame)
-            kinds = _KNOWN, _WANTED, _ROAD, _MULTI_RETURN
-            known, wanted, roads, several = (records["flags"] & bit > 0 for bit in kinds)
-            return BlockPoints(points, known, wanted, positions, roads, several)
+            known, wanted = (records["flags"] & bit > 0 for bit in (_KNOWN, _WANTED))
+            flags = {name: records["flags"] & bit > 0 for name, bit in named.items()}
+            return BlockPoints(points, known, wanted, positions, flags)
 
         return [end - start for start, end in runs], read
 
@@ -143,12 +145,18 @@ class DiskStore(Store):
         return values
 
 
-def _flags(part: PointCloud, marks: Marks, which: np.ndarray) -> np.ndarray:
+def _bits(names: Sequence[str]) -> dict[str, int]:
+    """Return the bit of each named flag."""
+    return {name: _FIRST_NAMED << number for number, name in enumerate(names)}
+
+
+def _flags(marks: Marks, which: np.ndarray) -> np.ndarray:
     """Return the flags of some points as the bits of an integer."""
-    flags = (_MULTI_RETURN * (part.number_of_returns[which] > 1)).astype(np.uint8)
-    kinds = (_KNOWN, marks.known, False), (_WANTED, marks.wanted, True), (_ROAD, marks.roads, False)
-    for bit, mask, default in kinds:
-        flags |= np.uint8(bit * default) if mask is None else (bit * mask[which]).astype(np.uint8)
+    flags = np.full(len(which), 0 if marks.wanted is not None else _WANTED, dtype=np.uint8)
+    named = [(bit, marks.flags[name]) for name, bit in _bits(tuple(marks.flags)).items()]
+    for bit, mask in ((_KNOWN, marks.known), (_WANTED, marks.wanted), *named):
+        if mask is not None:
+            flags |= (bit * mask[which]).astype(np.uint8)
     return flags
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, NamedTuple
+from typing import Any, Callable, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,7 @@ class _Part(NamedTuple):
     selected: np.ndarray
     known: np.ndarray | None
     wanted: np.ndarray | None
-    roads: np.ndarray | None
+    flags: dict[str, Any]  # without those that no point has
 
 
 class MemoryStore(Store):
@@ -38,11 +38,15 @@ class MemoryStore(Store):
     def append(self, part: PointCloud, marks: Marks) -> None:
         """Add the selected points of the next part."""
         super().append(part, marks)
-        selected, known, wanted, roads = marks
+        selected, known, wanted, flags = marks
         known = known if known is not None and known.any() else None
         wanted = wanted if wanted is not None and not wanted.all() else None
-        roads = roads if roads is not None and roads.any() else None
-        self._parts.append(_Part(part, selected, known, wanted, roads))
+        some = {
+            name: flag
+            for name, flag in flags.items()
+            if not isinstance(flag, np.ndarray) or flag.any()
+        }
+        self._parts.append(_Part(part, selected, known, wanted, some))
         self.has_known |= known is not None
 
     def finish(self, progress: Progress = SILENT) -> None:
@@ -84,7 +88,7 @@ class MemoryStore(Store):
         order[piece] = order[piece][self._runs.sort(places, first)]
 
     def pieces(
-        self, leaves: np.ndarray, corner: Corner, ground_only: bool = False
+        self, leaves: np.ndarray, corner: Corner, known_or: str | None = None
     ) -> tuple[list[int], Callable[[int], BlockPoints]]:
         """Return the numbers of points of pieces of some leaves, and what reads a piece."""
         starts, counts = self._runs.of(leaves)
@@ -96,8 +100,8 @@ class MemoryStore(Store):
             spans = zip(firsts.tolist(), counts[runs].tolist())
             found = [order[first : first + n] for first, n in spans]
             which = found[0] if len(found) == 1 else np.concatenate([order[:0], *found])
-            if ground_only:
-                which = self._ground_of(number, which)
+            if known_or is not None:
+                which = self._with_flag(number, which, known_or)
             pieces += [(number, which[piece]) for piece in parts_of(len(which), _READ)]
         frame = self._frame.moved(corner)
         return (
@@ -105,21 +109,24 @@ class MemoryStore(Store):
             lambda number: self._contents(*pieces[number], frame),
         )
 
-    def _ground_of(self, number: int, which: np.ndarray) -> np.ndarray:
-        """Return those of some points of a part that are ground, or are where they lie on it."""
+    def _with_flag(self, number: int, which: np.ndarray, known_or: str) -> np.ndarray:
+        """Return those of some points of a part that are known ground, or have a flag."""
         part = self._parts[number]
-        flags = [mask[which] for mask in (part.known, part.roads) if mask is not None]
+        masks = part.known, part.flags.get(known_or)
+        flags = [mask[which] for mask in masks if mask is not None]
         return which[np.logical_or.reduce(flags)] if flags else which[:0]
 
     def _contents(self, number: int, which: np.ndarray, frame: Frame) -> BlockPoints:
         part, count = self._parts[number], len(which)
         known = np.zeros(count, bool) if part.known is None else part.known[which]
         wanted = np.ones(count, bool) if part.wanted is None else part.wanted[which]
-        roads = np.zeros(count, bool) if part.roads is None else part.roads[which]
+        flags = {
+            name: part.flags[name][which] if name in part.flags else np.zeros(count, bool)
+            for name in self.flags
+        }
         positions = np.add(which, self.starts[number], dtype=smallest_integers(self.count))
-        several = part.cloud.number_of_returns[which] > 1
         points = part.cloud.points(which, frame)
-        return BlockPoints(points, known, wanted, positions, roads, several)
+        return BlockPoints(points, known, wanted, positions, flags)
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:
         """Store the values of points."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Callable, NamedTuple, Sequence, TypeVar
+from types import MappingProxyType
+from typing import Any, Callable, Mapping, NamedTuple, Sequence, TypeVar
 
 import numpy as np
 
@@ -47,7 +48,8 @@ class Marks(NamedTuple):
     known: np.ndarray | None = None  # which of them are known ground; None for none
     # which of them get a value, the others are context; None for all
     wanted: np.ndarray | None = None
-    roads: np.ndarray | None = None  # which of them are ground where they lie on it; None for none
+    # what else the step asks of points, by names: arrays, or what an index makes such an array of
+    flags: Mapping[str, Any] = MappingProxyType({})
 
 
 class BlockPoints(NamedTuple):
@@ -57,27 +59,35 @@ class BlockPoints(NamedTuple):
     known: np.ndarray  # which are known ground
     wanted: np.ndarray  # which are to be labelled; the others are context
     positions: np.ndarray  # int, (n,): indices in the store
-    roads: np.ndarray  # which are ground where they lie on it
-    multi_return: np.ndarray  # which are of pulses with several returns
+    flags: Mapping[str, np.ndarray] = MappingProxyType({})  # those of `Marks`
 
     @classmethod
-    def empty(cls, count: int, kind: type) -> BlockPoints:
-        """Return uninitialised arrays for `count` points; `kind` is the type of the positions."""
-        known, wanted, roads, several = (np.zeros(count, dtype=bool) for _ in range(4))
+    def empty(cls, count: int, kind: type, names: Sequence[str]) -> BlockPoints:
+        """Return uninitialised arrays for `count` points; `kind` is the type of the positions, and
+        `names` are those of flags.
+        """
+        known, wanted, *flags = (np.zeros(count, dtype=bool) for _ in range(2 + len(names)))
+        positions: np.ndarray = np.empty(count, dtype=kind)
         points = Points(*np.empty((3, count)))
-        return cls(points, known, wanted, np.empty(count, dtype=kind), roads, several)
+        return cls(points, known, wanted, positions, dict(zip(names, flags)))
 
     def put(self, start: int, some: BlockPoints) -> None:
         """Overwrite points from index `start` on with other points."""
         where = slice(start, start + some.points.count)
-        for mine, theirs in zip((*self.points, *self[1:]), (*some.points, *some[1:])):
+        for mine, theirs in zip(self._arrays, some._arrays):
             mine[where] = theirs
 
     def take(self, which: np.ndarray | slice) -> BlockPoints:
         """Return the points that a mask or a slice selects."""
         if isinstance(which, np.ndarray) and which.dtype == bool:
             which = np.flatnonzero(which)  # faster than to use the mask six times
-        return BlockPoints(self.points.take(which), *(flags[which] for flags in self[1:]))
+        known, wanted, positions = (array[which] for array in self[1:4])
+        flags = {name: flag[which] for name, flag in self.flags.items()}
+        return BlockPoints(self.points.take(which), known, wanted, positions, flags)
+
+    @property
+    def _arrays(self) -> tuple[np.ndarray, ...]:
+        return *self.points, *self[1:4], *self.flags.values()
 
 
 class Store:
@@ -86,7 +96,7 @@ class Store:
     """
 
     leaves: Leaves  # after `finish`
-    # Whether reading only the ground reads all points first.
+    # Whether reading only some of the points reads all of them first.
     reads_all = False
 
     def __init__(self, frame: Frame, kind: type) -> None:
@@ -94,18 +104,20 @@ class Store:
         self.has_known = False  # whether any point is known ground
         self.count = 0  # points of all parts
         self.starts: list[int] = []  # index of the first point of each part
+        self.flags: tuple[str, ...] = ()  # names of the `flags` of all parts
 
     def append(self, part: PointCloud, marks: Marks) -> None:
         """Add the selected points of the next part."""
         self.starts.append(self.count)
         self.count += part.count
+        self.flags = tuple(marks.flags)
 
     def finish(self, progress: Progress = SILENT) -> None:
         """Finish adding points."""
         raise NotImplementedError
 
     def pieces(
-        self, leaves: np.ndarray, corner: Corner, ground_only: bool = False
+        self, leaves: np.ndarray, corner: Corner, known_or: str | None = None
     ) -> tuple[Sequence[int], Callable[[int], BlockPoints]]:
         """Return the numbers of points of pieces of some leaves, small enough for the processor's
         cache, and what reads a piece by its number; see `read`.
@@ -118,17 +130,17 @@ class Store:
         box: Box | None = None,
         corner: Corner = (0.0, 0.0),
         progress: Progress = SILENT,
-        ground_only: bool = False,
+        known_or: str | None = None,
     ) -> BlockPoints:
         """Return the points of some leaves, in a box if there is one, relative to a corner as the
-        box; if `ground_only`, those that are ground, or are where they lie on it.
+        box; with `known_or`, those that are known ground, or have this flag.
         """
         # Several threads may call this.
-        counts, piece = self.pieces(leaves, corner, ground_only)
+        counts, piece = self.pieces(leaves, corner, known_or)
         starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
-        whole = BlockPoints.empty(starts[-1], smallest_integers(self.count))
+        whole = BlockPoints.empty(starts[-1], smallest_integers(self.count), self.flags)
         numbers = range(len(counts))
-        if box is None and not (ground_only and self.reads_all):
+        if box is None and not (known_or and self.reads_all):
             in_threads(lambda number: whole.put(starts[number], piece(number)), numbers, progress)
             return whole
         end = 0

@@ -1,4 +1,4 @@
-"""Return numbers that begin at 0, where the LAS specification counts from 1."""
+"""Return numbers, also those that begin at 0, where the LAS specification counts from 1."""
 
 from __future__ import annotations
 
@@ -10,10 +10,22 @@ FROM_ZERO = (
     "The return numbers begin at 0, not at 1 as in the LAS specification: each counts as one"
     " higher."
 )
+# The flag of points whose pulses have several returns.
+MULTI_RETURN = "multi return"
 # In files that count from 0, at most this share of pulses seems to count from 1.
 _MOST_WRONG = 0.02
 # First and last returns may differ by this share, as pulses lie partly outside of what is read.
 _CUT_OFF = 0.2
+
+
+class SeveralReturns:
+    """Tells which of some points are of pulses with several returns, without an array of all."""
+
+    def __init__(self, cloud: PointCloud) -> None:
+        self._counts = cloud.number_of_returns
+
+    def __getitem__(self, which: np.ndarray) -> np.ndarray:
+        return self._counts[which] > 1
 
 
 def count_from_one(cloud: PointCloud) -> PointCloud:

@@ -68,8 +68,8 @@ class RasterRequest(Request):
         """Return the step that makes them, given which points are ground; see `MakeRasters`."""
         return MakeRasters(
             self.rasters, self.terrain, self.surface, ground=ground, roads=roads,
-            constraints=self.constraints, per_file=self.raster_output.raster_per_file, target=self.raster_target,
-            area=self.area,
+            constraints=self.constraints, per_file=self.raster_output.raster_per_file,
+            target=self.raster_target, area=self.area,
         )  # fmt: skip
 
 

@@ -15,6 +15,9 @@ from .kept_classes import used
 from .point_counts import count_classes
 from .selection import Selection
 
+# The flag of points that are ground where they lie on it.
+ROADS_FLAG = "roads"
+
 
 @dataclass
 class GroundCounts:

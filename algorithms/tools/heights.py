@@ -26,7 +26,7 @@ from ..las.extrabytes import ExtraDimension
 from ..las.lasfile import LasFile
 from ..rasters.sampling import FAR_ABOVE, HeightRaster, HeightSampler
 from ..survey.area import Area
-from ..survey.ground_classes import GroundClasses, GroundCounts
+from ..survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from .declaration import CANOPY, CLOUD, TIN, Input, PointTool
 
 HEIGHT_DIMENSION = "HeightAboveGround"
@@ -99,7 +99,7 @@ class MeasureHeights(PointStep):
             return Marks(~every, ~every, ~every)
         inside = every if self.area is None else self.area.of(part)
         roads = self.ground.points_of(part, self.roads)
-        return Marks(every, self.ground.of(part, counts), inside, roads)
+        return Marks(every, self.ground.of(part, counts), inside, {ROADS_FLAG: roads})
 
     def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without ground."""
@@ -234,11 +234,11 @@ def _measured(
     ground is in memory as a whole.
     """
     corner = blocks.corner(block)
-    ground = blocks.contents(block, store, progress.part(0.0, 0.1), ground_only=True)
-    if ground.roads.any():
-        part = progress.part(0.1, 0.15)
-        ground = ground.take(with_roads(ground.points, ground.known, ground.roads, part))
-    roads = np.sort(ground.positions[ground.roads])
+    ground = blocks.contents(block, store, progress.part(0.0, 0.1), ROADS_FLAG)
+    if ground.flags[ROADS_FLAG].any():
+        part, on_roads = progress.part(0.1, 0.15), ground.flags[ROADS_FLAG]
+        ground = ground.take(with_roads(ground.points, ground.known, on_roads, part))
+    roads = np.sort(ground.positions[ground.flags[ROADS_FLAG]])
 
     def wanted(piece: BlockPoints) -> tuple[np.ndarray, np.ndarray, BlockPoints]:
         """Return the positions of wanted points, which are above ground, and the latter."""

@@ -15,6 +15,7 @@ from bare_earth.algorithms.core.temporary import is_temporary
 from bare_earth.algorithms.engine.memory_store import MemoryStore
 from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.engine.store import Marks
+from bare_earth.algorithms.las.return_numbers import MULTI_RETURN, SeveralReturns
 from bare_earth.algorithms.runs import many_files
 from bare_earth.algorithms.runs.requests import ClassifyRequest
 from bare_earth.algorithms.tools.ground.output import Output
@@ -69,6 +70,7 @@ def memory_store(parts, frame, blocks):
     """Return a store of clouds in memory, each given with its marks."""
     store = MemoryStore(frame, blocks)
     for cloud, *marks in parts:
-        store.append(cloud, Marks(*marks))
+        flags = {MULTI_RETURN: SeveralReturns(cloud)}
+        store.append(cloud, Marks(*marks)._replace(flags=flags))
     store.finish()
     return store

@@ -21,9 +21,9 @@ BOX = near((0.0, 0.0, 100.0, 100.0))
 def contents(count=200_000, seed=1):
     random = np.random.default_rng(seed)
     points = Points(*random.uniform(-150.0, 250.0, (2, count)), random.normal(0.0, 1.0, count))
-    known, wanted, roads, several = np.zeros((4, count), dtype=bool)
+    known, wanted = np.zeros((2, count), dtype=bool)
     known[:: count // 50] = True
-    return BlockPoints(points, known, wanted, np.arange(count), roads, several)
+    return BlockPoints(points, known, wanted, np.arange(count))
 
 
 def test_near_points_known_ground_and_the_lowest_of_cells_stay():

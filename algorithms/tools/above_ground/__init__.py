@@ -17,9 +17,10 @@ from ...engine.step import CountedClasses, PointStep, with_classes
 from ...engine.store import BlockPoints, Corner, Marks, Store
 from ...grids.height_above_ground import with_roads
 from ...las.cloud import PointCloud
+from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...survey.area import Area
 from ...survey.corrections import NO_CORRECTIONS, Corrections, changed_since
-from ...survey.ground_classes import GroundClasses, GroundCounts
+from ...survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...survey.kept_classes import DECIDED, ROADS, is_one_of
 from ...survey.shapes import outside
 from ..declaration import CANOPY, CLOUD, Input, PointTool
@@ -73,7 +74,8 @@ class ClassifyAboveGround(PointStep):
         roads = self.ground.points_of(part, ROADS) & ~ground
         selected = ground | roads | self.ground.points_of(part, DECIDED)
         wanted = selected & ~ground & self.changes(part)
-        return Marks(selected, ground, wanted, roads)
+        flags = {ROADS_FLAG: roads, MULTI_RETURN: SeveralReturns(part)}
+        return Marks(selected, ground, wanted, flags)
 
     def changes(self, part: PointCloud) -> np.ndarray:
         """Return which points can change: of certain classes, in the area, not set by hand."""
@@ -126,8 +128,9 @@ def _classes(
     count = np.count_nonzero(wanted)
     if not count or not contents.known.any():
         return np.zeros(count, dtype=np.uint8)
-    ground = with_roads(contents.points, contents.known, contents.roads, progress.part(0.0, 0.1))
-    several, part = contents.multi_return, progress.part(0.1, 1.0)
+    roads, several = contents.flags[ROADS_FLAG], contents.flags[MULTI_RETURN]
+    ground = with_roads(contents.points, contents.known, roads, progress.part(0.0, 0.1))
+    part = progress.part(0.1, 1.0)
     return classes_above_ground(contents.points, ground, several, parameters, part)[wanted]
 
 

@@ -23,6 +23,7 @@ from ...filters.stages.outliers import below_ground
 from ...grids.bridge_decks import bridge_decks
 from ...grids.cells import apart
 from ...grids.high_groups import HighGroups
+from ...las.return_numbers import MULTI_RETURN
 from ...survey.selection import Selection
 from .explanation import ExplainedCells
 from .surroundings import EVERYWHERE, near, tell_spacing, thinned
@@ -115,7 +116,7 @@ def _label(
     tell_spacing(points, box)
     warn_of_extent(points, *method.largest(parameters), progress)
     ground, outliers, decided = method.ground(
-        points, parameters, part, known, contents.multi_return, explains
+        points, parameters, part, known, contents.flags[MULTI_RETURN], explains
     )
     ground |= known
     warn_of_little_ground(points, ground, progress)

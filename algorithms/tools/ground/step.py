@@ -23,6 +23,7 @@ from ...filters import method_of
 from ...las.cloud import PointCloud
 from ...las.edits import Edits
 from ...las.lasfile import LasFile
+from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...rasters.writing import raster_file
 from ...survey.area import Area
 from ...survey.corrections import NO_CORRECTIONS, ByHand, Corrections
@@ -98,7 +99,7 @@ class LabelGround(PointStep):
     def marks(self, part: PointCloud, counts: PointCounts) -> Marks:
         """Return which points take part, are known ground, and lie in the area."""
         inside, selected, known = self.chooser.choose(part, counts)
-        return Marks(selected, known, inside)
+        return Marks(selected, known, inside, {MULTI_RETURN: SeveralReturns(part)})
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their new classes; points that are not written become withheld."""

@@ -43,7 +43,7 @@ def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
         if len(far):
             some = contents.points.take(far)
             stays[far[Cells.over(some, _CELL).lowest_points(some)]] = True
-    stays |= contents.known | contents.roads
+    stays |= contents.known
     return contents.take(stays)
 
 

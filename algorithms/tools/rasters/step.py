@@ -29,7 +29,7 @@ from ...grids.height_above_ground import with_roads
 from ...las.cloud import PointCloud, survey_frame
 from ...las.lasfile import LasFile
 from ...rasters.cell_grid import cell_grid
-from ...survey.ground_classes import GroundClasses, GroundCounts
+from ...survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
 from .block import LAYERS, BlockRasters, BlockView
 from .constraints import NO_CONSTRAINTS, Constraints
@@ -130,14 +130,14 @@ class MakeRasters(Drawing, Sink):
             counts.excluded += int(np.count_nonzero(ground & ~stays))
             ground, roads = stays, self.constraints.is_ground(part, roads)
         if self.covers_ground:
-            return Marks(ground | roads, ground, nothing, roads)
+            return Marks(ground | roads, ground, nothing, {ROADS_FLAG: roads})
         shown = ground | (~np.isin(part.classification, NOISE) & self.ground.used(part))
         if not self.needs_all:
             # The others only show where the survey is.
             shown = ground | roads | self._thinned(part, shown)
         top = shown & self.needs_surface & self._is_surface(part, ground)
         counts.top += int(np.count_nonzero(top))
-        return Marks(shown, ground, top, roads)
+        return Marks(shown, ground, top, {ROADS_FLAG: roads})
 
     def _is_surface(self, part: PointCloud, ground: np.ndarray) -> np.ndarray:
         """Return which points are of the classes and returns of the surface."""
@@ -281,7 +281,7 @@ def _rasters_of(
     # A single block holds all points.
     is_whole = is_only and are_all
     core = np.ones(points.count, dtype=bool) if is_whole else block.holds(points, corner)
-    ground = with_roads(points, contents.known, contents.roads, progress.part(0.1, 0.2))
+    ground = with_roads(points, contents.known, contents.flags[ROADS_FLAG], progress.part(0.1, 0.2))
     view = BlockView(points, ground, top, core, corner)
     if step.fixed is not None and points.count:
         view = step.fixed.added_to(view)
