@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import itertools
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Sequence
 
@@ -220,11 +221,16 @@ def copies_all_else(las: LasFile, target: Path, steps: Sequence[PointStep]) -> b
 class TileResult:
     """What the steps of a run found for the points of a file, in the order of the steps."""
 
-    def __init__(self, points: FilePoints, values: Sequence[PointValues]) -> None:
+    def __init__(
+        self, points: FilePoints, values: Sequence[PointValues], counts: Sequence[Any] = ()
+    ) -> None:
         self._points, self._values = points, values
         steps = [found.step for found in values]
-        # what each step found beside the classes
-        self.results = [step.result(points.path, points.allocate) for step in steps]
+        # what each step found beside the classes; `counts` are those of `PointStep.result`
+        self.results = [
+            step.result(points.path, points.allocate, counted)
+            for step, counted in itertools.zip_longest(steps, counts)
+        ]
         self.classification: np.ndarray | None = None
         if any(step.gives_classes for step in steps):
             self.classification = points.allocate(np.uint8)
@@ -235,7 +241,9 @@ class TileResult:
     def add(self, where: slice, part: PointCloud) -> None:
         """Add the next points of the file."""
         for result, found in zip(self.results, self._values):
-            part = result.add(where, part, found.of(where, part))
+            before, values = part, found.of(where, part)
+            part = found.step.applied(before, values)
+            result.add(where, before, part, values)
         if self.classification is not None:
             self.classification[where] = part.classification
             if part.remembered is not None:
@@ -245,10 +253,10 @@ class TileResult:
         classes, kept = part.classification, self.results[0].kept
         self.class_counts += count_classes(classes if kept is None else classes[kept[where]])
 
-    def check(self) -> None:
-        """Refuse a file without a result, with the reason."""
+    def end(self, progress: Progress) -> None:
+        """Report what was found, or refuse to write a file without a result."""
         for result, found in zip(self.results, self._values):
-            result.check(found.failure)
+            result.end(progress, found.failure)
 
     @property
     def is_empty(self) -> bool:

@@ -239,18 +239,16 @@ class TileJob(Job):
         las, steps = self.tile, [found.grid.step for found in self.before]
         if self.unpacking is not None:
             las = self.unpacking.of(las, progress.part(0.0, 0.3))
-        values, counts = [BlockValues(found, las) for found in self.before], steps[0].counts()
+        values = [BlockValues(found, las) for found in self.before]
         needs_records = not copies_all_else(las, self.target, steps)
         reading, resources = progress.part(0.3, 0.4).quiet(), share.resources
         with FilePoints.opened(las, self.target, resources, needs_records, reading) as points:
             result = TileResult(points, values)
             for where, part in points.parts(is_last=True):
-                steps[0].count(part, counts)
                 result.add(where, part)
             for found in values:
                 found.check()
-            if steps[0].tell_of_tile(counts, las.path, progress):
-                result.check()
+            result.end(progress)
             if result.is_empty:
                 return None
             result.write(self.target, progress.part(0.4, 1.0))

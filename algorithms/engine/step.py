@@ -157,15 +157,6 @@ class PointStep(Step):
         """Return whether no point of a file is to be written, according to its header."""
         return False
 
-    def count(self, part: PointCloud, counts: Any) -> None:
-        """Count points of one of many files for `tell_of_tile`."""
-
-    def tell_of_tile(self, counts: Any, path: Path, progress: Progress) -> bool:
-        """Report what was counted in one of many files, or refuse it, and return whether any point
-        can get a result; if not, it is written as it is.
-        """
-        return True
-
     def tell_of_survey(self, done: Sequence[Any], progress: Progress) -> None:
         """Report on all files together, given their summaries."""
 
@@ -173,8 +164,10 @@ class PointStep(Step):
         """Return numbers of points of a part, before and after, that the summary has."""
         return {}
 
-    def result(self, path: Path, allocate: Allocate) -> PointResult:
-        """Return an object that collects the values of a file."""
+    def result(self, path: Path, allocate: Allocate, counts: Any = None) -> PointResult:
+        """Return an object that collects the values of a file, given what `marks` counted in it;
+        None in a survey, in which that is not known by file.
+        """
         return CountedPoints(self)
 
 
@@ -227,17 +220,16 @@ class PointResult:
         """Whether no point is to be written."""
         return False
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Add the values, shape (k,), of the points at `where` in the file, and return these as
-        `applied` of the step does.
+    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
+        """Add the values, shape (k,), of the points at `where` in the file, given without and with
+        what the step changes.
         """
         raise NotImplementedError
 
-    def check(self, why: str = "") -> None:
-        """Refuse to write a file without a result; `why` is the reason, if it is known."""
-
-    def tell(self, progress: Progress) -> None:
-        """Report what was found in a file."""
+    def end(self, progress: Progress, why: str = "") -> None:
+        """Report what was found in a file, or refuse to write it without a result, of which `why`
+        is the reason, if it is known.
+        """
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the changes of the file beside the classes, or refuse a file that cannot hold
@@ -256,11 +248,9 @@ class CountedPoints(PointResult):
     def __init__(self, step: PointStep) -> None:
         self._step, self._numbers = step, Counter[str]()
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Count some points; return them with their classes."""
-        after = self._step.applied(part, values)
-        self._numbers.update(point_count=part.count, **self._step.numbers(part, after, values))
-        return after
+    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
+        """Count some points."""
+        self._numbers.update(point_count=before.count, **self._step.numbers(before, after, values))
 
     def summary(self, name: str, class_counts: dict[int, int]) -> Any:
         """Return the numbers of points."""

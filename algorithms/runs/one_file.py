@@ -135,10 +135,13 @@ class _FileRun:
 
     def found(self, progress: Progress) -> TileResult:
         """Return what the steps found for each point."""
-        result = TileResult(self.points, self._values)
+        counts = [
+            counted for step, counted in zip(self.steps, self.counts) if isinstance(step, PointStep)
+        ]
+        result = TileResult(self.points, self._values, counts)
         for where, part in self.points.parts(self.points.sparing(progress)):
             result.add(where, part)
-        result.results[0].tell(progress)
+        result.end(progress)
         return result
 
     def written(self, target: Path, progress: Progress) -> TileResult:

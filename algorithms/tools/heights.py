@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -118,7 +119,7 @@ class MeasureHeights(PointStep):
             for _, found in over_blocks(store, self.blocks, work, resources, progress):
                 store.put(*found)
 
-    def result(self, path: Path, allocate: Allocate) -> HeightsOfPoints:
+    def result(self, path: Path, allocate: Allocate, counts: Any = None) -> HeightsOfPoints:
         """Return an object that collects the heights of a file."""
         return HeightsOfPoints(self, allocate)
 
@@ -135,21 +136,20 @@ class HeightsOfPoints(PointResult):
         self._ground_count, self._unit, self._unknown_count = 0, 1.0, 0
         self._sampler = None if step.dtm is None else HeightSampler(step.dtm)
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
+    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
         """Convert heights from metres to the vertical unit, without noise from rounding."""
-        unit = part.crs.vertical_unit
+        unit = before.crs.vertical_unit
         if self._sampler is not None:
-            values = _above_raster(part, self._sampler)
+            values = _above_raster(before, self._sampler)
         # So that ground points have 0, not -0.
         heights = np.round(values / unit, 6) + 0.0
         self.heights[where] = heights
-        ground = self._step.ground.points_of(part, self._step.ground.ground_classes)
+        ground = self._step.ground.points_of(before, self._step.ground.ground_classes)
         self._ground_count += int(np.count_nonzero(ground))
         self._unit = unit
         self._unknown_count += int(np.count_nonzero(np.isnan(heights)))
         self._lowest = min(self._lowest, float(np.fmin.reduce(heights, initial=np.inf)))
         self._highest = max(self._highest, float(np.fmax.reduce(heights, initial=-np.inf)))
-        return part
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the heights as z or as a dimension, or refuse heights that do not fit into z, and

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -131,7 +132,7 @@ class FindKeyPoints(PointStep):
             "key_point_count": int(np.count_nonzero(values == _KEY)),
         }
 
-    def result(self, path: Path, allocate: Allocate) -> CountedPoints:
+    def result(self, path: Path, allocate: Allocate, counts: Any = None) -> CountedPoints:
         """Return an object that counts the key points of a file, and collects their flags."""
         return CountedPoints(self) if self.gives_classes else _Flags(self, allocate)
 
@@ -143,10 +144,10 @@ class _Flags(CountedPoints):
         super().__init__(step)
         self._flags = allocate(np.int8)
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
+    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
         """Count some points, and set their flags."""
         self._flags[where] = np.select([values == _KEY, values == _OTHER], [1, 0], -1)
-        return super().add(where, part, values)
+        super().add(where, before, after, values)
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the flags."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from bare_earth.algorithms.core.parameters import ParameterSet, parameter
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.step import CountedClasses, PointResult, PointStep, with_classes
+from bare_earth.algorithms.engine.step import CountedClasses, PointStep, with_classes
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.survey.ground_classes import GroundClasses, GroundCounts
 from bare_earth.algorithms.tools import POINT_TOOLS, Listed
@@ -65,23 +65,9 @@ class RenameGround(PointStep):
         new = np.uint8(self.parameters.new_class)
         return with_classes(part, np.where(ground, new, part.classification))
 
-    def result(self, path, allocate):
-        return RenamedPoints(self)
-
-
-class RenamedPoints(PointResult):
-    """Counts the points of a file."""
-
-    def __init__(self, step):
-        self._step, self._count = step, 0
-
-    def add(self, where, part, values):
-        self._count += part.count
-        return self._step.applied(part, values)
-
-    def summary(self, name, class_counts):
-        new = class_counts.get(self._step.parameters.new_class, 0)
-        return ToySummary(name, self._count, new, class_counts)
+    def numbers(self, part, after, values):
+        is_new = after.classification == self.parameters.new_class
+        return {"new_count": int(np.count_nonzero(is_new))}
 
 
 TOOL = PointTool(

@@ -26,7 +26,7 @@ from ...las.lasfile import LasFile
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...rasters.writing import raster_file
 from ...survey.area import Area
-from ...survey.corrections import NO_CORRECTIONS, ByHand, Corrections
+from ...survey.corrections import NO_CORRECTIONS, Corrections
 from ...survey.kept_classes import overlapping
 from ...survey.point_chooser import PointChooser
 from ...survey.point_counts import PointCounts, by_class, count_classes
@@ -103,12 +103,7 @@ class LabelGround(PointStep):
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their new classes; points that are not written become withheld."""
-        return self.decided(part, values, self.chooser.inside(part), self.chooser.by_hand(part))
-
-    def decided(
-        self, part: PointCloud, values: np.ndarray, inside: np.ndarray, by_hand: ByHand | None
-    ) -> PointCloud:
-        """Return the same, given which points lie in the area, and the corrections by hand."""
+        inside, by_hand = self.chooser.inside(part), self.chooser.by_hand(part)
         ground, low, decks, high = (values == label for label in Label)
         classes = self.selection.classes(part, ground, low, inside, decks, by_hand, high)
         part = with_classes(part, classes, self.selection.remember_classes)
@@ -123,25 +118,6 @@ class LabelGround(PointStep):
     def check_tile(self, tile: LasFile) -> None:
         """Refuse a file whose points cannot hold the classes."""
         self.chooser.check_classes(tile.path, tile.point_format)
-
-    def count(self, part: PointCloud, counts: PointCounts) -> None:
-        """Count which points take part."""
-        self.chooser.choose(part, counts)
-
-    def tell_of_tile(self, counts: PointCounts, path: Path, progress: Progress) -> bool:
-        """Report how many points took part; refuse a file none of whose returns does."""
-        # If an area is given, a file need not have points in it. Others need not have points that
-        # can be ground, such as a file of water only.
-        if self.area is None and not (counts.eligible or self.output.ground_only):
-            classes = np.flatnonzero(counts.classes).tolist()
-            words = "class" if len(classes) == 1 else "classes"
-            all_are = f"all are of {words} {', '.join(map(str, classes))}"
-            why = all_are if counts.free else "all are withheld"
-            progress.warning(f"No point can be ground: {why}. The file is written unchanged.")
-            return False
-        if self.area is None or counts.of_returns:
-            self.selection.tell(counts, path, progress)
-        return True
 
     def check_survey(self, box: Box) -> None:
         """Refuse the survey if the area lies outside its extent."""
@@ -197,9 +173,11 @@ class LabelGround(PointStep):
         if self.explain is not None:
             write_explanation(raster_file(outputs, self.explain), result, frame, progress)
 
-    def result(self, path: Path, allocate: Allocate) -> ClassifiedPoints:
-        """Return an object that turns the labels of a file into classes."""
-        return ClassifiedPoints(self, path, allocate)
+    def result(
+        self, path: Path, allocate: Allocate, counts: PointCounts | None = None
+    ) -> ClassifiedPoints:
+        """Return an object that counts the classified points of a file."""
+        return ClassifiedPoints(self, path, allocate, counts)
 
 
 class ClassifiedPoints(PointResult):
@@ -207,8 +185,11 @@ class ClassifiedPoints(PointResult):
     written; `allocate` returns an array of one value for each point.
     """
 
-    def __init__(self, step: LabelGround, path: Path, allocate: Allocate) -> None:
+    def __init__(
+        self, step: LabelGround, path: Path, allocate: Allocate, counts: PointCounts | None
+    ) -> None:
         self._step, self._path, output = step, path, step.output
+        self._counts, self._is_tile = counts or PointCounts(), counts is None
         # bool, (n,); None for all
         self.kept = allocate(bool) if output.ground_only or output.area_only else None
         # with the class of the ground
@@ -218,29 +199,31 @@ class ClassifiedPoints(PointResult):
         self._counts_before = np.zeros(256, dtype=np.int64)
         self._has_ground = False
 
-    def add(self, where: slice, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Count some points, given their labels; return them with their classes."""
+    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
+        """Count some points, given their labels."""
         chooser = self._step.chooser
-        inside, by_hand = chooser.inside(part), chooser.by_hand(part)
-        after = self._step.decided(part, values, inside, by_hand)
+        if self._is_tile:
+            inside, _, _ = chooser.choose(before, self._counts)
+        else:
+            inside = chooser.inside(before)
         ground = after.classification == self._step.selection.to_class
         if self.kept is not None:
             self.kept[where] = inside if self._step.output.area_only else True
             if self._step.output.ground_only:
                 self.kept[where] &= ground
         self._has_ground |= bool((values == Label.GROUND).any())
-        self._counts_before += count_classes(part.classification)
-        self._overlap_count += int(np.count_nonzero(overlapping(part)))
+        self._counts_before += count_classes(before.classification)
+        self._overlap_count += int(np.count_nonzero(overlapping(before)))
+        by_hand = chooser.by_hand(before)
         if by_hand is not None:
             self._by_hand_count += int(np.count_nonzero(by_hand.known & inside))
-        self._count += part.count
+        self._count += before.count
         self._ground_count += int(np.count_nonzero(ground))
         self.area_count += int(np.count_nonzero(inside))
         self.area_ground_count += int(np.count_nonzero(ground & inside))
         self.area_low_count += int(np.count_nonzero((values == Label.LOW) & inside))
         self.area_deck_count += int(np.count_nonzero((values == Label.BRIDGE) & inside))
         self.area_high_count += int(np.count_nonzero((values == Label.HIGH) & inside))
-        return after
 
     @property
     def is_empty(self) -> bool:
@@ -249,15 +232,29 @@ class ClassifiedPoints(PointResult):
             return False
         return not (self.area_ground_count if self._step.output.ground_only else self.area_count)
 
-    def check(self, why: str = "") -> None:
-        """Refuse a file without ground, unless few of its points may be in the area."""
-        if self._has_ground:
+    def end(self, progress: Progress, why: str = "") -> None:
+        """Report the numbers of outliers and of points on bridges in the area; of one of many
+        files, how many points took part, or refuse it without ground.
+        """
+        if not self._is_tile:
+            self._tell_of_found(progress)
             return
-        if self._step.area is None or (why and self.area_count):
+        step, counts = self._step, self._counts
+        # If an area is given, a file need not have points in it. Others need not have points that
+        # can be ground, such as a file of water only.
+        if step.area is None and not (counts.eligible or step.output.ground_only):
+            classes = np.flatnonzero(counts.classes).tolist()
+            words = "class" if len(classes) == 1 else "classes"
+            all_are = f"all are of {words} {', '.join(map(str, classes))}"
+            reason = all_are if counts.free else "all are withheld"
+            progress.warning(f"No point can be ground: {reason}. The file is written unchanged.")
+            return
+        if step.area is None or counts.of_returns:
+            step.selection.tell(counts, self._path, progress)
+        if not self._has_ground and (step.area is None or (why and self.area_count)):
             raise BareEarthError(why or f"No ground was found in {self._path}.")
 
-    def tell(self, progress: Progress) -> None:
-        """Report the numbers of outliers and of points on bridges in the area."""
+    def _tell_of_found(self, progress: Progress) -> None:
         selection = self._step.selection
         if selection.low_noise_class:
             progress.info(
