@@ -13,16 +13,16 @@ implementation it is the point itself, which makes no difference here.
 
 from __future__ import annotations
 
-import io
 import struct
 from typing import BinaryIO, Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
+from .chunk_file import ChunkFile, compressed
 from .cloud import PointCloud
 from .lasfile import RECORD_LENGTHS, LasFile
 from .laszip import CLASSES, LAYERS, POINT_14, ChunkHead
-from .records import LazRecordWriter, laszip_vlr, named, read_records
+from .records import laszip_vlr, named, read_records
 from .sources import damaged, open_source
 
 # The fields of a point that decide how its class is coded.
@@ -77,11 +77,8 @@ class ClassLayers:
         """
         # The header describes the same compression. If no cloud is given, or one with only some
         # points, the returns are read again.
-        import lazrs
-
-        table, layout = file.tell(), self._layout
-        file.write(struct.pack("<q", -1))
-        groups = self._groups()
+        layout, groups = self._layout, self._groups()
+        chunks = ChunkFile(file, layout.laszip or b"")
         with open_source(layout.path) as source:
             source.seek(layout.points_start + 8)
             for group, returns in zip(groups, _returns(layout, groups, cloud)):
@@ -92,16 +89,10 @@ class ClassLayers:
                     [slice(chunk.start - first, chunk.end - first) for chunk in group],
                 )
                 for chunk, layer in zip(group, new):
-                    start = file.tell()
-                    self._write_chunk(source, file, chunk, int(classes[chunk.start]), layer)
-                    self.moved[chunk.place] = start, file.tell() - start
+                    data = self._changed(source, chunk, int(classes[chunk.start]), layer)
+                    self.moved[chunk.place] = chunks.add(data, chunk.end - chunk.start)
                 yield group[-1].end / layout.count
-        end = file.tell()
-        sizes = [(chunk.end - chunk.start, self.moved[chunk.place][1]) for chunk in self.chunks]
-        lazrs.write_chunk_table(file, sizes, lazrs.LazVlr(layout.laszip))
-        file.seek(table)
-        file.write(struct.pack("<q", end))
-        file.seek(0, io.SEEK_END)
+        chunks.finish()
 
     def _groups(self) -> list[list[Chunk]]:
         """Return chunks in groups whose layers are compressed together."""
@@ -112,10 +103,10 @@ class ClassLayers:
             groups[-1].append(chunk)
         return groups
 
-    def _write_chunk(
-        self, source: BinaryIO, file: BinaryIO, chunk: Chunk, first_class: int, layer: bytes
-    ) -> None:
-        """Copy a chunk with a new layer of classes."""
+    def _changed(
+        self, source: BinaryIO, chunk: Chunk, first_class: int, layer: memoryview
+    ) -> bytes:
+        """Return the next chunk of the source with a new layer of classes."""
         data = source.read(chunk.size)
         if len(data) != chunk.size:
             raise damaged(self._layout.path)
@@ -125,8 +116,7 @@ class ClassLayers:
         # The lengths of the layers stand after the number of points.
         struct.pack_into("<I", start, head.record_length + 4 + 4 * CLASSES, len(layer))
         view = memoryview(data)
-        for part in (start, view[head.size : former.start], layer, view[former.stop :]):
-            file.write(part)
+        return b"".join((start, view[head.size : former.start], layer, view[former.stop :]))
 
 
 def _returns(
@@ -155,7 +145,7 @@ def _new_layers(
     scanner_channel: np.ndarray,
     classes: np.ndarray,
     chunks: Sequence[slice],
-) -> Iterator[bytes]:
+) -> Iterator[memoryview]:
     """Yield the layer of classes of each chunk."""
     head = ChunkHead(RECORD_LENGTHS[_FORMAT], LAYERS[POINT_14])
     points = np.zeros((len(classes), head.record_length), dtype=np.uint8)
@@ -163,13 +153,6 @@ def _new_layers(
     points[:, _RETURNS] = np.where(is_only, _ONLY, _FIRST_OF_TWO)
     points[:, _CHANNEL] = scanner_channel << 4
     points[:, _CLASS] = classes
-    file = io.BytesIO()
-    writer = LazRecordWriter(file, laszip_vlr(_FORMAT, 0, variable_chunks=True))
-    writer.write_chunks([points[chunk] for chunk in chunks])
-    writer.finish()
-    file.seek(0)
-    sizes = writer.chunk_sizes(file)
-    data, start = file.getbuffer(), 8
-    for size in sizes:
-        yield bytes(data[head.layer(CLASSES, data, start)])
-        start += size
+    laszip = laszip_vlr(_FORMAT, 0, variable_chunks=True)
+    for data in compressed(laszip, [points[chunk] for chunk in chunks]):
+        yield data[head.layer(CLASSES, data)]

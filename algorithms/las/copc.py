@@ -79,7 +79,7 @@ def write_copc(
         file.write(bytes(start))
         entries = _write_nodes(file, vlrs[1], points, room)
         end = file.seek(0, 2)
-        _write_hierarchy(file, entries)
+        write_hierarchy(file, entries)
         with open_source(layout.path) as source:
             for evlr in evlrs:
                 copy_range(source, file, evlr.start, evlr.start + evlr.length)
@@ -169,7 +169,7 @@ def _batches(
         yield batch
 
 
-def _write_hierarchy(file: BinaryIO, entries: np.ndarray) -> None:
+def write_hierarchy(file: BinaryIO, entries: np.ndarray) -> None:
     """Append the hierarchy: one page, which holds 32 bytes for each node."""
     user, number = COPC_HIERARCHY
     file.write(

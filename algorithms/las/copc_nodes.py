@@ -10,6 +10,7 @@ COPC specification 1.0, https://copc.io
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import struct
 from dataclasses import dataclass
@@ -20,6 +21,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Box
 from .copc import HIERARCHY_ENTRY
+from .gps_times import are_impossible
 from .lasfile import COPC_INFO, LasFile
 from .records import named, needed, selection_of
 from .sources import damage_told, damaged, open_source
@@ -47,6 +49,7 @@ class Hierarchy:
     layout: LasFile
     corner: tuple[float, float]  # smallest x and y of the cube
     side: float
+    spacing: float  # distance between the points of the topmost node
     root: tuple[int, int]  # start and size of the first page
 
     @property
@@ -73,10 +76,10 @@ def read_hierarchy(layout: LasFile) -> Hierarchy:
     data = (info.data if info else None) or b""
     if len(data) < 56:
         raise _octree_error(layout, "its description is cut off")
-    x, y, z, half, _, start, size = struct.unpack_from("<5d2Q", data)
+    x, y, z, half, spacing, start, size = struct.unpack_from("<5d2Q", data)
     if not (np.isfinite([x, y, z, half]).all() and half > 0):
         raise _octree_error(layout, "its cube has no valid centre or size")
-    hierarchy = Hierarchy(layout, (x - half, y - half), 2 * half, (start, size))
+    hierarchy = Hierarchy(layout, (x - half, y - half), 2 * half, spacing, (start, size))
     west, south, east, north = hierarchy.squares(np.zeros((1, 4), dtype=np.int32))[:, 0]
     minimum, maximum = layout.minimum, layout.maximum
     if not (west <= minimum[0] and south <= minimum[1]) or not (
@@ -86,14 +89,25 @@ def read_hierarchy(layout: LasFile) -> Hierarchy:
     return hierarchy
 
 
-def find_nodes(hierarchy: Hierarchy, box: Box) -> np.ndarray:
-    """Return the nodes whose cubes touch a box in the CRS, HIERARCHY_ENTRY (n,) in file order;
-    `OctreeError` if the hierarchy is damaged.
+def find_nodes(
+    hierarchy: Hierarchy,
+    box: Box,
+    levels: int = _DEEPEST + 1,
+    file: BinaryIO | None = None,
+    get_ready: Callable[[list[tuple[int, int]]], object] = lambda pages: None,
+) -> np.ndarray:
+    """Return the nodes of the uppermost levels whose cubes touch a box in the CRS, HIERARCHY_ENTRY
+    (n,) in file order; `OctreeError` if the hierarchy is damaged.
     """
-    # Only pages whose branch touches the box are read.
+    # Only pages whose branch touches the box are read, of a file that may be open; `get_ready` is
+    # told where they begin and end before.
     layout = hierarchy.layout
     found, total, is_whole = [], 0, True
-    for _, entries, touch in _pages(hierarchy, lambda keys: _touching(hierarchy, keys, box)):
+
+    def wanted(keys: np.ndarray) -> np.ndarray:
+        return _touching(hierarchy, keys, box) & (keys[:, 0] < levels)
+
+    for _, entries, touch in _pages(hierarchy, wanted, file, get_ready):
         # The points of all nodes on these pages count, not only those of the wanted nodes.
         total += int(np.maximum(entries["count"], 0).sum(dtype=np.int64))
         is_whole &= not (entries["count"][~touch] == -1).any()
@@ -132,38 +146,58 @@ def read_nodes(
     every = lazrs.DecompressionSelection(lazrs.SELECTIVE_DECOMPRESS_ALL)
     selection = every if is_whole else selection_of(needed(layout, times))
     with open_source(layout.path) as file:
-        for batch in _batches(nodes):
-            with damage_told(layout.path):
-                records = _decompress(layout, file, batch, selection)
-                chunk = named(layout, records)
-            _check_places(hierarchy, batch, chunk)
-            yield chunk
+        for batch, compressed in _batches(layout, nodes, file):
+            has_times = is_whole or times
+            records = _decompress(hierarchy, compressed, batch, selection, has_times)
+            yield named(layout, records)
+
+
+def read_compressed(
+    hierarchy: Hierarchy, nodes: np.ndarray, file: BinaryIO
+) -> Iterator[tuple[np.ndarray, bytearray, np.ndarray]]:
+    """Yield some nodes at a time, their bytes in an open file one after the other, and their whole
+    records; raise as `read_nodes`.
+    """
+    import lazrs
+
+    every = lazrs.DecompressionSelection(lazrs.SELECTIVE_DECOMPRESS_ALL)
+    for batch, compressed in _batches(hierarchy.layout, nodes, file):
+        yield batch, compressed, _decompress(hierarchy, compressed, batch, every)
 
 
 def _pages(
-    hierarchy: Hierarchy, wanted: Callable[[np.ndarray], np.ndarray]
+    hierarchy: Hierarchy,
+    wanted: Callable[[np.ndarray], np.ndarray],
+    opened: BinaryIO | None = None,
+    get_ready: Callable[[list[tuple[int, int]]], object] = lambda pages: None,
 ) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
     """Yield the positions of pages, their entries, and which of these are wanted; pages of unwanted
     branches are not read.
     """
     layout, pages, seen = hierarchy.layout, [hierarchy.root], set()
-    with open_source(layout.path) as file:
+    with open_source(layout.path) if opened is None else contextlib.nullcontext(opened) as file:
         while pages:
-            page = pages.pop()
-            if page in seen:
-                raise _octree_error(layout, "one of its pages names itself")
-            seen.add(page)
-            entries = _read_page(layout, file, *page)
-            which = wanted(entries["key"])
-            branches = entries[which & (entries["count"] == -1)]
-            pages += [(int(branch["start"]), int(branch["size"])) for branch in branches]
-            yield page[0], entries, which
+            for start, size in pages:
+                if (start, size) in seen:
+                    raise _octree_error(layout, "one of its pages names itself")
+                seen.add((start, size))
+                if start + size > layout.size:
+                    raise _octree_error(layout, "one of its pages lies outside of the file")
+            get_ready([(start, start + size) for start, size in pages])
+            below = []
+            for start, size in pages:
+                entries = _read_page(layout, file, start, size)
+                which = wanted(entries["key"])
+                branches = entries[which & (entries["count"] == -1)]
+                below += [(int(branch["start"]), int(branch["size"])) for branch in branches]
+                yield start, entries, which
+            pages = below
 
 
 def _read_page(layout: LasFile, file: BinaryIO, start: int, size: int) -> np.ndarray:
     """Return the checked entries of a page of the hierarchy."""
     length = HIERARCHY_ENTRY.itemsize
-    if size < length or size % length or start + size > layout.size:
+    if size < length or size % length:
         raise _octree_error(layout, "one of its pages lies outside of the file")
     file.seek(start)
     data = file.read(size)
@@ -188,40 +222,47 @@ def _touching(hierarchy: Hierarchy, keys: np.ndarray, box: Box) -> np.ndarray:
     return (west <= box[2]) & (east >= box[0]) & (south <= box[3]) & (north >= box[1])
 
 
-def _batches(nodes: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield nodes in batches of about `_BATCH` points."""
+def _batches(
+    layout: LasFile, nodes: np.ndarray, file: BinaryIO
+) -> Iterator[tuple[np.ndarray, bytearray]]:
+    """Yield nodes in batches of about `_BATCH` points, with their compressed bytes."""
     counts = nodes["count"].astype(np.int64)
     numbers = (np.cumsum(counts) - counts) // _BATCH
-    return (run for run in np.split(nodes, np.flatnonzero(np.diff(numbers)) + 1) if len(run))
+    for batch in np.split(nodes, np.flatnonzero(np.diff(numbers)) + 1):
+        compressed = bytearray()
+        for node in batch:
+            file.seek(int(node["start"]))
+            compressed += file.read(int(node["size"]))
+        if len(compressed) != int(batch["size"].sum(dtype=np.int64)):
+            raise damaged(layout.path)
+        if len(batch):
+            yield batch, compressed
 
 
 def _decompress(
-    layout: LasFile,
-    file: BinaryIO,
+    hierarchy: Hierarchy,
+    compressed: bytearray,
     nodes: np.ndarray,
     selection: lazrs.DecompressionSelection,
+    has_times: bool = True,  # whether GPS times are among what is decompressed
 ) -> np.ndarray:
+    """Return the records of nodes, uint8 (n, record length), after checks of each chunk."""
     import lazrs
 
-    compressed = bytearray()
-    for node in nodes:
-        file.seek(int(node["start"]))
-        compressed += file.read(int(node["size"]))
-    if len(compressed) != int(nodes["size"].sum(dtype=np.int64)):
-        raise damaged(layout.path)
-    counts, sizes = nodes["count"].tolist(), nodes["size"].tolist()
-    head = layout.chunk_head
-    starts = itertools.accumulate(sizes, initial=0)
-    if not all(head.fits(compressed, size, start) for size, start in zip(sizes, starts)):
-        raise damaged(layout.path)
-    records = np.zeros(sum(counts) * layout.record_length, dtype=np.uint8)
-    lazrs.decompress_points_with_chunk_table(
-        compressed,
-        layout.laszip,
-        records,
-        list(zip(counts, sizes)),
-        selection,
-    )
+    layout = hierarchy.layout
+    counts, sizes, head = nodes["count"].tolist(), nodes["size"].tolist(), layout.chunk_head
+    for count, size, start in zip(counts, sizes, itertools.accumulate(sizes, initial=0)):
+        is_sound = head.fits(compressed, size, start)
+        if not is_sound or head.numbers(compressed, start)[0] != count:
+            raise damaged(layout.path)
+        if has_times and are_impossible(layout, compressed, start):
+            raise damaged(layout.path)
+    records = np.zeros((sum(counts), layout.record_length), dtype=np.uint8)
+    with damage_told(layout.path):
+        lazrs.decompress_points_with_chunk_table(
+            compressed, layout.laszip, records.reshape(-1), list(zip(counts, sizes)), selection
+        )
+    _check_places(hierarchy, nodes, named(layout, records))
     return records
 
 

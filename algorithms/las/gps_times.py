@@ -34,6 +34,12 @@ def check_gps_times(layout: LasFile) -> None:
             raise damaged(layout.path)
 
 
+def are_impossible(layout: LasFile, data: bytes | bytearray, start: int) -> bool:
+    """Return whether the GPS times of a chunk of layers would crash the decompressor."""
+    layer = layout.chunk_head.layer(GPS_TIMES, memoryview(data), start)
+    return data.find(_RUN, layer.start, layer.stop) >= 0
+
+
 def _layers(layout: LasFile, file: BinaryIO) -> Iterator[bytes]:
     """Yield the layer of the GPS times of each chunk."""
     head, place = layout.chunk_head, layout.points_start + 8

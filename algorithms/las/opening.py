@@ -38,14 +38,18 @@ def open_las(path: Path | LasFile, stated: str | None = None) -> LasFile:
         return path
     path = Path(path)
     with open_source(path) as file:
-        state = FileState.of(file)
-        size = state.size
-        header = _read_header(path, file, size)
-        points_start, vlr_count = fields.POINTS_START.get(header), fields.VLR_COUNT.get(header)
-        vlrs, padding = _split_vlrs(file.read(points_start - len(header)), vlr_count)
-        evlrs, waveforms = _read_evlrs(file, size, header)
+        return read_layout(path, file, FileState.of(file), stated)
+
+
+def read_layout(path: Path, file: BinaryIO, state: FileState, stated: str | None = None) -> LasFile:
+    """Read all but the points of an open file, as `open_las`; messages name the path."""
+    size = state.size
+    header = _read_header(path, file, size)
+    points_start, vlr_count = fields.POINTS_START.get(header), fields.VLR_COUNT.get(header)
+    vlrs, padding = _split_vlrs(file.read(points_start - len(header)), vlr_count)
+    evlrs, waveforms = _read_evlrs(file, size, header)
     layout = LasFile(path, size, header, vlrs, padding, evlrs, waveforms, state, stated_wkt(stated))
-    _check_points(layout)
+    _check_points(layout, file)
     return layout
 
 
@@ -119,7 +123,7 @@ def _read_evlr(file: BinaryIO, size: int, start: int) -> Evlr | None:
     return Evlr(key, text_of(head[28:60]), start, EVLR_HEADER + length, data)
 
 
-def _check_points(layout: LasFile) -> None:
+def _check_points(layout: LasFile, file: BinaryIO) -> None:
     """Refuse files whose points cannot be read, or would crash native code."""
     path = layout.path
     if layout.point_format >= len(RECORD_LENGTHS):
@@ -133,12 +137,12 @@ def _check_points(layout: LasFile) -> None:
     if layout.count == 0:
         raise BareEarthError(f"{path} holds no points. Give a file that has some.")
     if layout.is_compressed:
-        _check_compressed(layout)
+        _check_compressed(layout, file)
     elif layout.points_end > layout.size:
         raise damaged(path)
 
 
-def _check_compressed(layout: LasFile) -> None:
+def _check_compressed(layout: LasFile, file: BinaryIO) -> None:
     """Refuse damaged LAZ files before anything is decompressed."""
     # The first eight bytes of the points are the position of the chunk table behind the points.
     # Writers that cannot seek write -1 there, and the position in the last eight bytes of the file.
@@ -158,16 +162,15 @@ def _check_compressed(layout: LasFile) -> None:
     is_layered = layout.point_format >= FIRST_EXTENDED_FORMAT
     if (compression.layers > 0) != is_layered or not compression.is_of(layout.point_format):
         raise damaged(layout.path)
-    with open_source(layout.path) as file:
-        file.seek(layout.points_start)
+    file.seek(layout.points_start)
+    place = file.read(8)
+    if place == b"\xff" * 8:
+        file.seek(-8, 2)
         place = file.read(8)
-        if place == b"\xff" * 8:
-            file.seek(-8, 2)
-            place = file.read(8)
-        table = struct.unpack("<q", place)[0] if len(place) == 8 else 0
-        if not layout.points_start + 8 <= table <= layout.size - 8:
-            raise damaged(layout.path)
-        file.seek(table)
-        _, chunks = struct.unpack("<II", file.read(8))
+    table = struct.unpack("<q", place)[0] if len(place) == 8 else 0
+    if not layout.points_start + 8 <= table <= layout.size - 8:
+        raise damaged(layout.path)
+    file.seek(table)
+    _, chunks = struct.unpack("<II", file.read(8))
     if not compression.chunk_count_fits(chunks, layout.count, table - layout.points_start - 8):
         raise damaged(layout.path)
