@@ -10,6 +10,7 @@ from .algorithms.core.progress import Progress as Progress
 from .algorithms.core.version import __version__ as __version__
 from .algorithms.delivery.summary import DeliverySummary
 from .algorithms.las.reading import Description
+from .algorithms.remote.fetching import Fetched
 from .algorithms.runs.one_file import Summary
 from .algorithms.tools.above_ground import AboveGroundSummary
 from .algorithms.tools.assess import Assessment
@@ -1437,6 +1438,57 @@ def deliver(
     -------
     DeliverySummary
         What a delivery holds.
+
+    Raises
+    ------
+    BareEarthError
+        If an input cannot be read, a value is not allowed, or an output cannot be written.
+    Cancelled
+        If `progress` asked to stop; no output is incomplete.
+    """
+
+def fetch(
+    address: str,
+    output: _Path,
+    *,
+    extent: Sequence[float] | None = None,
+    boundary: _Path | Sequence[Any] | None = None,
+    resolution: float | None = None,
+    limit: float = 2.0,
+    progress: Progress | Callable[[float], object] | None = None,
+) -> Fetched:
+    """Download part of a remote point cloud.
+
+    Downloads the points of a remote point cloud that lie in an area, and nothing else: only the
+    parts of the file that are needed, as they are, with all of their dimensions. If it is
+    stopped, the same command goes on where it was.
+
+    Parameters
+    ----------
+    address : str
+        The address of a COPC file (https, s3, gs or az), or the path of one.
+    output : path
+        The file to write (.copc.laz or .laz).
+    extent : four floats, optional
+        Xmin, ymin, xmax, ymax: download only points in this rectangle, in the CRS of the
+        points; without an area all points.
+    boundary : path or polygons, optional
+        Download only points in these polygons (GeoJSON, WKT, or with pyogrio GeoPackage,
+        shapefile and others; if the file states its CRS, it is transformed to that of the
+        points); with an extent only what lies in both.
+    resolution : float, optional
+        Distance between points. If it is larger than that of the cloud, only the upper levels
+        of its octree are downloaded, whose points are about so far apart. None: all points.
+    limit : float, default 2.0 GB
+        A download of more is refused before it begins. The error says how large it is.
+    progress : Progress or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
+
+    Returns
+    -------
+    Fetched
+        What was downloaded.
 
     Raises
     ------

@@ -98,7 +98,7 @@ def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
     is_needed, metavar = argument.default is REQUIRED, _METAVARS.get(name, "FILE")
     if argument.kind == KINDS["clouds"]:
         parser.add_argument(name, metavar="INPUT", type=Path, nargs="+", help=text)
-    elif is_needed and argument.kind == KINDS["path"]:
+    elif is_needed and argument.kind in (KINDS["path"], KINDS["text"]):
         parser.add_argument(name, metavar=_METAVARS.get(name, name.upper()), help=text)
     elif argument.kind == KINDS["extent"]:
         text = text.replace("xmin, ymin, xmax, ymax: ", "")

@@ -117,7 +117,8 @@ def _arguments_of(declared: Input) -> tuple[Argument, ...]:
     if declared.kind == "clouds":
         return (CLASSIFIED if declared.help else arguments.SOURCES,)
     help = declared.help.format(formats=FORMATS)
-    kind = {"extent": "extent", "words": "words", "polygons": "polygons"}.get(declared.kind, "path")
+    kinds = {"extent": "extent", "words": "words", "polygons": "polygons", "address": "text"}
+    kind = kinds.get(declared.kind, "path")
     if kind == "extent":
         help = f"xmin, ymin, xmax, ymax: {help}, in the CRS of the points{declared.more}"
     is_required = not declared.optional and kind not in ("extent", "words")
@@ -128,6 +129,8 @@ def _input(declared: Input, values: SimpleNamespace) -> Any:
     """Return an input of a tool for files, as its work takes it."""
     if declared.kind == "checkpoints":
         return checkpoints_of(values)
+    if declared.kind == "area":
+        return area_of(values)
     value = getattr(values, declared.name)
     if declared.kind == "clouds":
         return Inputs(value)

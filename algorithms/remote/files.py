@@ -124,11 +124,10 @@ class RemoteFile(io.RawIOBase):
 class LocalFile(io.FileIO):
     """A file on this computer, from which nothing has to be fetched."""
 
-    def __init__(self, path: str) -> None:
-        open_source(Path(path)).close()  # which says what is wrong
+    def __init__(self, path: Path) -> None:
+        open_source(path).close()  # which says what is wrong
         super().__init__(path, "rb")
-        self.address, self.name, self.kept = path, Path(path).name, 0
-        self.size = Path(path).stat().st_size
+        self.address, self.name, self.size = str(path), path.name, path.stat().st_size
 
     def plan(self, pieces: Iterable[Range]) -> Plan:
         """Return that no request is needed."""

@@ -35,6 +35,11 @@ def check_kind(kind: str, path: Path, sources: Sequence[Path] = ()) -> None:
         if not path.exists():
             check_output(path)
         return
+    if kind == "points" and not path.suffix:
+        if path.exists():
+            raise BareEarthError(f"Cannot write {path}: it exists already. Choose a new folder.")
+        check_output(path)
+        return
     if kind == "list":
         check_vpc(path)
         # It may be in the folder that a run makes.
@@ -55,6 +60,8 @@ def place(outputs: Outputs, kind: str, path: Path) -> Path:
     """
     if kind == "features":
         return outputs.files(path, files_beside(path))
+    if kind == "points" and not path.suffix:
+        return outputs.files(path)
     # By the statistics of old cells, QGIS would stretch the colours of new ones.
     return outputs.file(path, [f"{path.name}.aux.xml"] if kind == "raster" else [])
 
@@ -69,12 +76,22 @@ def _check_table(path: Path) -> None:
         raise BareEarthError(f"Cannot write {path}: the table is CSV, name it .csv.")
 
 
+def _check_points(path: Path) -> None:
+    if path.suffix.lower() != ".laz":
+        raise BareEarthError(
+            f"Cannot write {path}: name it .copc.laz or .laz, or give a new folder for several"
+            " files."
+        )
+    check_writable(path)
+
+
 # What refuses a name, or a format without its library.
 _FORMATS: dict[str, Callable[[Path], object]] = {
     "cloud": check_writable,
     "features": feature_writer,
     "list": check_vpc,
     "page": _check_page,
+    "points": _check_points,
     "raster": check_raster,
     "raster set": check_raster,
     "table": _check_table,

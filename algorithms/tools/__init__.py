@@ -43,6 +43,7 @@ MAP_TOOLS = {
 # The tools that read files and write others.
 FILE_TOOLS = {
     "info": Listed("info", "describe a file"),
+    "fetch": Listed("fetch", "download part of a remote point cloud"),
     "remove-off-terrain-objects": Listed(
         "off_terrain", "remove buildings and trees from an elevation raster"
     ),

@@ -32,6 +32,7 @@ class Input:
     # One of these; in brackets, what a tool gets:
     # "cloud": a point cloud file (a path); "clouds": files of a survey (paths), in a dialog a file
     # or a list of files; "files": the same, in a dialog several files or a folder;
+    # "address": of a remote file, or a path (text);
     # "raster": a file with a band of heights (its path, or another name that GDAL knows);
     # "crs": the CRS of the points, if the user states it (text);
     # "area" (an `Area`) and "polygons" (what `of` makes): of tools for points only;
@@ -79,8 +80,8 @@ class Output:
 
     # All outputs are checked before the work begins, and get their names together when it ends.
     name: str  # of the argument of the work, and of the option
-    # "raster", "features", "page", "table" or "folder"; of points "cloud", and "list" for the
-    # virtual point cloud of many files.
+    # "raster", "features", "page", "table" or "folder"; of points "cloud", "points" for LAZ, or
+    # for a new folder of such files, and "list" for the virtual point cloud of many files.
     kind: str
     help: str  # of the option
     label: str = ""  # of the field in the dialog; empty if there is none

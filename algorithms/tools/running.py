@@ -10,11 +10,12 @@ from typing import Any, Mapping, Sequence
 from ..core.files import Outputs, new_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
+from ..remote.addresses import is_address
 from ..survey.files import Inputs
 from ..survey.outputs import check_outputs, place
 from .declaration import FileTool
 
-_FILES = ("cloud", "raster")
+_FILES = ("cloud", "raster", "address")
 
 
 def run(
@@ -61,7 +62,7 @@ def _sources(tool: FileTool, inputs: Mapping[str, Any]) -> list[Path]:
         value = inputs.get(declared.name)
         if declared.kind == "clouds":
             sources += value or ()
-        elif declared.kind in _FILES and value:
+        elif value and declared.kind in _FILES and not is_address(str(value)):
             sources.append(Path(value))
     return sources
 

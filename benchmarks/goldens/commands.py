@@ -99,6 +99,9 @@ COMMANDS = {
     "water-classes/file": "water-classes truth.laz OUT/a.laz --water water.geojson --json",
     "water-classes/survey": "water-classes truth OUT/tiles --water water.geojson"
     " --shore-distance 1",
+    # Parts.
+    "fetch/area": "fetch classify/key-points/a.copc.laz OUT/a.copc.laz --extent 569970 5931970"
+    " 570030 5932030 --boundary boundary.geojson --json",
     # Figures.
     "check/file": f"check truth.laz {_CHECKPOINTS} --dtm terrain/file/dtm.tif --confidence"
     " terrain/file/confidence.tif --report OUT/page.html --table OUT/points.csv --residuals"

@@ -41,5 +41,8 @@ FUNCTIONS: dict[str, Callable[[Path], Any]] = {
     "remove_off_terrain_objects": lambda out: bare.remove_off_terrain_objects(
         "terrain/file/dsm.tif", out / "dtm.tif"
     ),
+    "fetch": lambda out: bare.fetch(
+        "classify/key-points/a.copc.laz", out / "a.laz", extent=_WINDOW, resolution=5.0
+    ),
     "info": lambda out: bare.info("truth.laz"),
 }  # fmt: skip

@@ -22,7 +22,7 @@ FLOORS = {
     "filters": "core grids",
     "report": "core grids",
     "engine": "core crs las survey",
-    "tools": "core crs grids las survey rasters report engine",
+    "tools": "core crs grids las survey rasters report engine remote",
     "tools/ground": "core crs grids las survey rasters filters engine",
     "runs": "core crs grids las survey rasters filters engine tools",
     "tools/compare_settings": ("core crs grids las survey filters report engine tools runs"),
