@@ -10,7 +10,7 @@ import textwrap
 from pathlib import Path
 
 from bare_earth.algorithms.library import names
-from bare_earth.algorithms.library.table import declared
+from bare_earth.algorithms.library.tools import declared
 
 STUB = Path(__file__).parents[1] / "__init__.pyi"
 _PATH = "str | PathLike[str]"

@@ -9,14 +9,14 @@ import traceback
 from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
-from ..tools import FILE_TOOLS, POINT_TOOLS
+from ..tools import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
 from . import odm
-from .commands import DELIVER, tool_command
+from .commands import tool_command
 from .options import FAILED, USAGE, UsageError
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (
-    tool_command("classify"), tool_command("classify-tiles"), DELIVER,
+    tool_command("classify"), tool_command("classify-tiles"), tool_command("deliver"),
     *map(tool_command, ("info", "assess", "check", "quality")),
     *map(tool_command, ("remove-off-terrain-objects", "height", "above-ground", "key-points")),
     *map(tool_command, ("terrain", "contours", "relief", "water", "water-classes")),
@@ -87,7 +87,11 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
         "--verbose", action="store_true", help="print what is done, and where an error arose"
     )
     names = {command.name for command in _COMMANDS}
-    further = (tool_command(name) for name in (*POINT_TOOLS, *FILE_TOOLS) if name not in names)
+    further = (
+        tool_command(name)
+        for name in (*POINT_TOOLS, *FILE_TOOLS, *COMPOSITIONS)
+        if name not in names
+    )
     for command in (*_COMMANDS, *further):
         options = commands.add_parser(
             command.name, parents=[common], help=command.help, description=command.description,

@@ -10,7 +10,16 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Sequence
 
 from ..core.errors import BareEarthError
-from ..tools import FILE_TOOLS, MAP_TOOLS, POINT_TOOLS, Listed, any_tool, file_tool, map_tool
+from ..tools import (
+    COMPOSITIONS,
+    FILE_TOOLS,
+    MAP_TOOLS,
+    POINT_TOOLS,
+    Listed,
+    any_tool,
+    file_tool,
+    map_tool,
+)
 from .options import DONE, FAILED, Command, UsageError, add_json, add_parameters, chosen
 from .terminal import Terminal, tell
 
@@ -35,10 +44,12 @@ _HELP = {
 
 def tool_command(name: str) -> Command:
     """Return the command of a tool, which is imported when its options are asked for."""
-    listed: Listed = {**FILE_TOOLS, **POINT_TOOLS, **MAP_TOOLS}[name]
-    work = _do_file_tool if name in FILE_TOOLS else _do_point_tool
-    if name in MAP_TOOLS:
-        work = _do_map_tool
+    kinds = (
+        (FILE_TOOLS, _do_file_tool), (POINT_TOOLS, _do_point_tool), (MAP_TOOLS, _do_map_tool),
+        (COMPOSITIONS, _do_composition),
+    )  # fmt: skip
+    listed: Listed
+    listed, work = next((tools[name], work) for tools, work in kinds if name in tools)
     return Command(name, listed.help, "", partial(_add_tool, name), partial(work, name))
 
 
@@ -48,7 +59,14 @@ def _add_tool(name: str, parser: argparse.ArgumentParser, arguments: Sequence[st
 
     function, tool = of_tool(name), any_tool(name)
     parser.description = tool.command_about
-    _add_function(parser, arguments, function, tool.titles, tool.json)
+    _add_arguments(parser, function)
+    sets, titles = function.sets, tool.titles
+    if function.has_method:
+        method = _add_method(parser, arguments)
+        sets, titles = (method.parameters, *sets), (f"{method.label} parameters", *titles)
+    if tool.json is not None:
+        add_json(parser, f"{tool.json} ".lstrip())
+    add_parameters(parser, *sets, titles=titles)
     for parameter, flag in function.flags.items():
         parser.add_argument(
             f"--{flag}", dest=parameter, metavar=flag.upper(), default=argparse.SUPPRESS,
@@ -56,36 +74,12 @@ def _add_tool(name: str, parser: argparse.ArgumentParser, arguments: Sequence[st
         )  # fmt: skip
 
 
-def _add_delivery(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
-    """Add the arguments of the function of deliveries as options."""
-    from ..delivery.deliveries import DELIVERIES
-    from ..library.table import declared
-
-    kinds = " ".join(f"{name}: {delivery.about}" for name, delivery in DELIVERIES.items())
-    parser.add_argument("delivery", choices=list(DELIVERIES), help=f"what to deliver. {kinds}")
-    _add_function(parser, arguments, declared("deliver"), _DELIVERY_TITLES, "the figures")
-
-
-def _add_function(
-    parser: argparse.ArgumentParser,
-    arguments: Sequence[str],
-    function: Function,
-    titles: tuple[str, ...],
-    json: str | None,
-) -> None:
-    _add_arguments(parser, function)
-    sets = function.sets
-    if function.has_method:
-        method = _add_method(parser, arguments)
-        sets, titles = (method.parameters, *sets), (f"{method.label} parameters", *titles)
-    if json is not None:
-        add_json(parser, f"{json} ".lstrip())
-    add_parameters(parser, *sets, titles=titles)
-
-
 def _add_arguments(parser: argparse.ArgumentParser, function: Function) -> None:
-    for argument in (*function.positional, *function.keywords):
-        if argument.name not in ("progress", "delivery"):
+    given = (*function.positional, *function.keywords)
+    for argument in (argument for argument in given if argument.choices):
+        parser.add_argument(argument.name, choices=argument.choices, help=f"{argument.help}.")
+    for argument in given:
+        if argument.name != "progress" and not argument.choices:
             _add_argument(parser, argument)
 
 
@@ -187,11 +181,11 @@ def _tell_of_survey(options: argparse.Namespace, summary: Any) -> int:
     return FAILED if summary.failures else DONE
 
 
-def _deliver(options: argparse.Namespace) -> int:
-    """Make a delivery, and tell what is in it."""
-    from ..library.table import declared
+def _do_composition(name: str, options: argparse.Namespace) -> int:
+    """Let tools work one after another, and tell the figures of what they made."""
+    from ..library.tools import of_tool
 
-    done = _called(declared("deliver"), options)
+    done = _called(of_tool(name), options)
     text = "\n".join([f"{options.output}: {done.text}", *done.lines()])
     tell(options, done, text, always=True)
     return FAILED if done.failures else DONE
@@ -218,18 +212,3 @@ def _check_boxes(options: argparse.Namespace) -> None:
             RasterTarget(options.like, tuple(options.raster_extent))
     except BareEarthError as error:
         raise UsageError(str(error)) from error
-
-
-_DELIVERY_TITLES = (
-    "Delivery", "Which points, which classes", "Terrain model", "Surface model and gaps",
-    "Contour lines", "Water", "Checkpoints", "Files", "Output of many files", "Threads and memory",
-)  # fmt: skip
-DELIVER = Command(
-    "deliver",
-    "make everything that a job hands over, in one run",
-    "Classifies raw points and makes all outputs that a job hands over, in one folder: points,"
-    " rasters, lines, figures of quality and accuracy, and a page that lists them (index.html)."
-    " Each delivery has settings of its own. The options replace them.",
-    _add_delivery,
-    _deliver,
-)

@@ -18,16 +18,20 @@ WITH_BUILDINGS = "terrain_with_buildings"
 # of 1 m are usual also in woods, where a cell often has none.
 _CELLS = ((100.0, 0.1), (16.0, 0.25), (4.0, 0.5), (0.25, 1.0), (0.0625, 2.0))
 _LARGEST_CELL = 5.0
-# Values of the parameters of tools that specifications state. Beside a shore, the ground up to the
-# nominal spacing of pulses is ignored; that of IGN has no class for it.
+# The cell sizes that specifications state, and values of the parameters of tools. Beside a shore,
+# the ground up to the nominal spacing of pulses is ignored; that of IGN has no class for it.
+_CELL_SIZES = {"lbs-ql1": 0.5, "lbs-ql2": 1.0, "linz": 1.0, "ign": 0.5}
 STATED: Mapping[str, Mapping[str, Any]] = {
     "none": {},
-    "lbs-ql1": {"dtm_cell_size": 0.5, "shore_distance": SPECIFICATIONS["lbs-ql1"].spacing},
-    "lbs-ql2": {"dtm_cell_size": 1.0, "shore_distance": SPECIFICATIONS["lbs-ql2"].spacing},
-    "linz": {"dtm_cell_size": 1.0},
-    "ign": {"dtm_cell_size": 0.5, "shore_distance": 0.0, "above_ground": "ign"},
+    "lbs-ql1": {"shore_distance": SPECIFICATIONS["lbs-ql1"].spacing},
+    "lbs-ql2": {"shore_distance": SPECIFICATIONS["lbs-ql2"].spacing},
+    "linz": {},
+    "ign": {"shore_distance": 0.0, "above_ground": "ign"},
 }
-_CLASSES_OF_WATER = {"water-classes": "Classes of water"}
+# Noise and bridges get their classes in any case.
+_ALWAYS: Mapping[str, Any] = {
+    "low_noise_class": True, "high_noise_class": True, "bridge_class": 17, "mark_as": "flag",
+}  # fmt: skip
 # Classes of what stands on the ground.
 _ABOVE_GROUND = {3, 4, 5, 6}
 
@@ -40,16 +44,12 @@ class Delivery(NamedTuple):
     rasters: tuple[str, ...]  # names as in `RASTERS`
     pictures: tuple[str, ...]  # the rasters that its page shows; the first is the largest
     finest: float  # metres: smallest cell that is chosen by the density of ground points
-    preset: str = "automatic"
-    values: Mapping[str, Any] = MappingProxyType({})  # of the method
+    # Values of the parameters of its tools, by their names
+    values: Mapping[str, Any] = MappingProxyType({})
     above_ground: bool = False  # whether the points above the ground get classes
     heights: bool = False  # whether each point gets its height above ground
-    water: Mapping[str, float] | None = None  # which water is found, flattened and delivered
-    # The tools that change the classified points where there is water, by their commands, and
-    # titles for their parameters.
-    in_water: Mapping[str, str] = MappingProxyType({})
-    terrain: Mapping[str, Any] = MappingProxyType({})
-    surface: Mapping[str, Any] = MappingProxyType({})  # values of the surface and canopy models
+    # Whether water is found, flattened and delivered, and ground in it gets classes
+    water: bool = False
     with_buildings: bool = False  # whether there is a terrain model on which the buildings stand
     contours: bool = False
     contour_metres: float | None = None  # the height between them; None for about twenty lines
@@ -61,17 +61,23 @@ class Delivery(NamedTuple):
         """Return the side of a cell of the terrain model in metres, by ground points in a square
         metre, if known, and the specification.
         """
-        if self.cell_as_specified and "dtm_cell_size" in STATED[specification]:
-            return float(STATED[specification]["dtm_cell_size"])
+        if self.cell_as_specified and specification in _CELL_SIZES:
+            return _CELL_SIZES[specification]
         if density is None:
             return max(1.0, self.finest)
         by_density = (cell for least, cell in _CELLS if density >= least)
         return max(next(by_density, _LARGEST_CELL), self.finest)
 
-    def needs_classes(self, specification: str) -> bool:
-        """Return whether the points above the ground get classes, also as a specification asks."""
-        asked = SPECIFICATIONS[specification]
-        return self.above_ground or bool(_ABOVE_GROUND & {*asked.needed, *(asked.classes or ())})
+    def values_with(self, specification: str) -> dict[str, Any]:
+        """Return the values of parameters that a user leaves at their defaults."""
+        stated, asked = STATED[specification], SPECIFICATIONS[specification]
+        classes = {*asked.needed, *(asked.classes or ())}
+        scheme = stated.get("above_ground", "asprs")
+        return {
+            **_ALWAYS, **self.values, **stated, "specification": specification,
+            "height_above_ground": self.heights,
+            "above_ground": scheme if self.above_ground or _ABOVE_GROUND & classes else "none",
+        }  # fmt: skip
 
 
 DELIVERIES = {
@@ -83,9 +89,8 @@ DELIVERIES = {
         rasters=("dtm", "hillshade", "dsm"),
         pictures=("hillshade", "dtm"),
         finest=0.5,
-        water={},
-        in_water=_CLASSES_OF_WATER,
-        terrain={"raster_nodata": -999999.0},
+        water=True,
+        values={"raster_nodata": -999999.0},
         quality=(
             "pulse_density", "ground_density", "voids", "overlap", "strip_differences",
             "surface_height",
@@ -117,7 +122,7 @@ DELIVERIES = {
         finest=0.5,
         above_ground=True,
         heights=True,
-        surface={"pit_free": True},
+        values={"pit_free": True},
         quality=("low_vegetation",),
     ),
     "flood": Delivery(
@@ -129,8 +134,8 @@ DELIVERIES = {
         finest=0.5,
         above_ground=True,
         # Canals and ponds too: on three real tiles this finds five of them, the usual limits none.
-        water={"min_area": 1000.0, "min_width": 5.0},
-        in_water=_CLASSES_OF_WATER,
+        values={"min_area": 1000.0, "min_width": 5.0},
+        water=True,
         contours=True,
     ),
     "drone-site": Delivery(
@@ -140,7 +145,7 @@ DELIVERIES = {
         rasters=("dtm", "hillshade", "dsm"),
         pictures=("hillshade", "dsm"),
         finest=0.1,
-        preset="site",
+        values={"preset": "site"},
         contours=True,
         contour_metres=0.5,
         quality=("ground_density",),

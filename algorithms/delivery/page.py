@@ -24,15 +24,21 @@ from ..report.page import (
     table,
 )
 from ..report.units import Units
-from ..survey.files import Survey
+from ..survey.selection import Selection
+from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.check.accuracy import Figures
+from ..tools.contours import Contours
+from ..tools.quality import QualityOptions
 from ..tools.quality.figures import FAIL
 from ..tools.quality.rasters import QUALITY_RASTERS
+from ..tools.rasters.parameters import MapTerrain, SurfaceModel
 from ..tools.rasters.rows import RASTERS
+from ..tools.water.finding import Water
+from ..tools.water_classes import WaterClasses
 from .deliveries import WITH_BUILDINGS, Delivery
 from .folder import POINTS, QUALITY
 from .pictures import picture_of
-from .request import DeliveryRequest
+from .rows import DeliveryJob
 from .summary import DeliverySummary
 
 _MOST_ROWS = 200
@@ -56,25 +62,21 @@ _ABOUT = {
 }
 
 
-def delivery_html(
-    request: DeliveryRequest,
-    summary: DeliverySummary,
-    survey: Survey,
-    root: Path,
-    files: Sequence[Path],
-) -> str:
+def delivery_html(job: DeliveryJob, root: Path) -> str:
     """Return the page of a delivery; `root` has its files, all but the points of many files."""
+    summary, survey, content = job.summary, job.survey, job.content
     units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
-    content, crs = request.content, survey.crs.name or "not stated"
-    figures = [("CRS", crs), *_figures(summary), *_accuracy(request, summary)]
+    void_distance = job.set_of(QualityOptions).void_distance
+    crs = survey.crs.name or "not stated"
+    figures = [("CRS", crs), *_figures(summary), *_accuracy(summary, void_distance)]
     parts = [
         paragraph(content.about),
         section("In figures", table(figures, is_named=True)),
         *_comparison(summary),
         section("Look at this", listed(_warnings(summary))),
         section("Maps", maps(_pictures(content, summary, units))),
-        _files(root, files),
-        _settings(request, summary, survey),
+        _files(root, job.files),
+        _settings(job),
     ]
     name, others = survey.tiles[0].path.name, len(survey.tiles) - 1
     more = f" and {counted(others, 'more file', 'more files')}" if others else ""
@@ -103,7 +105,7 @@ def _figures(summary: DeliverySummary) -> Iterator[tuple[str, str]]:
         yield "Water", summary.water.text
 
 
-def _accuracy(request: DeliveryRequest, summary: DeliverySummary) -> Iterator[tuple[str, str]]:
+def _accuracy(summary: DeliverySummary, void_distance: float) -> Iterator[tuple[str, str]]:
     check = summary.check
     measured = {} if check is None else {
         "Checkpoints, without vegetation (NVA)": check.nva,
@@ -130,7 +132,7 @@ def _accuracy(request: DeliveryRequest, summary: DeliverySummary) -> Iterator[tu
             }
         )
         voids = None if summary.quality is None else summary.quality.ground_void_share
-        yield "What held-out points tell", left.limits(voids, request.quality.void_distance)
+        yield "What held-out points tell", left.limits(voids, void_distance)
 
 
 def _known(figures: Mapping[str, Figures | None]) -> Iterator[tuple[str, str]]:
@@ -197,13 +199,14 @@ def _broken(name: str) -> Html:
     return element("span", name, "files")
 
 
-def _settings(request: DeliveryRequest, summary: DeliverySummary, survey: Survey) -> Html:
+def _settings(job: DeliveryJob) -> Html:
     rows = [
         (title, ", ".join(f"{name} {value}" for name, value in values.items()) or "defaults")
-        for title, values in settings_of(request, summary.cell_size).items()
+        for title, values in settings_of(job).items()
     ]
+    tiles = job.survey.tiles[:_MOST_ROWS]
     rows.append(("Made on", date.today().isoformat()))
-    files = [(_broken(tile.path.name), f"{tile.count:,}") for tile in survey.tiles[:_MOST_ROWS]]
+    files = [(_broken(tile.path.name), f"{tile.count:,}") for tile in tiles]
     return section(
         "How it was made",
         table(rows, is_named=True),
@@ -211,23 +214,23 @@ def _settings(request: DeliveryRequest, summary: DeliverySummary, survey: Survey
     )
 
 
-def settings_of(request: DeliveryRequest, cell_size: float) -> dict[str, dict[str, str]]:
-    """Return what differs from the defaults, by the name of the step and of the parameter."""
-    how, content = request.classify, request.content
+def settings_of(job: DeliveryJob) -> dict[str, dict[str, str]]:
+    """Return what differs from the defaults, by the name of the tool and of the parameter."""
+    method, scheme = job.set_of(type(job.method)), job.set_of(ThenAboveGround)
     sets: dict[str, ParameterSet] = {
-        method_of(how.parameters).label: how.parameters,
-        "Classes": how.selection,
-        "Terrain model": request.terrain_with(cell_size),
-        "Surface model": request.surface_model,
+        method_of(method).label: method,
+        "Classes": job.set_of(Selection),
+        "Terrain model": job.set_of(MapTerrain),
+        "Surface model": job.set_of(SurfaceModel),
     }
-    if how.above_ground.wanted:
-        sets["Above the ground"] = how.above_ground
-    if request.water_wanted is not None:
-        sets["Water"] = request.water_wanted
-    for command, title in content.in_water.items():
-        sets[title] = request.sets_of(command)[0]
-    if content.contours:
-        sets["Contour lines"] = request.contours
+    if scheme.wanted:
+        sets["Above the ground"] = scheme
+    if job.known["find water"]:
+        sets["Water"] = job.set_of(Water)
+    if job.content.water:
+        sets["Classes of water"] = job.set_of(WaterClasses)
+    if job.content.contours:
+        sets["Contour lines"] = Contours.among(job.sets)
     return {name: _changed(values) for name, values in sets.items()}
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..tools import FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
+from ..tools import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 
 
 def tool_commands() -> dict[str, str]:
@@ -10,10 +10,10 @@ def tool_commands() -> dict[str, str]:
     commands = {command.replace("-", "_"): command for command in FILE_TOOLS}
     commands.update((listed.file, command) for command, listed in POINT_TOOLS.items())
     # "classify-tiles" is no function of its own.
-    commands.update((name, name) for name in MAP_TOOLS if name.isidentifier())
+    commands.update((name, name) for name in (*MAP_TOOLS, *COMPOSITIONS) if name.isidentifier())
     return commands
 
 
 def names() -> list[str]:
     """Return the names of all functions, without importing what they do."""
-    return sorted({"deliver", *tool_commands()})
+    return sorted(tool_commands())

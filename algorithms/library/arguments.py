@@ -43,6 +43,7 @@ class Argument:
     kind: Kind
     help: str  # without a full stop
     default: Any = None
+    choices: tuple[str, ...] = ()  # of words
 
     @classmethod
     def of(cls, name: str, kind: str, help: str, default: Any = None) -> Argument:
@@ -53,7 +54,8 @@ class Argument:
     def choice(cls, name: str, choices: Any, default: str, help: str) -> Argument:
         """Return an argument that is one of some words."""
         words = ", ".join(f'"{choice}"' for choice in choices)
-        return cls(name, Kind(_LITERAL.format(words), f"{{{words}}}"), help, default)
+        kind = Kind(_LITERAL.format(words), f"{{{words}}}")
+        return cls(name, kind, help, default, tuple(choices))
 
 
 def path(name: str, help: str, default: Any = None) -> Argument:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import sys
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Callable
@@ -16,9 +17,18 @@ from ..engine.options import TileInput, TileOutput
 from ..survey.files import Inputs
 from ..survey.ground_classes import GroundClasses
 from ..survey.vector_files import FORMATS
-from ..tools import FILE_TOOLS, MAP_TOOLS, POINT_TOOLS, file_tool, map_tool, point_tool
+from ..tools import (
+    COMPOSITIONS,
+    FILE_TOOLS,
+    MAP_TOOLS,
+    POINT_TOOLS,
+    composition,
+    file_tool,
+    map_tool,
+    point_tool,
+)
 from ..tools.declaration import FileTool, Input, Output, Tool
-from . import arguments
+from . import arguments, tool_commands
 from .arguments import REQUIRED, Argument
 from .functions import Function
 from .given import (
@@ -40,6 +50,7 @@ _REACHES = (arguments.SCHEDULER, arguments.PROGRESS)
 # What reads the inputs that have several arguments.
 _READERS: dict[str, Callable[[SimpleNamespace], Any]] = {
     "area": area_of,
+    "checkpoints": checkpoints_of,
     "constraints": constraints_of,
     "corrections": corrections_of,
     "target": target_of,
@@ -48,9 +59,23 @@ _READERS: dict[str, Callable[[SimpleNamespace], Any]] = {
 
 def of_tool(command: str) -> Function:
     """Return the function of a tool."""
+    if command in COMPOSITIONS:
+        return _of_composition(command)
     if command in MAP_TOOLS:
         return _of_map_tool(command)
     return _of_file_tool(command) if command in FILE_TOOLS else _of_point_tool(command)
+
+
+@cache
+def declared(name: str) -> Function:
+    """Return what is declared of a function, given its name."""
+    return of_tool(tool_commands()[name])
+
+
+@cache
+def function(name: str) -> Callable[..., Any]:
+    """Return a function, given its name."""
+    return declared(name).callable()
 
 
 def _about(line: str, command_about: str) -> str:
@@ -219,6 +244,38 @@ def _of_map_tool(command: str) -> Function:
         Summary if tool.classifies else RasterSize,
         is_survey_if_many=tool.classifies,
         has_method=tool.classifies,
+    )
+
+
+def _of_composition(command: str) -> Function:
+    """Return the function of tools that work one after another."""
+    from ..delivery.summary import DeliverySummary
+
+    tool = composition(command)
+
+    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+        inputs = {declared.name: _READERS[declared.kind](values) for declared in tool.inputs}
+        inputs["crs"] = values.crs
+        workers = workers_of(values, Resources.among(sets))
+        places, table = (values.sources, values.output), getattr(values, tool.chosen)
+        return tool.work(*places, table, sets, inputs, progress_of(values.progress), workers)
+
+    tables = " ".join(f"{name}: {table.about}" for name, table in tool.tables.items()).rstrip(".")
+    help = f"{tool.chosen_help}. {tables}"
+    return Function(
+        command,
+        tool.function_about,
+        (arguments.SOURCES, *map(_argument_of, tool.outputs)),
+        (
+            Argument.choice(tool.chosen, tool.tables, tool.default, help),
+            *(argument for declared in tool.inputs for argument in _arguments_of(declared)),
+            arguments.CRS_OF_OUTPUT,
+            *_REACHES,
+        ),
+        tool.sets,
+        run,
+        DeliverySummary,
+        has_method=True,
     )
 
 

@@ -157,9 +157,7 @@ class ClassifyRequest(RasterRequest):
     @property
     def ground(self) -> GroundClasses:
         """Which points of the output are ground."""
-        known = self.selection.seed_classes or ()
-        classes = dict.fromkeys((self.selection.to_class, *known))
-        return GroundClasses(tuple(classes), self.selection.overlap)
+        return GroundClasses.of_selection(self.selection)
 
     @property
     def raster_step(self) -> MakeRasters:

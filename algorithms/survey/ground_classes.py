@@ -49,6 +49,12 @@ class GroundClasses(ParameterSet):
         choices={"use": "Use as others", "leave-out": "Leave out"},
     )
 
+    @classmethod
+    def of_selection(cls, selection: Selection) -> GroundClasses:
+        """Return which points are ground that were classified with a selection."""
+        known = selection.seed_classes or ()
+        return cls(tuple(dict.fromkeys((selection.to_class, *known))), selection.overlap)
+
     def of(self, part: PointCloud, counts: GroundCounts, also: tuple[int, ...] = ()) -> np.ndarray:
         """Return which points are ground, and count them."""
         part.require_projected()

@@ -10,7 +10,7 @@ import importlib
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from .declaration import FileTool, MapTool, PointTool, Tool
+    from .declaration import Composition, FileTool, MapTool, PointTool, Tool
 
 
 class Listed(NamedTuple):
@@ -62,6 +62,10 @@ FILE_TOOLS = {
     "relief": Listed("relief", "make pictures of the relief of a terrain model"),
     "water": Listed("water.tool", "find lakes and rivers in classified points"),
 }
+# Tools that work one after another, declared above this room.
+COMPOSITIONS = {
+    "deliver": Listed(".delivery.tool", "make everything that a job hands over, in one run")
+}
 
 
 def point_tool(command: str) -> PointTool:
@@ -82,9 +86,15 @@ def map_tool(command: str) -> MapTool:
     return tool
 
 
+def composition(command: str) -> Composition:
+    """Return the declaration of tools that work one after another, given its command."""
+    tool: Composition = _declared(COMPOSITIONS[command])
+    return tool
+
+
 def any_tool(command: str) -> Tool:
     """Return the declaration of a tool of any kind, given its command."""
-    tool: Tool = _declared({**POINT_TOOLS, **FILE_TOOLS, **MAP_TOOLS}[command])
+    tool: Tool = _declared({**POINT_TOOLS, **FILE_TOOLS, **MAP_TOOLS, **COMPOSITIONS}[command])
     return tool
 
 

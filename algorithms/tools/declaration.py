@@ -93,7 +93,7 @@ class Output:
     advanced: bool = False  # whether it is folded away, and the last in the help of the command
     by_default: bool = True  # whether the dialog makes it unless the user says no
     look: str = ""  # how QGIS shows it: a name in `LOOKS` of plugin/styles/layers.py
-    needs: str = ""  # the input without which the dialog does not make it
+    needs: str = ""  # the input without which dialogs and deliveries do not make it
     # Of a folder: the rasters that the tool writes, by their names, in the folder that the user
     # gives, or that file alone. The work gets their temporary paths by name.
     files: Callable[[Path, Sequence[ParameterSet]], dict[str, Path]] | None = None
@@ -234,3 +234,23 @@ class MapTool(Tool):
     def all_outputs(self) -> tuple[Output, ...]:
         """The outputs."""
         return self.outputs()
+
+
+@dataclass(frozen=True)
+class Composition(Tool):
+    """Tools that work one after another, by one of several tables, and fill one folder."""
+
+    # Gets the sources, the folder, the name of a table, the sets, the inputs by their names,
+    # `progress` and `workers`; returns what `FileTool.work` does, with `failures` of files.
+    work: Callable[..., Any] = _nothing
+    function_about: str = ""  # first paragraph of the documentation of the function
+    tables: Mapping[str, Any] = field(default_factory=dict)  # by name; `about` is a sentence each
+    chosen: str = ""  # the argument for the name of a table
+    default: str = ""  # of it, in the function
+    chosen_help: str = ""
+    outputs: tuple[Output, ...] = ()
+
+    @property
+    def all_outputs(self) -> tuple[Output, ...]:
+        """The outputs."""
+        return self.outputs

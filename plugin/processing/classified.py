@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Iterable
+from typing import Iterable
 
 from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
@@ -16,10 +16,6 @@ from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
 from .outputs import class_raster_of
 
-if TYPE_CHECKING:
-    from ...algorithms.delivery.request import DeliveryRequest
-    from ...algorithms.runs.requests import ClassifyRequest
-
 # Side of a cell of a raster in metres, unless the run has rasters of its own.
 _USUAL_CELL = 1.0
 
@@ -28,15 +24,15 @@ def show_classified(
     algorithm: BareEarthAlgorithm,
     cloud: str,
     classes: Iterable[int],
-    request: ClassifyRequest | DeliveryRequest,
+    ground_class: int,
+    cells: tuple[float, bool],
     context: QgsProcessingContext,
     progress: FeedbackProgress,
     hides: int = layers.CLOUD,
 ) -> None:
     """Show a classified point cloud, which may be virtual, with its classes, or the usual ones if
-    none are given, or a raster of them where QGIS cannot.
+    none are given, or a raster of them where QGIS cannot, with cells as in `show_class_raster`.
     """
-    ground_class = request.selection.to_class
     classes = list(classes) or clouds.usual_classes(ground_class)
     is_virtual = cloud.endswith(".vpc")
     # At small scales QGIS shows outlines, and the terrain must be visible through these.
@@ -47,7 +43,6 @@ def show_classified(
             _load_virtual(algorithm, cloud, classes, context)
         return
     progress.info(f"This QGIS cannot show such a file as a layer. It is at {cloud}.")
-    cells = request.terrain.dtm_cell_size or _USUAL_CELL, request.terrain.dtm_cell_unit == "crs"
     shown = [] if is_virtual else classes
     show_class_raster(algorithm, cloud, shown, ground_class, context, progress, hides, cells)
 

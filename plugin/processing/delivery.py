@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING, Any, Mapping, Sequence
 
 from qgis.core import (
@@ -14,7 +13,7 @@ from qgis.core import (
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.delivery.deliveries import DELIVERIES
 from ...algorithms.delivery.folder import DeliveryFolder
-from ...algorithms.delivery.request import (
+from ...algorithms.delivery.parameters import (
     NO_DELIVERY,
     DeliveryChoice,
     DeliveryOptions,
@@ -22,6 +21,7 @@ from ...algorithms.delivery.request import (
     DeliveryWater,
 )
 from ...algorithms.engine.options import TileOutput
+from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.check.accuracy import Accuracy
 from .. import compat
 from ..i18n import mark
@@ -131,8 +131,7 @@ def make_delivery(
     progress: FeedbackProgress,
 ) -> dict[str, Any]:
     """Make a delivery, and let QGIS load its layers; return the outputs of the algorithm."""
-    from ...algorithms.delivery.delivering import deliver
-    from ...algorithms.delivery.request import DeliveryRequest
+    from ...algorithms.delivery.running import deliver
 
     chosen = algorithm.chosen(parameters, context)
     name = delivery_of(chosen)
@@ -145,17 +144,19 @@ def make_delivery(
     command = command_line("deliver", words, sets, {**given_options(**limits), **flags})
     area = area_options(limits["area"], progress)
     progress.command(" ".join([command, *area]))
-    request = DeliveryRequest.of(sets, delivery=name, checkpoints=points, **limits)
-    done = deliver(algorithm.inputs, folder, request, progress)
-    progress.share(done.ground_count, done.point_count, bool(request.area))
+    inputs = {**limits, "checkpoints": points}
+    done = deliver(algorithm.inputs, folder, name, sets, inputs, progress)
+    progress.share(done.ground_count, done.point_count, bool(limits["area"]))
     progress.info("\n".join(f"{title}: {value}" for title, value in done.accuracy()))
-    _show(algorithm, done, request.content.pictures[0], context)
-    terrain = dataclasses.replace(request.terrain, dtm_cell_size=done.cell_size)
-    request = dataclasses.replace(request, terrain=terrain)
+    _show(algorithm, done, DELIVERIES[name].pictures[0], context)
     if not done.cloud.endswith(".vpc") and compat.can_load(done.cloud):
         compat.load_point_cloud(done.cloud, context)
+    ground, terrain = Selection.among(chosen).to_class, DeliveryTerrain.among(chosen)
+    cells = done.cell_size, terrain.dtm_cell_unit == "crs"
     below = layers.BELOW_TERRAIN
-    show_classified(algorithm, done.cloud, done.class_counts, request, context, progress, below)
+    show_classified(
+        algorithm, done.cloud, done.class_counts, ground, cells, context, progress, below
+    )
     algorithm.class_counts = done.class_counts
     return {
         FOLDER: folder, PAGE: done.page,

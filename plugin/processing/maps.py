@@ -69,7 +69,9 @@ class MapAlgorithm(ToolAlgorithm):
         if isinstance(request, ClassifyRequest):
             cloud = done.vpc if tool.is_survey else outputs["output"]
             self.class_counts = done.class_counts
-            show_classified(self, cloud, done.class_counts, request, context, progress)
+            cells = request.terrain.dtm_cell_size, request.terrain.dtm_cell_unit == "crs"
+            ground = request.selection.to_class
+            show_classified(self, cloud, done.class_counts, ground, cells, context, progress)
         return {**results, **{name: getattr(done, name.lower()) for name, _ in tool.numbers}}
 
     def _cloud(self, request: Request, name: str) -> str:

@@ -50,7 +50,8 @@ def make_own(
     if cloud:
         results["OUTPUT"], algorithm.class_counts = written, summary.class_counts
         outputs.do_not_load(context, {cloud} - {written})
-        look = request, context, progress, BELOW_TERRAIN
+        cells = request.terrain.dtm_cell_size, request.terrain.dtm_cell_unit == "crs"
+        look = request.selection.to_class, cells, context, progress, BELOW_TERRAIN
         show_classified(algorithm, written, summary.class_counts, *look)
     return {**results, "POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...algorithms.delivery.request import DeliveryChoice, DeliveryTerrain
+from ...algorithms.delivery.parameters import DeliveryChoice, DeliveryTerrain
 from ...algorithms.engine.memory import Resources
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools.contours import Contours

@@ -30,7 +30,7 @@ from qgis.PyQt import sip
 from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QWidget
 
-from ...algorithms.delivery.request import NO_DELIVERY
+from ...algorithms.delivery.parameters import NO_DELIVERY
 from .. import compat
 from ..i18n import tr
 from ..styles.loaded import file_of

@@ -18,11 +18,14 @@ from bare_earth import BareEarthError, Cancelled, Progress, classify, deliver, t
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import FinishedFilesStay, OutputInUse
 from bare_earth.algorithms.delivery.deliveries import DELIVERIES, STATED
-from bare_earth.algorithms.delivery.request import DeliveryOptions, DeliveryRequest, DeliveryWater
+from bare_earth.algorithms.delivery.parameters import DeliveryWater
+from bare_earth.algorithms.delivery.table import Job
 from bare_earth.algorithms.grids.lines import along
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.tools.quality.specifications import SPECIFICATIONS
+from bare_earth.algorithms.tools.water.finding import Water
+from bare_earth.algorithms.tools.water_classes import WaterClasses
 
 pytest.importorskip("pyproj")
 EAST, NORTH, WIDTH, DEPTH = 500_000.0, 5_600_000.0, 150.0, 90.0
@@ -323,17 +326,17 @@ def test_water_that_was_found_gives_classes_in_one_file_and_in_two(made):
     assert one.quality.classes == one.class_counts
 
 
-def test_classes_of_water_are_those_that_the_specification_knows():
-    def of(name, specification="as-delivery"):
-        request = DeliveryRequest(delivery=name, options=DeliveryOptions(specification))
-        return request.sets_of("water-classes")[0] if request.content.in_water else None
+def set_of(kind, delivery, specification, *sets):
+    """Return the parameters of a tool in a delivery, given what the user gave."""
+    values = DELIVERIES[delivery].values_with(specification)
+    return Job([], sets, values, {}, None).set_of(kind)
 
-    distances = {
-        "as-delivery": 0.7, "none": 0.7, "linz": 0.7, "lbs-ql1": 0.35, "lbs-ql2": 0.71, "ign": 0.0,
-    }  # fmt: skip
-    assert {each: of("flood", each).shore_distance for each in distances} == distances
-    assert of("survey").shore_distance == 0.71 and of("survey").water_class == 9
-    assert {of(each) for each in ("archaeology", "forestry", "drone-site")} == {None}
+
+def test_classes_of_water_are_those_that_the_specification_knows():
+    distances = {"none": 0.7, "linz": 0.7, "lbs-ql1": 0.35, "lbs-ql2": 0.71, "ign": 0.0}
+    for name, distance in distances.items():
+        assert set_of(WaterClasses, "flood", name) == WaterClasses(shore_distance=distance)
+    assert {name for name, content in DELIVERIES.items() if content.water} == {"survey", "flood"}
 
 
 def test_a_survey_is_as_the_base_specification_asks(made):
@@ -797,10 +800,10 @@ def test_breaklines_of_the_user_are_delivered_beside_water_that_was_found(scene,
 
 def test_sizes_of_water_that_are_given_count_and_others_are_those_of_the_delivery():
     def wanted(name, **values):
-        water = DeliveryRequest(delivery=name, water=DeliveryWater(**values)).water_wanted
-        return None if water is None else (water.min_area, water.min_width, water.water_cell)
+        return set_of(Water, name, "none", DeliveryWater(**values))
 
-    assert wanted("survey") == (8000.0, 30.0, None) and wanted("forestry", min_area=900.0) is None
-    assert wanted("flood") == (1000.0, 5.0, None)
+    assert wanted("survey") == Water(min_area=8000.0, min_width=30.0)
+    assert wanted("flood") == Water(min_area=1000.0, min_width=5.0)
     # Also a size that is usual elsewhere.
-    assert wanted("flood", min_area=8000.0, water_cell=2.0) == (8000.0, 5.0, 2.0)
+    given = {"min_area": 8000.0, "water_cell": 2.0}
+    assert wanted("flood", **given) == Water(min_width=5.0, **given)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bare_earth.algorithms.library import table
+from bare_earth.algorithms.library import tools
 from bare_earth.algorithms.rasters.looks import GREY, Look, Ramp
 from bare_earth.algorithms.tools.rasters.rows import RASTERS, Raster
 
@@ -35,8 +35,8 @@ def add_toy(monkeypatch):
 
 def forget():
     """Let the library declare its functions anew."""
-    table.declared.cache_clear()
-    table.function.cache_clear()
+    tools.declared.cache_clear()
+    tools.function.cache_clear()
 
 
 def is_right(values):

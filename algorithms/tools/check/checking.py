@@ -239,7 +239,12 @@ TOOL = FileTool(
             label="Report",
             field_help="A web page with the figures, the statement, and a map of the errors.",
         ),
-        Output("table", "table", help="write the checkpoints and their errors (.csv)"),
+        Output(
+            "table",
+            "table",
+            help="write the checkpoints and their errors (.csv)",
+            needs="checkpoints",
+        ),
     ),
     numbers=(
         ("CHECKPOINT_COUNT", "Checkpoints"), ("COUNTED", "Counted checkpoints"),

@@ -48,7 +48,7 @@ def _in_dialog() -> tuple[Output, ...]:
     return tuple(output for output in maps() if output.name in names)
 
 
-_TARGET = Input("raster_target", "target", is_last=True)
+TARGET = Input("raster_target", "target", is_last=True)
 _AREA = Input(
     "area",
     "area",
@@ -57,14 +57,14 @@ _AREA = Input(
     advanced=True,
     is_last=True,
 )
-_CONSTRAINTS = Input("constraints", "constraints", found=_found, is_last=True)
+CONSTRAINTS = Input("constraints", "constraints", found=_found, is_last=True)
 TOOL = MapTool(
     sets=(
         GroundClasses, TerrainModel, SurfaceModel, Contours, TileInput, RasterOutput, Resources,
     ),
     dialog_sets=(GroundClasses, TerrainModel, SurfaceModel, RasterOutput, Resources),
-    inputs=(_TARGET, _AREA, _CONSTRAINTS),
-    dialog_inputs=(_AREA, _CONSTRAINTS, _TARGET),
+    inputs=(TARGET, _AREA, CONSTRAINTS),
+    dialog_inputs=(_AREA, CONSTRAINTS, TARGET),
     outputs=maps,
     dialog_outputs=_in_dialog,
     command="terrain",

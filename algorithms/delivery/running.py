@@ -5,71 +5,82 @@ from __future__ import annotations
 import contextlib
 from dataclasses import asdict
 from pathlib import Path
-from typing import Callable, Iterator, Sequence
+from typing import Any, Callable, Iterator, Mapping, Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..core.files import temporary_folder
+from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, PassingOn, Progress
+from ..core.temporary import remove
 from ..core.version import __version__
+from ..crs.stated import stated_wkt
+from ..engine.options import TileInput
 from ..engine.workers import Workers
 from ..survey.files import Inputs, Sources, Survey, open_survey
 from ..survey.shapes import Place
 from ..tools import POINT_TOOLS
+from .deliveries import DELIVERIES
 from .folder import PAGE, DeliveryFolder
 from .page import delivery_html, settings_of
-from .request import DeliveryRequest
-from .steps import DeliverySteps
+from .rows import DeliveryJob, rows_of
 from .summary import DeliverySummary
 
 
 def deliver(
     sources: Sources,
     folder: str | Path,
-    request: DeliveryRequest = DeliveryRequest(),
+    delivery: str,
+    sets: Sequence[ParameterSet],
+    inputs: Mapping[str, Any],
     progress: Progress = SILENT,
     workers: Workers | None = None,
 ) -> DeliverySummary:
-    """Make all outputs of a job from raw points: a delivery."""
-    paths, place = Inputs(sources), DeliveryFolder(Path(folder))
-    place.check(paths)
-    is_one = not paths.is_survey
-    messages = _Messages(progress)
-    survey = _opened(paths, request, messages)
-    if not is_one:
-        place.begin(request.delivery)
+    """Make all outputs of a job from raw points: a delivery, given parameters and inputs."""
+    if delivery not in DELIVERIES:
+        raise BareEarthError(
+            f"There is no delivery '{delivery}'. Choose one of {', '.join(DELIVERIES)}."
+        )
+    files, place, messages = Inputs(sources), DeliveryFolder(Path(folder)), _Messages(progress)
+    place.check(files)
+    survey = _opened(files, sets, inputs, messages)
+    if files.is_survey:
+        place.begin(delivery)
     # On the disk of the folder, so that outputs can be moved there.
-    beside = place.path.parent if is_one else place.path
-    with _left_in_order(place, is_one), temporary_folder(beside) as working:
+    beside = place.path if files.is_survey else place.path.parent
+    with _left_in_order(place, files.is_survey), temporary_folder(beside) as working:
         changed = {place.waiting / command: place.points for command in POINT_TOOLS}
         messages.folders = {working: place.path, **changed}
         summary = DeliverySummary(
-            str(place.path), request.delivery, str(place.path / PAGE), warnings=messages.warnings
+            str(place.path), delivery, str(place.path / PAGE), warnings=messages.warnings
         )
-        work = DeliveryFolder(working)
-        steps = DeliverySteps(request, survey, paths, is_one, work, place, workers, summary)
+        made = DeliveryFolder(working), place
+        content = DELIVERIES[delivery]
+        job = DeliveryJob(content, files, survey, sets, inputs, summary, *made, workers)
+        summary.seconds = job.seconds
         try:
-            steps.run(messages.part(0.01, 0.97))
+            job.work(rows_of(content), messages.part(0.01, 0.97))
         except BareEarthError as error:
             raise BareEarthError(str(error).replace(str(working), str(place.path))) from error
-        page = delivery_html(request, summary, survey, working, steps.files)
+        remove(made[0].waiting)
+        page = delivery_html(job, working)
         (working / PAGE).write_text(page, encoding="utf-8")
         shown = {"cloud": summary.cloud, **summary.layers}
         places = {name: path.replace(str(working), str(place.path)) for name, path in shown.items()}
         summary.cloud, summary.layers = places.pop("cloud"), places
         messages(1.0)  # the last moment to cancel
         # The points of many files are in the folder already.
-        there = [path for path in steps.files if path.parent == place.points and path.is_file()]
+        there = [path for path in job.files if path.parent == place.points and path.is_file()]
         record = {
-            "delivery": request.delivery,
+            "delivery": delivery,
             "version": __version__,
-            "settings": settings_of(request, summary.cell_size),
+            "settings": settings_of(job),
             "points": summary.point_count,
             "ground": summary.ground_count,
             "classes": summary.class_counts,
             "water": None if summary.water is None else asdict(summary.water),
             "files": [path.relative_to(place.path).as_posix() for path in there],
         }
-        place.replace(working, steps.waiting, record)
+        place.replace(working, job.waiting, record)
     return summary
 
 
@@ -108,22 +119,25 @@ class _Messages(PassingOn):
                 kept.append(text)
 
 
-def _opened(paths: Sequence[Path], request: DeliveryRequest, progress: Progress) -> Survey:
+def _opened(
+    files: Inputs, sets: Sequence[ParameterSet], inputs: Mapping[str, Any], progress: Progress
+) -> Survey:
     """Open the files, and refuse now what would fail after hours."""
-    recursive, stated = request.files.recursive, request.stated
-    survey = open_survey(paths, recursive, progress.part(0.0, 0.01), stated)
-    if request.checkpoints is not None:
-        request.checkpoints.located(Place("the files", survey.crs, survey.box), progress)
+    stated, reading = stated_wkt(inputs["crs"]), progress.part(0.0, 0.01)
+    recursive = any(isinstance(values, TileInput) and values.recursive for values in sets)
+    survey = open_survey(files, recursive, reading, stated)
+    if inputs["checkpoints"] is not None:
+        inputs["checkpoints"].located(Place("the files", survey.crs, survey.box), progress)
     return survey
 
 
 @contextlib.contextmanager
-def _left_in_order(place: DeliveryFolder, is_one: bool) -> Iterator[None]:
+def _left_in_order(place: DeliveryFolder, is_survey: bool) -> Iterator[None]:
     """After a cancel or an error, leave no empty folder; say if the run can be continued."""
     try:
         yield
     except (BareEarthError, Cancelled, KeyboardInterrupt) as error:
-        if is_one:
+        if not is_survey:
             raise
         stays = place.leave()
         if stays and not isinstance(error, (BareEarthError, FinishedFilesStay)):

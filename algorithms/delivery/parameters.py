@@ -1,0 +1,118 @@
+"""Parameters of deliveries, some of which a delivery decides where they are left open."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..core.parameters import ParameterSet, parameter, parameter_of
+from ..tools.quality.specifications import SPECIFICATIONS
+from ..tools.rasters.parameters import MapTerrain
+from ..tools.water.finding import Water
+from .deliveries import DELIVERIES
+
+# No delivery but outputs that the user chooses, and the specification that a delivery has.
+NO_DELIVERY, AS_DELIVERY = "own", "as-delivery"
+
+
+@dataclass(frozen=True)
+class DeliveryChoice(ParameterSet):
+    """Which delivery is made, if any."""
+
+    # Optional, since it is newer than saved models of the step from a point cloud to maps.
+    delivery: str | None = parameter(
+        NO_DELIVERY,
+        label="Delivery",
+        optional=True,
+        choices={
+            NO_DELIVERY: "Own choice of outputs",
+            **{name: delivery.label for name, delivery in DELIVERIES.items()},
+        },
+        help="All outputs that a job hands over, in one folder, with a page that lists them. Only"
+        " with your own choice of outputs are the fields of single outputs used.",
+    )
+
+
+@dataclass(frozen=True)
+class DeliveryOptions(ParameterSet):
+    """What a delivery contains beside its outputs, and with what it is compared."""
+
+    specification: str = parameter(
+        AS_DELIVERY,
+        label="Specification",
+        choices={
+            AS_DELIVERY: "The usual one of the delivery",
+            **{name: asked.label for name, asked in SPECIFICATIONS.items()},
+        },
+        advanced=True,
+        help="The specification with which a delivery is compared. It also sets the cell size of"
+        " the delivery for surveys, and the classes that it asks for.",
+    )
+    key_points: bool = parameter(
+        False,
+        label="Mark model key points",
+        advanced=True,
+        help="Marks the ground points of a delivery that a terrain model needs, by the key-point"
+        " flag of LAS.",
+    )
+    hold_out_share: float | None = parameter(
+        0.02,
+        kind="number",
+        label="Share of ground points to hold out",
+        minimum=0.0001,
+        maximum=0.5,
+        optional=True,
+        advanced=True,
+        help="Leaves out so large a share of the ground points of a delivery, and states how well"
+        " the others predict them. Empty: this is not measured.",
+    )
+
+
+@dataclass(frozen=True)
+class DeliveryTerrain(MapTerrain):
+    """The same as for maps, with a cell size that can be left open."""
+
+    dtm_cell_size: float | None = parameter_of(  # type: ignore[assignment]
+        MapTerrain,
+        "dtm_cell_size",
+        label="Cell size",
+        default=None,
+        optional=True,
+        empty="by the density of the ground points",
+        help="Side of a cell of the terrain model and of its hillshade. Empty: 1 m, and for a"
+        " delivery as fine as the ground points allow, or as the specification states.",
+    )
+
+    def with_cells(self, size: float) -> MapTerrain:
+        """Return the parameters of maps, with a cell size in metres if it is left open."""
+        values = dict(vars(self))
+        if self.dtm_cell_size is None:
+            values |= {"dtm_cell_size": size, "dtm_cell_unit": "m"}
+        return MapTerrain(**values)
+
+
+@dataclass(frozen=True)
+class DeliveryWater(Water):
+    """The same as for water, with sizes that can be left open."""
+
+    min_area: float | None = parameter_of(  # type: ignore[assignment]
+        Water,
+        "min_area",
+        label="Smallest water",
+        default=None,
+        optional=True,
+        advanced=True,
+        empty="as the delivery",
+        help="A delivery leaves out smaller water. Empty: 8,000 m² for a survey, 1,000 m² for a"
+        " flood model.",
+    )
+    min_width: float | None = parameter_of(  # type: ignore[assignment]
+        Water,
+        "min_width",
+        default=None,
+        optional=True,
+        advanced=True,
+        empty="as the delivery",
+        help="A delivery leaves out rivers that are narrower on average. Empty: 30 m for a survey,"
+        " 5 m for a flood model.",
+    )
+    water_cell: float | None = parameter_of(Water, "water_cell", label="Cell size of the water")

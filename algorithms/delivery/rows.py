@@ -1,0 +1,256 @@
+"""The rows of deliveries, and what some of them do beside letting a tool work."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Mapping, Sequence
+
+from ..core.errors import BareEarthError
+from ..core.files import make_work_folder, split_name
+from ..core.parameters import ParameterSet
+from ..core.progress import Progress
+from ..core.temporary import patiently, remove
+from ..crs.stated import stated_wkt
+from ..engine.manifest import folders_of
+from ..engine.options import TileOutput
+from ..engine.workers import Workers
+from ..grids.dense_surface import VERTICES_A_SIDE
+from ..report.units import Units
+from ..runs.requests import TerrainRequest
+from ..survey.feature_files import feature_writer
+from ..survey.files import Inputs, Survey, open_survey
+from ..survey.ground_classes import GroundClasses
+from ..survey.overview import overview_of
+from ..survey.selection import Selection
+from ..survey.shapes import Place
+from ..tools.rasters.fixed_terrain import parts_of
+from ..tools.rasters.parameters import SurfaceModel, TerrainModel
+from ..tools.water.finding import Water
+from ..tools.water.tool import SurveyWater, found_water, given_water
+from .deliveries import WITH_BUILDINGS, Delivery
+from .folder import QUALITY, DeliveryFolder
+from .parameters import AS_DELIVERY, DeliveryOptions, DeliveryTerrain
+from .summary import DeliverySummary
+from .table import Job, Row
+
+_BUILDING = 6
+# Contour lines in a CRS whose heights are feet: so many feet are about half a metre.
+_FEET_A_METRE = 4.0
+_ENDINGS = {"raster": ".tif", "page": ".html", "table": ".csv", "folder": ""}
+
+
+class DeliveryJob(Job):
+    """A delivery while it is made, in a folder where its outputs wait for their places."""
+
+    summary: DeliverySummary
+
+    def __init__(
+        self,
+        content: Delivery,
+        sources: Inputs,
+        survey: Survey,  # of these
+        sets: Sequence[ParameterSet],
+        inputs: Mapping[str, Any],  # of the user
+        summary: DeliverySummary,
+        working: DeliveryFolder,
+        folder: DeliveryFolder,  # where many files are made, as finished ones stay after a cancel
+        workers: Workers | None,  # for many files
+    ) -> None:
+        self.content, self.survey, self.is_survey = content, survey, sources.is_survey
+        self.working, self.folder = working, folder
+        self.files: list[Path] = []  # of points, at their places
+        self.waiting: list[Path] = []  # take the places of `files` at the end
+        self.found: SurveyWater | None = None
+        self.own, options = inputs["constraints"], DeliveryOptions.among(sets)
+        self.specification = options.specification
+        if self.specification == AS_DELIVERY:
+            self.specification = content.specification
+        values = content.values_with(self.specification)
+        values.update(area_only=inputs["area"] is not None, hold_out=options.hold_out_share)
+        wanted = {
+            "find water": content.water and not self.own.water,
+            "classes of water": content.water,
+            "key points": options.key_points,
+            "buildings": content.with_buildings,
+            "contours": content.contours,
+            "check": options.hold_out_share or inputs["checkpoints"],
+        }
+        super().__init__(sources, sets, values, {**inputs, **wanted}, summary, workers)
+        self.known["roads"] = self.set_of(Selection).roads
+        if not wanted["find water"]:
+            self.know_water()
+
+    @property
+    def cloud(self) -> Path:
+        """The classified file, or the virtual point cloud of many."""
+        return self.sources[0]
+
+    def know_water(self) -> None:
+        """Let further rows know the water, found or given, after which nothing more is found."""
+        constraints, own = self.known["constraints"], self.own
+        self.known["outlines"] = constraints.water_outlines
+        self.known["water lines"] = self.found or own.water or own.breaklines
+
+    def place(self, kind: str, name: str) -> Path:
+        """Return where an output waits, and list it if a map shows it."""
+        path = self.working.path / f"{name}{_ENDINGS.get(kind, _ending_of_features())}"
+        if kind in ("raster", "features"):
+            self.known[name] = self.summary.layers[name] = str(path)
+        return path
+
+
+def _ending_of_features() -> str:
+    """Return the ending of a GeoPackage if it can be written."""
+    try:
+        feature_writer(Path("x.gpkg"))
+    except BareEarthError:
+        return ".geojson"
+    return ".gpkg"
+
+
+def rows_of(content: Delivery) -> tuple[Row, ...]:
+    """Return the rows of a delivery."""
+    rasters = {name: name for name in content.rasters}
+    on_ground = {"roads": "roads", "constraints": "constraints", **_WITHIN}
+    quality = {"page": "quality", **({"folder": QUALITY} if content.quality else {})}
+    checked = {"report": "accuracy", "table": "checkpoints", "residuals": "checkpoints"}
+    return (
+        Row("classes", "classify", 6.0, (), {"area": "area", "corrections": "corrections"},
+            work=_classify),
+        Row("water", "water", 1.0, ("find water",), work=_find_water),
+        Row("water", "water-classes", 1.0, ("classes of water", "outlines"), {"water": "outlines"},
+            work=_change),
+        Row("key points", "key-points", 2.0, ("key points",), work=_change),
+        Row("quality", "quality", 2.0, (), {}, quality, work=_measure),
+        Row("rasters", "terrain", 2.0 + 0.4 * len(rasters), (), on_ground, rasters),
+        Row("rasters", "terrain", 1.0, ("buildings",), on_ground, {"dsm": WITH_BUILDINGS},
+            work=_draw_buildings),
+        Row("rasters", "water", 0.3, ("water lines",), work=_write_water),
+        Row("contour lines", "contours", 0.3, ("contours",), {"source": "dtm"},
+            {"output": "contours"}, "interval", _draw_contours),
+        Row("accuracy", "check", 1.5, ("check",), {"checkpoints": "checkpoints", "dtm": "dtm"},
+            checked, "check"),
+    )  # fmt: skip
+
+
+_WITHIN = {"area": "area", "raster_target": "raster_target"}
+
+
+def _classify(job: DeliveryJob, row: Row, progress: Progress) -> None:
+    """Classify the points, and add their heights, as the delivery asks."""
+    target, summary = job.folder.points, job.summary
+    if not job.is_survey:
+        source, kind = job.sources[0], job.set_of(TileOutput).format
+        name = source.name if kind == "same" else f"{split_name(source)[0]}.{kind}"
+        target = job.working.points / name
+        target.parent.mkdir()
+    done = job.run(row, progress, output=target)
+    if job.is_survey:
+        job.sources, job.files = Inputs(done.vpc), _files_of(done)
+        summary.point_count, summary.ground_count = done.point_count, done.ground_count
+        summary.failures = dict(done.failures)
+    else:
+        job.sources, job.files = Inputs(target), [target]
+        summary.point_count, summary.ground_count = done.area_count, done.area_ground_count
+    summary.cloud, summary.class_counts = str(job.cloud), done.class_counts
+
+
+def _find_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
+    """Find the water."""
+    ground, how = job.set_of(GroundClasses), job.set_of(Water)
+    water, job.summary.water = found_water(job.sources, ground, job.known["crs"], progress, how)
+    if water.bodies:
+        job.found = water
+        job.known["constraints"] = job.own.with_water(water.constraints, progress)
+    job.know_water()
+
+
+def _change(job: DeliveryJob, row: Row, progress: Progress) -> None:
+    """Change the classified points, those of many files in a folder of its own until all outputs
+    are made, so that a run can be continued.
+    """
+    source, summary = job.cloud, job.summary
+    if not job.is_survey:
+        target = job.working.waiting / source.name
+        target.parent.mkdir(exist_ok=True)
+        done = job.run(row, progress, output=target)
+        patiently(os.replace, target, source)
+    else:
+        target = job.folder.waiting / row.tool
+        if not job.set_of(TileOutput).resume:
+            remove(target)
+        make_work_folder(target.parent)
+        changed = target / source.name
+        done = job.run(row, progress, output=target, vpc=changed)
+        for path, why in done.failures.items():
+            raise BareEarthError(f"{path} cannot be changed. {why}")
+        job.sources, job.waiting = Inputs(changed), _files_of(done)
+        moved = (job.folder.points / path.relative_to(target) for path in job.waiting)
+        job.files = sorted({*job.files, *moved})
+    summary.class_counts = done.class_counts
+    summary.ground_count = done.class_counts.get(job.set_of(Selection).to_class, 0)
+
+
+def _measure(job: DeliveryJob, row: Row, progress: Progress) -> None:
+    """Measure the quality, and choose the cell size by the density of the ground."""
+    summary, kept = job.summary, job.content.quality
+    summary.quality = quality = job.run(row, progress)
+    for path in (job.working.path / QUALITY).glob("*.tif"):
+        if path.stem not in kept:
+            remove(path)
+    size = job.content.cell_size(quality.ground_density, job.specification)
+    job.sets = [
+        values.with_cells(size) if isinstance(values, DeliveryTerrain) else values
+        for values in job.sets
+    ]
+    model = job.set_of(TerrainModel)
+    units = Units(job.survey.crs.horizontal_unit, job.survey.crs.vertical_unit)
+    summary.cell_size = model.dtm_cell_size
+    summary.cell_text = units.length(model.cells(units.horizontal).metres)
+
+
+def _draw_buildings(job: DeliveryJob, row: Row, progress: Progress) -> None:
+    """Make a surface of the terrain and the buildings."""
+    ground, edge = job.set_of(GroundClasses), job.set_of(SurfaceModel).max_edge
+    classes = *ground.ground_classes, *job.known["roads"], _BUILDING
+    sets, job.sets = job.sets, [SurfaceModel("all", classes, edge), *job.sets]
+    job.run(row, progress)
+    job.sets = sets
+
+
+def _write_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
+    """Write the water and the breaklines, found and given, with their heights in the terrain model,
+    if they have any.
+    """
+    stated, target = stated_wkt(job.known["crs"]), job.known["raster_target"]
+    survey = open_survey(job.sources, progress=progress.quiet(), stated=stated)
+    own = job.own.located(Place("the files", survey.crs, survey.box), progress)
+    terrain = TerrainRequest(terrain=job.set_of(TerrainModel), raster_target=target)
+    cell = terrain.raster_step.placed(survey.crs, survey.box).cell / VERTICES_A_SIDE
+    clouds = parts_of(survey.tiles, progress.part(0.0, 0.9))
+    water = given_water(own, clouds, survey.crs, job.set_of(GroundClasses), cell)
+    if job.found:
+        water = replace(job.found, breaklines=water.breaklines)
+    # Polygons without ground near them have no heights for lines.
+    polygons = job.place("features", "water") if water.bodies else None
+    lines = job.place("features", "breaklines") if any(True for _ in water.lines()) else None
+    water.write(polygons, lines, progress)
+
+
+def _draw_contours(job: DeliveryJob, row: Row, progress: Progress) -> Any:
+    """Draw contour lines."""
+    metres, unit = job.content.contour_metres, job.survey.crs.vertical_unit
+    if metres is not None:
+        job.values["contour_interval"] = metres * (1.0 if unit == 1.0 else _FEET_A_METRE)
+    return job.run(row, progress)
+
+
+def _files_of(done: Any) -> list[Path]:
+    """Return the files of points, their lists, and the records of what they were made of."""
+    vpc = Path(done.vpc)
+    names = {vpc.name, overview_of(vpc).name, *(tile.name for tile in done.tiles)}
+    records = folders_of(vpc.parent)[1]
+    paths = sorted(path for path in vpc.parent.rglob("*") if path.is_file())
+    return [path for path in paths if path.name in names or records in path.parents]
