@@ -80,7 +80,8 @@ class Job:
 
     def run(self, row: Row, progress: Progress, vpc: Path | None = None, **outputs: Path) -> Any:
         """Let the tool of a row work, with further outputs that are given here."""
-        tool, sources = any_tool(row.tool), self.sources
+        tool: Any = any_tool(row.tool)
+        sources = self.sources
         inputs = {name: self.known.get(value) for name, value in row.inputs.items()}
         crs = self.known["crs"]
         paths: dict[str, Path | None] = dict(outputs)
