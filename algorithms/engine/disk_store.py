@@ -7,7 +7,9 @@ import contextlib
 import dataclasses
 import mmap
 import os
+import struct
 import threading
+import zipfile
 from pathlib import Path
 from typing import BinaryIO, Callable, Iterator, NamedTuple, Sequence
 
@@ -31,6 +33,8 @@ _GAP = 1 << 16
 _MOST_READ = 1 << 15
 # Bytes that are written at a time to allocate a file.
 _STEP = 1 << 24
+# Bytes of the header of an entry of a zip file, without its name and extra bytes.
+_ZIP_HEADER = 30
 
 
 class _StoredPart(NamedTuple):
@@ -56,8 +60,8 @@ class DiskStore(Store):
         self._target = Path(target)
         self._lock, self._files = threading.Lock(), contextlib.ExitStack()
         with write_errors_told(self._target):
-            self._records, self._orders, self._values = (
-                self._files.enter_context(unnamed_file(self._target.parent)) for _ in range(3)
+            self._records, self._orders, self._values, self._cells = (
+                self._files.enter_context(unnamed_file(self._target.parent)) for _ in range(4)
             )
         self._parts: list[_StoredPart] = []
         self._runs = LeafIndex(blocks.leaf_side, blocks.start)
@@ -135,6 +139,14 @@ class DiskStore(Store):
                 self._values.write(stored.tobytes())
             reach_disk(self._values)
 
+    def keep(self, cells: np.ndarray) -> RowsOnDisk:
+        """Write cells to the disk."""
+        with self._lock, write_errors_told(self._target):
+            start = self._cells.seek(0, os.SEEK_END)
+            self._cells.write(np.ascontiguousarray(cells).data)
+            reach_disk(self._cells)
+        return RowsOnDisk(self._cells, start, cells.shape, cells.dtype)
+
     def values(self, number: int) -> np.ndarray:
         """Return the values of all points of a part."""
         part = self._parts[number]
@@ -164,6 +176,46 @@ def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
     """Return some of the values in a file, all of which are of one type."""
     file.seek(start * kind.itemsize)
     return np.frombuffer(file.read((end - start) * kind.itemsize), dtype=kind)
+
+
+class RowsOnDisk:
+    """An array in a file, shape (rows, columns), of which some rows and columns are read at a time;
+    a file given by its path is opened each time, and only one thread reads an open one.
+    """
+
+    def __init__(
+        self, file: BinaryIO | Path, start: int, shape: tuple[int, ...], kind: np.dtype
+    ) -> None:
+        self._file, self._start, self._shape, self._kind = file, start, shape, kind
+
+    def __getitem__(self, where: tuple[slice, slice]) -> np.ndarray:
+        """Return the cells of two slices."""
+        (first, last, _), columns = where[0].indices(self._shape[0]), self._shape[1]
+        source = self._file
+        opened = source.open("rb") if isinstance(source, Path) else contextlib.nullcontext(source)
+        with opened as file:
+            file.seek(self._start + first * columns * self._kind.itemsize)
+            content = file.read((last - first) * columns * self._kind.itemsize)
+        return np.frombuffer(content, self._kind).reshape(-1, columns)[:, where[1]]
+
+    def __array__(self, *arguments: object, **options: object) -> np.ndarray:
+        """Return all cells."""
+        return self[:, :]
+
+
+def rows_in(file: Path) -> dict[str, RowsOnDisk]:
+    """Return the arrays in a file of `numpy.savez`, by their names."""
+    found = {}
+    with zipfile.ZipFile(file) as entries, file.open("rb") as content:
+        for entry in entries.infolist():
+            # The entries are not compressed. Their headers end with a name and extra bytes.
+            content.seek(entry.header_offset + _ZIP_HEADER - 4)
+            content.seek(sum(struct.unpack("<HH", content.read(4))), os.SEEK_CUR)
+            np.lib.format.read_magic(content)
+            shape, _, kind = np.lib.format.read_array_header_1_0(content)
+            name = entry.filename[: -len(".npy")]
+            found[name] = RowsOnDisk(file, content.tell(), shape, kind)
+    return found
 
 
 class ValuesOnDisk:

@@ -171,6 +171,10 @@ class Store:
         """Store the values of points, whose positions ascend; only one thread may call this."""
         raise NotImplementedError
 
+    def keep(self, cells: np.ndarray) -> Any:
+        """Return cells, shape (rows, columns), or where they wait to be sliced if points do."""
+        return cells
+
     def values(self, number: int) -> np.ndarray:
         """Return the values of all points of the part that was added after `number` others, in its
         order; 0 where none was stored.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Callable, Mapping, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Mapping, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -37,8 +37,9 @@ class BlockRasters(NamedTuple):
     """The layers of a block, with rows from south to north."""
 
     window: CellWindow  # the cells of the block
-    # float32, (rows, columns), NaN for no value, by names in `LAYERS`; also `CONTENTS`, of uint8
-    layers: Mapping[str, np.ndarray]
+    # float32, (rows, columns), NaN for no value, by names in `LAYERS`; also `CONTENTS`, of uint8;
+    # arrays or `RowsOnDisk`
+    layers: Mapping[str, Any]
     # float64, (n, 3): for layers with filled gaps, the points of the block that are needed across
     # wide gaps, corners of the convex hull and points beside cells without a height
     loose: Mapping[str, np.ndarray]

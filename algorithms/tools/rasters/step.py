@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from operator import itemgetter
 from pathlib import Path
-from typing import Any, BinaryIO, Callable, Dict, Iterable, Iterator, Sequence
+from typing import Any, BinaryIO, Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from ...crs.system import Crs
 from ...engine.block_grid import BlockGrid, BlockIndex
 from ...engine.blocks import Block, Blocks
 from ...engine.blockwise import over_blocks
+from ...engine.disk_store import rows_in
 from ...engine.memory import Cost, Resources
 from ...engine.step import Sink
 from ...engine.store import Marks, Store
@@ -218,8 +219,13 @@ class MakeRasters(Drawing, Sink):
     ) -> list[tuple[Block, BlockRasters]]:
         """Return the blocks, or those that are wanted, with their rasters."""
         work = partial(_rasters_of, store, self, is_wanted is None)
-        found = over_blocks(store, self.blocks, work, resources, progress, is_wanted)
-        return [block for _, block in sorted(found, key=itemgetter(0))]
+        found = []
+        for number, (block, made) in over_blocks(
+            store, self.blocks, work, resources, progress, is_wanted
+        ):
+            layers = {name: store.keep(cells) for name, cells in made.layers.items()}
+            found.append((number, block, made._replace(layers=layers)))
+        return [(block, rasters) for _, block, rasters in sorted(found, key=itemgetter(0))]
 
     def save(self, results: Sequence[BlockRasters], stream: BinaryIO) -> None:
         """Write the rasters of a block, or of its parts."""
@@ -233,16 +239,13 @@ class MakeRasters(Drawing, Sink):
 
     def load(self, file: Path) -> Iterator[BlockRasters]:
         """Yield the rasters that `save` wrote; their layers stay in the file."""
+        stays = rows_in(file)
         with np.load(file, allow_pickle=False) as stored:
             for number in range(int(stored["count"])):
-                start = f"{number}.loose."
-                loose = {
-                    name[len(start) :]: stored[name] for name in stored if name.startswith(start)
-                }
                 window, box, counts = (
                     stored[f"{number}.{name}"] for name in ("window", "box", "counts")
                 )
-                layers = _StoredLayers(file, f"{number}.layers.")
+                loose, layers = _of(stored, f"{number}.loose."), _of(stays, f"{number}.layers.")
                 yield BlockRasters(CellWindow(*window.tolist()), layers, loose, box, counts)
 
     def finish(
@@ -260,16 +263,9 @@ class MakeRasters(Drawing, Sink):
         return write_rasters(result, frame, self, outputs, progress, files)
 
 
-class _StoredLayers(Dict[str, np.ndarray]):
-    """The layers of a part of a block, read from its file whenever they are used."""
-
-    def __init__(self, file: Path, start: str) -> None:
-        super().__init__()
-        self._file, self._start = file, start
-
-    def __missing__(self, name: str) -> np.ndarray:
-        with np.load(self._file, allow_pickle=False) as stored:
-            return stored[self._start + name]
+def _of(arrays: Any, start: str) -> dict[str, Any]:
+    """Return the arrays whose names begin in one way, by the ends of these."""
+    return {name[len(start) :]: arrays[name] for name in arrays if name.startswith(start)}
 
 
 def _rasters_of(
