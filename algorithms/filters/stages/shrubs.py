@@ -8,6 +8,8 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.points import Points
+from ...core.progress import SILENT
+from ...core.threads import over_parts
 from ...grids.cells import Cells
 from ...grids.gradient import steepness
 from ...grids.morphology import within_square
@@ -18,6 +20,8 @@ from .breaks import mean_surface, openness_of
 
 # Seeds of blocks are neighbours within so many times their width, and not within this share of it.
 _REACH, _APART = 5.0, 0.5
+# Places at which planes are laid at a time.
+_AT_ONCE = 1 << 13
 
 
 @dataclass(frozen=True)
@@ -74,21 +78,32 @@ class Shrubs(PointRule):
         doubtful = np.flatnonzero(doubtful & judged & (slope <= self.steepest))
         # The planes are those round the middle of a quarter of a block, for all seeds in it.
         quarters = Cells.over(seeds, width / 2.0)
-        which, inside = np.unique(quarters.index[doubtful], return_inverse=True)
+        doubtful = doubtful[np.argsort(quarters.index[doubtful], kind="stable")]
+        which, first = np.unique(quarters.index[doubtful], return_index=True)
         row, column = np.divmod(which, quarters.columns)
         x, y = (
-            (np.array(number) + first + 0.5) * quarters.size
-            for number, first in ((column, quarters.first_column), (row, quarters.first_row))
+            (np.array(number) + start + 0.5) * quarters.size
+            for number, start in ((column, quarters.first_column), (row, quarters.first_row))
         )
         middles = Points(x, y, blocks.interpolated(mean, x, y))
         lowest = seeds.take(blocks.lowest_points(seeds))
         sides = Sides(lowest, _REACH * width, _APART * width)
-        rise, east, north, misfit = (found[inside] for found in sides.planes(middles))
-        x, y, z = (
-            (seed[doubtful] - middle[inside])[:, None] for seed, middle in zip(seeds, middles)
-        )
-        rises = rise + z - east * x - north * y - self.misfit * misfit
-        above = np.fmin.reduce(rises, axis=1)
+        ends = np.append(first, len(doubtful))
+        above = np.empty(len(doubtful))
+
+        def judge(part: slice) -> None:
+            some, places = slice(ends[part.start], ends[part.stop]), middles.take(part)
+            inside = np.repeat(np.arange(places.count), np.diff(ends[part.start : part.stop + 1]))
+            rise, east, north, misfit = (found[inside] for found in sides.planes(places))
+            x, y, z = (
+                (seed[doubtful[some]] - place[inside])[:, None]
+                for seed, place in zip(seeds, places)
+            )
+            rises = rise + z - east * x - north * y - self.misfit * misfit
+            above[some] = np.fmin.reduce(rises, axis=1)
+
+        # Planes of all seeds together would take more memory than all else.
+        over_parts(judge, len(which), _AT_ONCE, SILENT)
         wrong = np.zeros(seeds.count, dtype=bool)
         wrong[doubtful] = above > allowed[doubtful]
         wrong[doubtful] &= in_wood[doubtful] | (above < self.tallest)
