@@ -202,10 +202,11 @@ class SinkJob(BlockJob):
                 rest = progress.part(0.6, 0.95)
                 for block, result in step.work(store, share.resources, rest, self._is_wanted):
                     found[self._place(block)].append(result)
-        progress(1.0)  # ends a job of a run that was cancelled, before it writes
-        for place, file in files.items():
-            with replacing(file) as temporary, temporary.open("wb") as stream:
-                step.save(found[place], stream)
+            progress(1.0)  # ends a job of a run that was cancelled, before it writes
+            # Results may still wait in the store.
+            for place, file in files.items():
+                with replacing(file) as temporary, temporary.open("wb") as stream:
+                    step.save(found[place], stream)
 
     def _is_wanted(self, block: Block) -> bool:
         """Return whether a block, or a part of one, is one of this job."""

@@ -210,8 +210,9 @@ def test_a_cancelled_survey_goes_on_with_the_rasters_that_are_left(
     assert not list((tmp_path / "more").rglob("*.npz"))
 
 
-def test_a_file_that_does_not_fit_into_memory_gives_the_same_rasters(survey, of_one, tmp_path):
-    assert _same(of_one, _of_files(survey / "one.laz", tmp_path / "other", memory=0.001))
+@pytest.mark.parametrize("source", ["one.laz", "many"])
+def test_files_that_do_not_fit_into_memory_give_the_same_rasters(survey, of_one, tmp_path, source):
+    assert _same(of_one, _of_files(survey / source, tmp_path / "other", memory=0.001))
 
 
 def test_classified_tiles_give_the_terrain_model_of_one_file(survey, tmp_path):
