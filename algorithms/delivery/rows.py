@@ -15,6 +15,7 @@ from ..core.temporary import patiently, remove
 from ..crs.stated import stated_wkt
 from ..engine.manifest import folders_of
 from ..engine.options import TileOutput
+from ..engine.unpacking import Unpacking
 from ..engine.workers import Workers
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..report.units import Units
@@ -56,10 +57,11 @@ class DeliveryJob(Job):
         summary: DeliverySummary,
         working: DeliveryFolder,
         folder: DeliveryFolder,  # where many files are made, as finished ones stay after a cancel
+        unpacked: Path,  # a folder for records that are decompressed
         workers: Workers | None,  # for many files
     ) -> None:
         self.content, self.survey, self.is_survey = content, survey, sources.is_survey
-        self.working, self.folder = working, folder
+        self.working, self.folder, self.unpacked = working, folder, unpacked
         self.files: list[Path] = []  # of points, at their places
         self.waiting: list[Path] = []  # take the places of `files` at the end
         self.found: SurveyWater | None = None
@@ -86,6 +88,20 @@ class DeliveryJob(Job):
     def cloud(self) -> Path:
         """The classified file, or the virtual point cloud of many."""
         return self.sources[0]
+
+    def opened(self, progress: Progress) -> tuple[Inputs, Progress]:
+        """Return the points, opened and decompressed once for all rows, and what is left of the
+        progress.
+        """
+        if self.sources.opened is None:
+            stated, part = stated_wkt(self.known["crs"]), progress.part(0.0, 0.1)
+            survey = open_survey(self.sources, progress=part, stated=stated)
+            unpacking = Unpacking(self.unpacked, is_whole=True)
+            shares = part.shares(*(tile.count for tile in survey.tiles))
+            tiles = (unpacking.of(tile, share) for tile, share in zip(survey.tiles, shares))
+            self.sources = self.sources.holding(replace(survey, tiles=tuple(tiles)))
+            progress = progress.part(0.1, 1.0)
+        return self.sources, progress
 
     def know_water(self) -> None:
         """Let further rows know the water, found or given, after which nothing more is found."""
@@ -160,7 +176,8 @@ def _classify(job: DeliveryJob, row: Row, progress: Progress) -> None:
 def _find_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
     """Find the water."""
     ground, how = job.set_of(GroundClasses), job.set_of(Water)
-    water, job.summary.water = found_water(job.sources, ground, job.known["crs"], progress, how)
+    sources, progress = job.opened(progress)
+    water, job.summary.water = found_water(sources, ground, job.known["crs"], progress, how)
     if water.bodies:
         job.found = water
         job.known["constraints"] = job.own.with_water(water.constraints, progress)
@@ -177,6 +194,7 @@ def _change(job: DeliveryJob, row: Row, progress: Progress) -> None:
         target.parent.mkdir(exist_ok=True)
         done = job.run(row, progress, output=target)
         patiently(os.replace, target, source)
+        job.sources = Inputs(source)
     else:
         target = job.folder.waiting / row.tool
         if not job.set_of(TileOutput).resume:
@@ -224,8 +242,7 @@ def _write_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
     """Write the water and the breaklines, found and given, with their heights in the terrain model,
     if they have any.
     """
-    stated, target = stated_wkt(job.known["crs"]), job.known["raster_target"]
-    survey = open_survey(job.sources, progress=progress.quiet(), stated=stated)
+    target, survey = job.known["raster_target"], open_survey(job.opened(progress)[0])
     own = job.own.located(Place("the files", survey.crs, survey.box), progress)
     terrain = TerrainRequest(terrain=job.set_of(TerrainModel), raster_target=target)
     cell = terrain.raster_step.placed(survey.crs, survey.box).cell / VERTICES_A_SIDE

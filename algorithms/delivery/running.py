@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, Sequence
 
@@ -47,13 +48,14 @@ def deliver(
         place.begin(delivery)
     # On the disk of the folder, so that outputs can be moved there.
     beside = place.path if files.is_survey else place.path.parent
-    with _left_in_order(place, files.is_survey), temporary_folder(beside) as working:
+    new = partial(temporary_folder, beside)
+    with _left_in_order(place, files.is_survey), new() as working, new() as unpacked:
         changed = {place.waiting / command: place.points for command in POINT_TOOLS}
         messages.folders = {working: place.path, **changed}
         summary = DeliverySummary(
             str(place.path), delivery, str(place.path / PAGE), warnings=messages.warnings
         )
-        made = DeliveryFolder(working), place
+        made = DeliveryFolder(working), place, unpacked
         content = DELIVERIES[delivery]
         job = DeliveryJob(content, files, survey, sets, inputs, summary, *made, workers)
         summary.seconds = job.seconds

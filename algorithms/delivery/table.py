@@ -65,6 +65,10 @@ class Job:
         """Return where an output of a kind is written; None if it is not wanted."""
         raise NotImplementedError
 
+    def opened(self, progress: Progress) -> tuple[Inputs, Progress]:
+        """Return the points for a row that only reads them, and what is left of its progress."""
+        return self.sources, progress
+
     def work(self, rows: Iterable[Row], progress: Progress) -> None:
         """Let the tools work one after another."""
         # What is not known yet may become known.
@@ -81,7 +85,6 @@ class Job:
     def run(self, row: Row, progress: Progress, vpc: Path | None = None, **outputs: Path) -> Any:
         """Let the tool of a row work, with further outputs that are given here."""
         tool: Any = any_tool(row.tool)
-        sources = self.sources
         inputs = {name: self.known.get(value) for name, value in row.inputs.items()}
         crs = self.known["crs"]
         paths: dict[str, Path | None] = dict(outputs)
@@ -90,15 +93,19 @@ class Job:
                 paths[output.name] = self.place(output.kind, row.outputs[output.name])
         sets = self.sets_of(tool)
         if isinstance(tool, FileTool):
-            by_kind = {"clouds": sources, "crs": crs}
-            also = {one.name: by_kind[one.kind] for one in tool.inputs if one.kind in by_kind}
-            return run(tool, {**also, **inputs}, paths, sets, progress)
+            for declared in tool.inputs:
+                if declared.kind == "clouds":
+                    inputs[declared.name], progress = self.opened(progress)
+                elif declared.kind == "crs":
+                    inputs[declared.name] = crs
+            return run(tool, inputs, paths, sets, progress)
         if isinstance(tool, MapTool):
             request = map_request(tool, sets, paths, crs=crs, **inputs)
-            return make(sources, paths, request, progress, self.workers)
+            sources, part = (self.sources, progress) if tool.classifies else self.opened(progress)
+            return make(sources, paths, request, part, self.workers)
         further = {one.name: one.of(inputs[one.name]) for one in tool.inputs if one.name in inputs}
         asked = PointRequest.of(tool, sets, further, crs)
-        return write(sources, outputs["output"], asked, progress, self.workers, vpc=vpc)
+        return write(self.sources, outputs["output"], asked, progress, self.workers, vpc=vpc)
 
     def sets_of(self, tool: Tool) -> list[ParameterSet]:
         """Return the parameters of a tool."""

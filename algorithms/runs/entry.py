@@ -64,7 +64,7 @@ def terrain(
 
     def run(request: TerrainRequest, progress: Progress) -> RasterSize:
         if not inputs.is_survey:
-            return rasters_of_file(inputs[0], request, progress)
+            return rasters_of_file(inputs.file, request, progress)
         from .many_files import rasters_of_files
 
         return rasters_of_files(inputs, request, progress, workers)
@@ -123,7 +123,7 @@ def write(
     """Write classified files with what the step of a request finds; for `vpc`, see `classify`."""
     inputs, target = Inputs(sources, as_survey), Path(output)
     if not inputs.is_survey:
-        return write_points(inputs[0], target, request, progress)
+        return write_points(inputs.file, target, request, progress)
     from .many_files import write_files
 
     return write_files(inputs, target, [request.step], request, progress, workers, vpc)

@@ -211,18 +211,18 @@ def _summary(result: TileResult, counts: Any) -> Summary:
 
 
 def write_points(
-    source: Path, target: Path, request: PointRequest, progress: Progress = SILENT
+    source: Path | LasFile, target: Path, request: PointRequest, progress: Progress = SILENT
 ) -> Any:
     """Write a file with the values that a step finds for its points; return the step's summary."""
-    check_outputs([("cloud", target)], [source])
     las, resources = open_las(source, request.stated), request.resources.now()
+    check_outputs([("cloud", target)], [las.path])
     with _worked(las, target, [request.step], resources, progress.part(0.0, 0.9)) as run:
         result = run.written(target, progress.part(0.9, 1.0))
     return result.summary(target.name)
 
 
 def rasters_of_file(
-    source: Path, request: TerrainRequest, progress: Progress = SILENT
+    source: Path | LasFile, request: TerrainRequest, progress: Progress = SILENT
 ) -> RasterSize:
     """Write rasters of a classified file with ground; all of them or none."""
     resources, las = request.resources.now(), open_las(source, request.stated)

@@ -38,6 +38,7 @@ class Inputs(Tuple[Path, ...]):
     """The files, folders and lists that a user gives: one file, or a survey of many."""
 
     is_survey: bool
+    opened: Survey | None = None  # what they hold, if that is known
 
     def __new__(cls, sources: Sources, is_survey: bool | None = None) -> Inputs:
         """Return them; a single file is no survey unless `is_survey`."""
@@ -47,6 +48,17 @@ class Inputs(Tuple[Path, ...]):
         is_file = len(new) == 1 and not new[0].is_dir() and is_cloud(new[0])
         new.is_survey = not is_file if is_survey is None else is_survey
         return new
+
+    def holding(self, survey: Survey) -> Inputs:
+        """Return the same inputs, whose files need not be opened again."""
+        new = Inputs(self, self.is_survey)
+        new.opened = survey
+        return new
+
+    @property
+    def file(self) -> Path | LasFile:
+        """The only file."""
+        return self[0] if self.opened is None else self.opened.tiles[0]
 
 
 @dataclass(frozen=True)
@@ -97,6 +109,8 @@ def open_survey(
     survey if nothing can be read, or the files differ in CRS or units.
     """
     inputs = Inputs(sources)
+    if inputs.opened is not None:
+        return inputs.opened
     paths = find_files(inputs, recursive, progress)
     files = [path for path in inputs if not path.is_dir()]
     named = set(map(_key, find_files(files, may_be_none=True)))

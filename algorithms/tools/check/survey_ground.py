@@ -30,7 +30,7 @@ from ...survey.shapes import Place
 
 # Points near places are kept in so many rounds, with more for the places that are not certain yet.
 # In dense land the first is enough.
-_ROUNDS = (256, 4096, 65_536)
+_ROUNDS = (64, 1024, 65_536)
 # Most points that are kept at a time, at about 60 bytes each.
 _MOST_KEPT = 1 << 22
 # Ground points that are looked at together.

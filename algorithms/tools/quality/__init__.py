@@ -71,7 +71,7 @@ def measure_quality(
     rasters, given by their names.
     """
     # The files are read twice, part by part. Cells are in memory, or on disk if there are many.
-    survey = open_survey(list(sources), progress=progress.part(0.0, 0.02), stated=crs)
+    survey = open_survey(sources, progress=progress.part(0.0, 0.02), stated=crs)
     if survey.broken:
         raise BareEarthError(survey.broken[0].reason)
     frame = survey_frame(survey.crs)
