@@ -14,7 +14,7 @@ import ssl
 import threading
 import time
 import urllib.request
-from typing import Callable, Iterator
+from typing import Callable, Iterator, Optional
 from urllib.parse import SplitResult, unquote, urljoin, urlsplit, urlunsplit
 
 from ..core.errors import BareEarthError
@@ -30,16 +30,18 @@ _MOST_REDIRECTS = 5
 _BLOCK = 1 << 16
 _DEFAULT_PORTS = {"http": 80, "https": 443}
 
+# Refuses an answer by its status and headers, or returns the number of bytes that follow, None if
+# it is not stated.
+Check = Callable[[int, Headers], Optional[int]]
+
 
 class WebReader:
-    """Reads from web servers; several threads can use it at the same time."""
+    """Base of what reads from web servers; several threads can use it at the same time."""
 
     def __init__(self) -> None:
         self.requests = self.received = 0  # and bytes of answers
         self.notes: list[str] = []  # what the user should know, not yet told
         self._moved: dict[str, str] = {}  # where redirects led, by address
-        self._idle: dict[tuple[str, str], list[http.client.HTTPConnection]] = {}
-        self._open: set[http.client.HTTPConnection] = set()
         self._lock, self._closed = threading.Lock(), False
 
     def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
@@ -51,15 +53,75 @@ class WebReader:
             states.append(state)
             return length
 
-        return self._get(address, range_of(start, stop, known), check), states[-1]
+        data = self._get(address, range_of(start, stop, known), check, stop - start)
+        return data, states[-1]
 
     def read_whole(self, address: str, most: int) -> bytes:
         """Return a whole file of at most so many bytes."""
+        return self._get(address, {}, lambda *answer: check_whole(address, *answer, most), most)
 
-        def check(status: int, headers: Headers) -> int | None:
-            return check_whole(address, status, headers, most)
+    def close(self) -> None:
+        """End all connections, also those in use by other threads."""
+        raise NotImplementedError
 
-        return self._get(address, {}, check, most)
+    def _ask(
+        self, place: str, headers: dict[str, str], check: Check, most: int, is_named: bool
+    ) -> bytes | str:
+        """Return the bytes of at most so many of an answer that passes a check, or where a redirect
+        leads; `is_named` if the user named the host.
+        """
+        raise NotImplementedError
+
+    def _get(self, address: str, headers: dict[str, str], check: Check, most: int) -> bytes:
+        """Return the bytes of at most so many of an answer that passes a check."""
+        headers = {
+            "User-Agent": f"BareEarth/{__version__}",
+            "Accept-Encoding": "identity",
+            "Cache-Control": "no-cache",
+            **headers,
+        }
+        place = self._moved.get(address, address)
+
+        def check_place(status: int, headers: Headers) -> int | None:
+            if status in (401, 403, 404) and place != address:
+                # The address to which it led was valid for some time only.
+                self._moved.pop(address, None)
+                raise Unfinished(f"it answers with status {status}")
+            return check(status, headers)
+
+        for _ in range(_MOST_REDIRECTS):
+            is_named = host_of(place) == host_of(address)
+            found = self._ask(place, headers, check_place, most, is_named)
+            if isinstance(found, bytes):
+                return found
+            place = self._redirected(place, found)
+            self._moved[address] = place
+        raise BareEarthError(f"{shown(address)} leads from one address to the next. Check it.")
+
+    def _redirected(self, place: str, location: str) -> str:
+        """Return where a redirect leads; refuse other kinds of addresses, and tell other hosts."""
+        target = urljoin(place, location)
+        if urlsplit(target).scheme != urlsplit(place).scheme:
+            raise BareEarthError(
+                f"{shown(place)} leads to {shown(target) or 'nowhere'}, which is not followed. If you"
+                " trust it, give that address."
+            )
+        target = checked(target)
+        if host_of(target) != host_of(place):
+            note = f"{host_of(place)} passes the request on to {host_of(target)}."
+            with self._lock:
+                if note not in self.notes:
+                    self.notes.append(note)
+        return target
+
+
+class HttpReader(WebReader):
+    """Reads from web servers by http.client."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._idle: dict[tuple[str, str], list[http.client.HTTPConnection]] = {}
+        self._open: set[http.client.HTTPConnection] = set()
 
     def close(self) -> None:
         """End all connections, also those in use by other threads."""
@@ -72,50 +134,22 @@ class WebReader:
                     connection.sock.shutdown(socket.SHUT_RDWR)
             # Those in use are closed by their threads.
 
-    def _get(
-        self,
-        address: str,
-        headers: dict[str, str],
-        check: Callable[[int, Headers], int | None],
-        most: int | None = None,
-    ) -> bytes:
-        """Return the bytes after an answer whose status and headers pass a check."""
-        place = self._moved.get(address, address)
-        for _ in range(_MOST_REDIRECTS):
-            with self._answered(place, headers, host_of(address)) as answer:
-                if answer.status not in REDIRECTS:
-                    if answer.status in (401, 403, 404) and place != address:
-                        # The address to which it led was valid for some time only.
-                        self._moved.pop(address, None)
-                        raise Unfinished(f"it answers with status {answer.status}")
-                    return self._body(answer, check(answer.status, answer.headers), most)
-                place = self._redirected(place, answer.headers.get("Location", ""))
-            self._moved[address] = place
-        raise BareEarthError(f"{shown(address)} leads from one address to the next. Check it.")
-
-    def _redirected(self, place: str, location: str) -> str:
-        """Return where a redirect leads; refuse other kinds of addresses, and tell other hosts."""
-        target = urljoin(place, location)
-        if urlsplit(target).scheme != urlsplit(place).scheme:
-            raise BareEarthError(
-                f"{shown(place)} leads to {shown(target)}, which is not followed. If you trust it,"
-                " give that address."
-            )
-        target = checked(target)
-        if host_of(target) != host_of(place):
-            note = f"{host_of(place)} passes the request on to {host_of(target)}."
-            with self._lock:
-                if note not in self.notes:
-                    self.notes.append(note)
-        return target
+    def _ask(
+        self, place: str, headers: dict[str, str], check: Check, most: int, is_named: bool
+    ) -> bytes | str:
+        """Return the bytes of an answer that passes a check, or where a redirect leads."""
+        with self._answered(place, headers, is_named) as answer:
+            if answer.status in REDIRECTS:
+                return answer.headers.get("Location", "")
+            return self._body(answer, check(answer.status, answer.headers), most)
 
     @contextlib.contextmanager
     def _answered(
-        self, address: str, headers: dict[str, str], named_host: str
+        self, address: str, headers: dict[str, str], is_named: bool
     ) -> Iterator[http.client.HTTPResponse]:
         """Ask, and yield the answer; keep the connection if it was read to its end."""
         parts = urlsplit(address)
-        target, headers = _request(parts, headers, parts.hostname == named_host)
+        target, headers = _request(parts, headers, is_named)
         connection, was_idle = self._connection(parts)
         is_kept = has_answered = False
         try:
@@ -151,7 +185,7 @@ class WebReader:
             with self._lock:
                 self.received += len(block)
             limit = most if length is None else length
-            if limit is not None and len(data) > limit:
+            if len(data) > limit:
                 raise Unfinished("it sends more bytes than it says")
             if self._closed or time.monotonic() > end:
                 raise Unfinished("it sends too slowly")
@@ -177,12 +211,7 @@ def _request(
     parts: SplitResult, headers: dict[str, str], is_named: bool
 ) -> tuple[str, dict[str, str]]:
     """Return what is asked for, and the headers."""
-    headers = {
-        "User-Agent": f"BareEarth/{__version__}",
-        "Accept-Encoding": "identity",
-        "Cache-Control": "no-cache",
-        **headers,
-    }
+    headers = dict(headers)
     # A password that the user named is for the host that the user named.
     if parts.username is not None and is_named:
         headers["Authorization"] = _basic(parts)

@@ -12,7 +12,7 @@ from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from .addresses import STORES, host_of
 from .answers import State, Unfinished
-from .connections import WebReader
+from .connections import HttpReader
 from .object_stores import StoreReader
 
 _Result = TypeVar("_Result")
@@ -25,6 +25,8 @@ _ATTEMPTS = 6
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.25, 120.0
 # Seconds after which the caller looks again whether the user has cancelled.
 _BEAT = 0.1
+# Seconds that the threads may take to end.
+_LONGEST_END = 1.0
 # Requests a second that hosts allow, by the ends of their names. IGN shuts out who asks for more.
 _LIMITS = {"geopf.fr": 9.0, "ign.fr": 9.0}
 
@@ -76,8 +78,9 @@ class Transfers:
 
     def __init__(self, progress: Progress, web: Reader | None = None) -> None:
         self._progress, self._share = progress, 0.0
-        self._web, self._stores = web or WebReader(), StoreReader()
+        self._web, self._stores = web or HttpReader(), StoreReader()
         self._stopped = threading.Event()
+        self._threads: list[threading.Thread] = []
 
     def __enter__(self) -> Transfers:
         return self
@@ -86,6 +89,10 @@ class Transfers:
         self._stopped.set()
         for reader in (self._web, self._stores):
             reader.close()
+        # So that no thread uses what a program ends meanwhile.
+        end = time.monotonic() + _LONGEST_END
+        for thread in self._threads:
+            thread.join(max(end - time.monotonic(), 0.0))
 
     @property
     def requests(self) -> int:
@@ -134,7 +141,8 @@ class Transfers:
                     done.put((number, None, error))
 
         for _ in range(min(_THREADS, len(tasks))):
-            threading.Thread(target=work, name="download", daemon=True).start()
+            self._threads.append(threading.Thread(target=work, name="download", daemon=True))
+            self._threads[-1].start()
         while len(results) < len(tasks):
             try:
                 number, result, error = done.get(timeout=_BEAT)

@@ -101,8 +101,13 @@ def test_what_stays_wrong_is_one_sentence(server, tmp_path, fault, words, first)
     with pytest.raises(BareEarthError, match=words) as told:
         fetched(f"{server.add('a', DATA)}?token=SECRET", tmp_path / "parts")
     assert "SECRET" not in str(told.value) and "\n" not in str(told.value)
-    # A whole file is refused before it is read.
-    assert server.sent <= 65_536 * 20
+
+
+def test_a_whole_file_is_refused_before_it_is_read(server, tmp_path):
+    server.fault = lambda number, path: "no ranges"
+    with pytest.raises(BareEarthError, match="knows no ranges"):
+        fetched(server.add("a", DATA * 100), tmp_path / "parts")
+    assert server.sent <= 50 * len(DATA)
 
 
 def test_a_signature_that_has_expired_is_told(server, tmp_path):
