@@ -14,6 +14,7 @@ import ssl
 import threading
 import time
 import urllib.request
+from functools import partial
 from typing import Callable, Iterator, Optional
 from urllib.parse import SplitResult, unquote, urljoin, urlsplit, urlunsplit
 
@@ -58,7 +59,8 @@ class WebReader:
 
     def read_whole(self, address: str, most: int) -> bytes:
         """Return a whole file of at most so many bytes."""
-        return self._get(address, {}, lambda *answer: check_whole(address, *answer, most), most)
+        check = partial(check_whole, address, most=most)
+        return self._get(address, {}, check, most)
 
     def close(self) -> None:
         """End all connections, also those in use by other threads."""
@@ -103,8 +105,8 @@ class WebReader:
         target = urljoin(place, location)
         if urlsplit(target).scheme != urlsplit(place).scheme:
             raise BareEarthError(
-                f"{shown(place)} leads to {shown(target) or 'nowhere'}, which is not followed. If you"
-                " trust it, give that address."
+                f"{shown(place)} leads to {shown(target) or 'nowhere'}, which is not followed. If"
+                " you trust it, give that address."
             )
         target = checked(target)
         if host_of(target) != host_of(place):
@@ -174,9 +176,7 @@ class HttpReader(WebReader):
             if not is_kept:
                 connection.close()
 
-    def _body(
-        self, answer: http.client.HTTPResponse, length: int | None, most: int | None
-    ) -> bytes:
+    def _body(self, answer: http.client.HTTPResponse, length: int | None, most: int) -> bytes:
         """Return the bytes of an answer; `Unfinished` if there are fewer or more."""
         data = bytearray()
         end = time.monotonic() + _PATIENCE + (length or 0) / _LEAST_SPEED
@@ -279,7 +279,7 @@ def _errors_told(host: str) -> Iterator[None]:
         reason = error.strerror or "the connection broke"
         if "Tunnel connection failed: 407" in str(error):
             raise BareEarthError(
-                f"The proxy asks for a password before it lets you reach {host}. Set it in"
-                " HTTPS_PROXY: http://user:password@proxy:port."
+                f"The proxy asks for user and password before it lets you reach {host}. Set them in"
+                " HTTPS_PROXY, with a colon between them and @ before the proxy."
             ) from error
         raise Unfinished(reason[:1].lower() + reason[1:]) from error
