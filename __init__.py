@@ -27,6 +27,8 @@ def __getattr__(name):
 
     if name in _OTHERS:
         return getattr(import_module(f".algorithms.core.{_OTHERS[name]}", __name__), name)
+    if name == "arrays":
+        return import_module(".arrays", __name__)
     if name in _functions():
         return import_module(".algorithms.library.tools", __name__).function(name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

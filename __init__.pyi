@@ -8,6 +8,7 @@ from .algorithms.core.errors import BareEarthError as BareEarthError
 from .algorithms.core.errors import Cancelled as Cancelled
 from .algorithms.core.progress import Progress as Progress
 from .algorithms.core.version import __version__ as __version__
+from .algorithms.library.given import Bar
 from .algorithms.delivery.summary import DeliverySummary
 from .algorithms.las.reading import Description
 from .algorithms.remote.fetching import Fetched
@@ -55,7 +56,7 @@ def above_ground(
     memory: float | None = None,
     crs: str | None = None,
     scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> AboveGroundSummary | Any:
     """Classify vegetation, buildings and bridges.
 
@@ -143,7 +144,7 @@ def above_ground(
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -170,7 +171,7 @@ def assess(
     ignored_classes: Sequence[int] | None = None,
     map_cell_size: float = 1.0,
     crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Assessment:
     """Compare a classified file with a reference.
 
@@ -200,7 +201,7 @@ def assess(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -237,7 +238,7 @@ def check(
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Check:
     """Compare the ground with checkpoints, or with points that are held out.
 
@@ -305,7 +306,7 @@ def check(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -427,7 +428,7 @@ def classify(
     crs: str | None = None,
     vpc: _Path | None = None,
     scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Summary | Any:
     """Classify the ground points of a file, or of many files as one survey, and make products of
     them.
@@ -830,7 +831,7 @@ def classify(
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -858,7 +859,7 @@ def compare_settings(
     threads: int | None = None,
     memory: float | None = None,
     crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> TrialSummary:
     """Try methods and presets on a window, and show them side by side.
 
@@ -914,7 +915,7 @@ def compare_settings(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -939,7 +940,7 @@ def contours(
     interval: float | None = None,
     contour_smoothing: float = 3.0,
     contour_min_length: float = 10.0,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Interval:
     """Draw contour lines of a terrain model.
 
@@ -964,7 +965,7 @@ def contours(
     contour_min_length : float, default 10.0 m
         Closed lines that are shorter are left out: they show single plants and noise. From 0 to
         10000 m.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -1067,7 +1068,7 @@ def deliver(
     memory: float | None = None,
     crs: str | None = None,
     scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> DeliverySummary:
     """Classify raw points and make everything that a job hands over, in one folder.
 
@@ -1430,7 +1431,7 @@ def deliver(
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -1455,7 +1456,7 @@ def fetch(
     boundary: _Path | Sequence[Any] | None = None,
     resolution: float | None = None,
     limit: float = 2.0,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Fetched:
     """Download part of a remote point cloud.
 
@@ -1481,7 +1482,7 @@ def fetch(
         of its octree are downloaded, whose points are about so far apart. None: all points.
     limit : float, default 2.0 GB
         A download of more is refused before it begins. The error says how large it is.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -1514,7 +1515,7 @@ def heights(
     memory: float | None = None,
     crs: str | None = None,
     scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> HeightSummary | Any:
     """Add the height above ground of every point.
 
@@ -1570,7 +1571,7 @@ def heights(
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -1591,7 +1592,7 @@ def info(
     source: _Path,
     *,
     crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Description:
     """Describe a file.
 
@@ -1604,7 +1605,7 @@ def info(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -1640,7 +1641,7 @@ def key_points(
     memory: float | None = None,
     crs: str | None = None,
     scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> KeyPointSummary | Any:
     """Mark the ground points that a terrain model needs.
 
@@ -1705,7 +1706,7 @@ def key_points(
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -1733,7 +1734,7 @@ def quality(
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Quality:
     """Measure density, voids and overlap of a survey, and compare it with a specification.
 
@@ -1772,7 +1773,7 @@ def quality(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -1800,7 +1801,7 @@ def relief(
     hillshade_light: Literal["one", "multidirectional"] = 'multidirectional',
     hillshade_azimuth: float = 315.0,
     hillshade_altitude: float = 45.0,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> None:
     """Make pictures of the relief of a terrain model.
 
@@ -1839,7 +1840,7 @@ def relief(
         directions. From 0 to 360 deg.
     hillshade_altitude : float, default 45.0 deg
         Angle of the light above the horizon. From 0 to 90 deg.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -1858,7 +1859,7 @@ def remove_off_terrain_objects(
     max_object_size: float = 40.0,
     slope_threshold: float = 15.0,
     band: int = 1,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Removal:
     """Remove buildings and trees from an elevation raster.
 
@@ -1879,7 +1880,7 @@ def remove_off_terrain_objects(
         is a hill. The slopes of the terrain below do not count. From 0.1 to 88 deg.
     band : int, default 1
         Number of the raster's band that holds the heights. From 1 to 65535.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -1945,7 +1946,7 @@ def terrain(
     memory: float | None = None,
     crs: str | None = None,
     scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> RasterSize:
     """Make rasters of the terrain and of what stands on it, and contour lines, of classified
     points; all files together are one survey.
@@ -2107,7 +2108,7 @@ def terrain(
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -2135,7 +2136,7 @@ def water(
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     crs: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> WaterSummary:
     """Find lakes and rivers in classified points.
 
@@ -2175,7 +2176,7 @@ def water(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 
@@ -2210,7 +2211,7 @@ def water_classes(
     memory: float | None = None,
     crs: str | None = None,
     scheduler: str | None = None,
-    progress: Progress | Callable[[float], object] | None = None,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> WaterClassSummary | Any:
     """Give classes to ground points in water and beside its shore.
 
@@ -2273,7 +2274,7 @@ def water_classes(
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
-    progress : Progress or callable that takes a float, optional
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
 

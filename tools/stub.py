@@ -1,6 +1,6 @@
-"""Writes `__init__.pyi`, from which editors and mypy know the functions of the library.
+"""Writes `__init__.pyi` and `arrays.pyi`, from which editors and mypy know the library.
 
-python tools/stub.py   writes it anew; `tests/core/test_library.py` tells when that is to be done
+python tools/stub.py   writes them anew; `tests/core/test_library.py` tells when that is to be done
 """
 
 from __future__ import annotations
@@ -9,10 +9,11 @@ import inspect
 import textwrap
 from pathlib import Path
 
-from bare_earth.algorithms.library import names
+from bare_earth.algorithms.library import array_names, arrays, names
+from bare_earth.algorithms.library.functions import Function
 from bare_earth.algorithms.library.tools import declared
 
-STUB = Path(__file__).parents[1] / "__init__.pyi"
+ROOT = Path(__file__).parents[1]
 _PATH = "str | PathLike[str]"
 _HEAD = """\
 # Made by tools/stub.py from what tools declare. Do not edit.
@@ -21,23 +22,43 @@ _HEAD = """\
 from os import PathLike
 from typing import Any, Callable, Iterable, Literal, Sequence
 
+"""
+_PACKAGE = """\
 from .algorithms.core.errors import BareEarthError as BareEarthError
 from .algorithms.core.errors import Cancelled as Cancelled
 from .algorithms.core.progress import Progress as Progress
 from .algorithms.core.version import __version__ as __version__
+from .algorithms.library.given import Bar
+"""
+_ARRAYS = """\
+from numpy import bool_, float64, uint8
+from numpy.typing import ArrayLike, NDArray
+
+from .algorithms.core.progress import Progress
+from .algorithms.library.given import Bar
+from .algorithms.library.rasters import Raster as Raster
 """
 
 
-def stub() -> str:
-    """Return the text of the stub."""
-    results = {declared(name).result for name in names()} - {None}
+def stubs() -> dict[str, str]:
+    """Return the texts of the stubs, by their names."""
+    functions, on_arrays = map(declared, names()), map(arrays.declared, array_names())
+    plugin = "def classFactory(iface: Any) -> Any: ...\n"
+    return {
+        "__init__.pyi": _text(_PACKAGE, plugin, [*functions]),
+        "arrays.pyi": _text(_ARRAYS, "", [*on_arrays]),
+    }
+
+
+def _text(imports: str, more: str, functions: list[Function]) -> str:
+    """Return the text of a stub."""
+    results = {function.result for function in functions} - {None}
     lines = sorted(f"from {kind.__module__[10:]} import {kind.__name__}\n" for kind in results)
-    head = [f"{_HEAD}{''.join(lines)}", f"_Path = {_PATH}\n"]
-    return "\n".join([*head, "def classFactory(iface: Any) -> Any: ...\n", *map(_of, names())])
+    head = [f"{_HEAD}{imports}{''.join(lines)}", f"_Path = {_PATH}\n", *[more] * bool(more)]
+    return "\n".join([*head, *map(_of, functions)])
 
 
-def _of(name: str) -> str:
-    function = declared(name)
+def _of(function: Function) -> str:
     lines, is_keyword = [], False
     for argument in (described.parameter for described in function.parameters):
         if argument.kind is inspect.Parameter.KEYWORD_ONLY and not is_keyword:
@@ -46,8 +67,9 @@ def _of(name: str) -> str:
         lines.append(f"{argument.name}: {argument.annotation.replace(_PATH, '_Path')}{default},")
     text = textwrap.indent(f'"""{function.documentation}"""', "    ").replace("\\", "\\\\")
     head, result = textwrap.indent("\n".join(lines), "    "), function.returns
-    return f"def {name}(\n{head}\n) -> {result}:\n{text}\n"
+    return f"def {function.name}(\n{head}\n) -> {result}:\n{text}\n"
 
 
 if __name__ == "__main__":
-    STUB.write_text(stub(), encoding="utf-8")
+    for name, text in stubs().items():
+        (ROOT / name).write_text(text, encoding="utf-8")

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _CHUNK = 500_000
 _POINTS_A_PART = 1 << 17
 _COORDINATES = {"x": "X", "y": "Y", "z": "Z"}
-_COLUMNS: dict[str, tuple[str, type]] = {
+COLUMNS: dict[str, tuple[str, type]] = {
     **{name: (source, np.int32) for name, source in _COORDINATES.items()},
     "classification": ("classification", np.uint8),
     "return_number": ("return_number", np.uint8),
@@ -218,7 +218,7 @@ def read_chunks(
 
 def columns_of(layout: LasFile) -> dict[str, tuple[str, type]]:
     """Return names and types of the columns of a `PointCloud` that a file has."""
-    columns = dict(_COLUMNS)
+    columns = dict(COLUMNS)
     if layout.point_format < FIRST_EXTENDED_FORMAT:
         del columns["scanner_channel"], columns["overlap"]
     if not remembers(layout):

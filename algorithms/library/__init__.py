@@ -17,3 +17,8 @@ def tool_commands() -> dict[str, str]:
 def names() -> list[str]:
     """Return the names of all functions, without importing what they do."""
     return sorted(tool_commands())
+
+
+def array_names() -> list[str]:
+    """Return the names of all functions on arrays, likewise."""
+    return ["above_ground", "check", "classify", "ground", "heights", "key_points", "terrain"]

@@ -30,7 +30,8 @@ KINDS = {
     "text": Kind("str", "str"),
     "words": Kind("Sequence[str]", "sequence of str"),
     "progress": Kind(
-        "Progress | Callable[[float], object]", "Progress or callable that takes a float"
+        "Progress | Bar | Callable[[float], object]",
+        "Progress, bar of tqdm, or callable that takes a float",
     ),
 }
 

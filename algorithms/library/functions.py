@@ -15,6 +15,7 @@ from ..filters import METHODS
 from ..tools.ground.method import TileMethod
 from .arguments import REQUIRED, Argument, Kind
 
+PACKAGE = __name__.partition(".algorithms.")[0]
 _WIDTH = 92
 _OPTION = re.compile(r"--([a-z-]+)")  # in texts of the command line
 # Arguments that stand behind the parameters.
@@ -57,7 +58,8 @@ class Function:
     # Given all values by their names, and instances of the sets, of which the first is that of the
     # ground filter if the function has one.
     run: Callable[[SimpleNamespace, list[ParameterSet]], Any]
-    result: type | None  # class of what it returns
+    result: type | None = None  # class of what it returns
+    gives: Kind | None = None  # what it returns, if that is no class of ours
     is_survey_if_many: bool = False  # whether it returns a `SurveySummary` of many files
     has_method: bool = False  # whether it takes the parameters of a ground filter
     # Further names of parameters, which take one value.
@@ -87,6 +89,8 @@ class Function:
             for paragraph in self.about.split("\n")
         )
         returns = ""
+        if self.gives is not None:
+            returns = f"\n\nReturns\n-------\n{self.gives.type}\n    {self.gives.words}"
         if self.result is not None:
             first = (self.result.__doc__ or "").partition("\n")[0]
             many = "; of many files a `SurveySummary`." if self.is_survey_if_many else "."
@@ -97,6 +101,8 @@ class Function:
     @property
     def returns(self) -> str:
         """The annotation of what it returns."""
+        if self.gives is not None:
+            return self.gives.type
         name = "None" if self.result is None else self.result.__name__
         return f"{name} | Any" if self.is_survey_if_many else name
 
@@ -128,8 +134,8 @@ class Function:
             found.append(declared(**given))
         return found
 
-    def callable(self) -> Callable[..., Any]:
-        """Return the function."""
+    def callable(self, module: str = PACKAGE) -> Callable[..., Any]:
+        """Return the function, as one of a module."""
         signature, name = self.signature, self.name
 
         def function(*positional: Any, **named: Any) -> Any:
@@ -146,7 +152,7 @@ class Function:
             return self.run(SimpleNamespace(**values), self.sets_of(values, named))
 
         function.__name__ = function.__qualname__ = name
-        function.__module__ = __name__.partition(".algorithms.")[0]
+        function.__module__ = module
         function.__doc__ = self.documentation
         function.__signature__ = signature  # type: ignore[attr-defined]
         return function

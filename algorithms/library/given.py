@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Callable
+from typing import TYPE_CHECKING, Any, Callable, Protocol
 
 from ..core.progress import SILENT, Progress
 from ..survey.area import Area
@@ -22,6 +22,27 @@ if TYPE_CHECKING:
 AUTOMATIC, PROCESSES = "automatic", "processes"
 
 
+class Bar(Protocol):
+    """A progress bar as tqdm has it."""
+
+    n: Any
+    total: Any
+
+    def update(self, n: float) -> object:
+        """Add to what is done."""
+
+
+class BarProgress(Progress):
+    """Moves a bar of tqdm, whose total is 1 unless the user gave another."""
+
+    def __init__(self, bar: Bar) -> None:
+        self._bar, bar.total = bar, bar.total or 1.0
+
+    def report(self, fraction: float) -> None:
+        """Move the bar."""
+        self._bar.update(fraction * self._bar.total - self._bar.n)
+
+
 class CallingProgress(Progress):
     """Calls a function with the share of the work that is done."""
 
@@ -37,6 +58,8 @@ def progress_of(given: Any) -> Progress:
     """Return the progress that a user gives, or a silent one."""
     if given is None or isinstance(given, Progress):
         return given or SILENT
+    if hasattr(given, "update") and hasattr(given, "n"):
+        return BarProgress(given)
     return CallingProgress(given)
 
 

@@ -87,7 +87,7 @@ def _of_file_tool(command: str) -> Function:
     from ..tools.running import run as run_tool
 
     tool = file_tool(command)
-    given = [argument for declared in tool.inputs for argument in _arguments_of(declared)]
+    given = [argument for declared in tool.inputs for argument in arguments_of(declared)]
     given += [_argument_of(output) for output in tool.outputs]
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
@@ -125,7 +125,7 @@ def _argument_of(output: Output) -> Argument:
     return arguments.path(_name_of(output), output.help, REQUIRED if output.is_main else None)
 
 
-def _arguments_of(declared: Input) -> tuple[Argument, ...]:
+def arguments_of(declared: Input) -> tuple[Argument, ...]:
     """Return the arguments for an input of a tool."""
     if declared.kind == "area":
         return arguments.area(declared.help, declared.more)
@@ -190,7 +190,7 @@ def _of_point_tool(command: str) -> Function:
         _about(POINT_TOOLS[command].help, tool.command_about),
         (CLASSIFIED, arguments.OUTPUT),
         (
-            *(argument for declared in tool.inputs for argument in _arguments_of(declared)),
+            *(argument for declared in tool.inputs for argument in arguments_of(declared)),
             arguments.CRS_OF_OUTPUT, *_REACHES,
         ),
         (*tool.sets, TileInput, TileOutput, Resources),
@@ -225,7 +225,7 @@ def _of_map_tool(command: str) -> Function:
         return make(inputs, outputs, request, progress, workers)
 
     first = [_argument_of(output) for output in tool.all_outputs if not output.advanced]
-    inputs = [argument for declared in tool.inputs for argument in _arguments_of(declared)]
+    inputs = [argument for declared in tool.inputs for argument in arguments_of(declared)]
     last = [_argument_of(output) for output in tool.all_outputs if output.advanced]
     last += [arguments.VPC] if tool.classifies else []
     return Function(
@@ -268,7 +268,7 @@ def _of_composition(command: str) -> Function:
         (arguments.SOURCES, *map(_argument_of, tool.outputs)),
         (
             Argument.choice(tool.chosen, tool.tables, tool.default, help),
-            *(argument for declared in tool.inputs for argument in _arguments_of(declared)),
+            *(argument for declared in tool.inputs for argument in arguments_of(declared)),
             arguments.CRS_OF_OUTPUT,
             *_REACHES,
         ),

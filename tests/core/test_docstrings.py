@@ -19,9 +19,10 @@ def _file_of(module):
 
 def _exported():
     """Return the file and the name there of all that `bare_earth` exports or returns."""
-    place = ROOT / "__init__.pyi"
+    places = ROOT / "__init__.pyi", ROOT / "arrays.pyi"
     return {
         (_file_of(ROOT.joinpath(*node.module.split("."))), name.name)
+        for place in places
         for node in ast.parse(place.read_text(encoding="utf-8")).body
         if isinstance(node, ast.ImportFrom) and node.level == 1
         for name in node.names

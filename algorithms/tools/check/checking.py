@@ -69,7 +69,7 @@ class CheckOptions(ParameterSet):
 
 
 def check_points(
-    sources: Sequence[Path],
+    sources: Sequence[Path] | SurveyGround,
     checkpoints: Checkpoints | None = None,
     dtm: str | None = None,
     crs: str | None = None,
@@ -93,7 +93,10 @@ def check_points(
         raise BareEarthError(
             "Points that are held out have no table and no layer, only a page. Give checkpoints."
         )
-    points = SurveyGround.of(sources, ground, progress.part(0.0, 0.05), crs)
+    if isinstance(sources, SurveyGround):
+        points = sources
+    else:
+        points = SurveyGround.of(sources, ground, progress.part(0.0, 0.05), crs)
     middle, found, left = 0.95 if share is None else 0.5, None, None
     if checkpoints is not None:
         found = residuals_of(

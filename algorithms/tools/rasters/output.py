@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Mapping, Sequence
+from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -32,6 +32,8 @@ from .rows import RASTERS, How, Raster
 # Cells up to so many metres from the area are made as well, because the surroundings decide which
 # gaps lie inside the survey.
 AROUND_AREA = 1000.0
+# Writes a raster, given what `write_geotiff` is given.
+WriteCells = Callable[[Path, Rows, RasterGrid, float, Progress, str], None]
 
 
 @dataclass(frozen=True)
@@ -51,10 +53,12 @@ def write_rasters(
     outputs: Outputs,
     progress: Progress = SILENT,
     files: Mapping[str, Box] | None = None,
+    write_cells: WriteCells | None = None,
 ) -> RasterSize:
     """Write the rasters of the blocks of a survey, or of `files` with extents in units of the CRS,
-    with names when `outputs` is closed; refuse no points.
+    with names when `outputs` is closed, or with a function of the caller; refuse no points.
     """
+    write_cells = write_cells or partial(_write_geotiff, outputs)
     window, area = _window_of(blocks, step.cell), None
     whole = window
     if step.area is not None:
@@ -73,7 +77,7 @@ def write_rasters(
         raster = RASTERS[name]
         measured = outlines.canopy() if raster.needs_both else None
         layers = [mosaics[layer].limited(measured, area) for layer in raster.layers]
-        write = partial(_write, raster, layers, frame, step, outputs)
+        write = partial(_write, raster, layers, frame, step, write_cells)
         if windows is None:
             write(path, window, part)
             continue
@@ -93,7 +97,7 @@ def _write(
     layers: Sequence[Mosaic],
     frame: Frame,
     step: Drawing,
-    outputs: Outputs,
+    write_cells: WriteCells,
     path: Path,
     window: CellWindow,
     progress: Progress,
@@ -104,8 +108,12 @@ def _write(
     make = partial(raster.rows, how=how, unit=frame.vertical_unit, nodata=nodata)
     strips = gathered_strips(layers, window, make, raster.margin(how), progress)
     rows = Rows(window.shape, raster.kind, strips, raster.bands)
-    write_geotiff(raster_file(outputs, path), rows, grid, nodata, progress, raster.shows)
+    write_cells(path, rows, grid, nodata, progress, raster.shows)
     return grid
+
+
+def _write_geotiff(outputs: Outputs, path: Path, *cells: Any) -> None:
+    write_geotiff(raster_file(outputs, path), *cells)
 
 
 def _windows_of(

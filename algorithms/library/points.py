@@ -1,0 +1,310 @@
+"""Points that users give as arrays, as the cloud that a run works on."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, Iterable, NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.progress import SILENT, Progress
+from ..core.threads import in_threads, parts_of
+from ..crs.measurable import require_measurable
+from ..crs.stated import stated_wkt
+from ..crs.system import Crs, crs_of_wkt
+from ..las.cloud import PointCloud
+from ..las.crs_records import crs_among
+from ..las.lasfile import FIRST_EXTENDED_FORMAT
+from ..las.reading import COLUMNS
+from ..las.return_numbers import count_from_one
+
+# How errors name the points.
+_CLOUD = Path("the cloud")
+# Columns of tables, without case and underscores, and the fields of a cloud that they are.
+_NAMES = {
+    "x": "x", "y": "y", "z": "z", "classification": "classification",
+    "returnnumber": "return_number", "numberofreturns": "number_of_returns",
+    "withheld": "withheld", "overlap": "overlap",
+}  # fmt: skip
+_COORDINATES = ("x", "y", "z")
+_NUMBERS = ("classification", "return_number", "number_of_returns")
+# Arguments for further columns, and the fields that they are.
+_ATTRIBUTES = {**{name: name for name in (*_NUMBERS, "withheld")}, "in_overlap": "overlap"}
+# Point format 6 holds all classes.
+_POINT_FORMAT = FIRST_EXTENDED_FORMAT
+# Decimals of coordinates that are looked for, and those to which others are rounded.
+_MOST_DECIMALS, _ROUNDED = 7, 6
+# Coordinates may differ from a multiple of the scale by so many of their last digits, and at most
+# by this share of the scale.
+_LAST_DIGITS, _WHOLE = 8, 1e-2
+_LARGEST = 2**31 - 1
+# Steps of coordinates of 32 bits may be this long.
+_LONGEST_STEP = 1e-3
+_FIRST, _POINTS_A_PART = 1000, 1 << 17
+
+
+def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud:
+    """Return the points that arguments of a function give; none of their arrays is changed, and
+    coordinates of a `laspy.LasData` are not copied.
+    """
+    points = values.points
+    if hasattr(points, "header") and hasattr(points, "point_format"):
+        _refuse_beside(values, "a laspy.LasData has", _COORDINATES[1:])
+        cloud = _of_las(points, stated_wkt(_crs_text(values.crs)), progress)
+    else:
+        columns = _columns_of(values)
+        x, y, z = (_coordinates(name, columns.get(name)) for name in _COORDINATES)
+        if not len(x) == len(y) == len(z):
+            raise BareEarthError(
+                f"x, y and z have {len(x):,}, {len(y):,} and {len(z):,} values. Give as many of"
+                " each."
+            )
+        axes = [_axis(name, axis) for name, axis in zip(_COORDINATES, (x, y, z))]
+        integers, scales, offsets = zip(*axes)
+        arrays = dict(zip(_COORDINATES, integers))
+        arrays.update((name, np.zeros(len(x), dtype=np.uint8)) for name in _NUMBERS)
+        arrays["withheld"] = np.zeros(len(x), dtype=bool)
+        cloud = _made(arrays, scales, offsets, _POINT_FORMAT, _crs_of(values.crs, progress))
+        for name in _ATTRIBUTES.values():
+            if name in columns:
+                setattr(cloud, name, _attribute(name, columns[name], cloud.count))
+    for name, field in _ATTRIBUTES.items():
+        if getattr(values, name) is not None:
+            setattr(cloud, field, _attribute(name, getattr(values, name), cloud.count))
+    if not cloud.count:
+        raise BareEarthError("There are no points: x, y and z are empty.")
+    require_measurable("The cloud", cloud.crs, box_of(cloud))
+    return count_from_one(cloud)
+
+
+def with_ground(cloud: PointCloud, ground: Any, ground_classes: Iterable[int]) -> PointCloud:
+    """Return points of which those of a mask, and no others, have the first of the ground classes;
+    without a mask the points as they are.
+    """
+    if ground is None:
+        return cloud
+    mask, classes = _attribute("ground", ground, cloud.count), [*ground_classes]
+    others = np.where(np.isin(cloud.classification, classes), 1, cloud.classification)
+    return replace(cloud, classification=np.where(mask, classes[0], others).astype(np.uint8))
+
+
+def _refuse_beside(values: SimpleNamespace, what: str, names: Iterable[str]) -> None:
+    """Refuse columns that are given twice."""
+    for name in names:
+        if getattr(values, name) is not None:
+            raise BareEarthError(f"{what} its own {name}: leave the argument {name} out.")
+
+
+def _columns_of(values: SimpleNamespace) -> dict[str, Any]:
+    """Return the columns of arrays or of a table, by the fields of a cloud."""
+    points = values.points
+    names = getattr(getattr(points, "dtype", None), "names", None)
+    for kind in ("column_names", "columns"):  # of pyarrow; of pandas and polars
+        names = names or getattr(points, kind, None)
+    if names is None and hasattr(points, "keys"):
+        names = points.keys()
+    if names is None:
+        return _separate(values)
+    _refuse_beside(values, "The table of points has", _COORDINATES[1:])
+    known = {str(name).lower().replace("_", ""): name for name in names}
+    columns = {field: points[known[name]] for name, field in _NAMES.items() if name in known}
+    missing = [name.upper() for name in _COORDINATES if name not in columns]
+    if missing:
+        raise BareEarthError(
+            f"The table of points has no column {' and no column '.join(missing)}, only"
+            f" {', '.join(map(str, names))}."
+        )
+    return columns
+
+
+def _separate(values: SimpleNamespace) -> dict[str, Any]:
+    """Return x, y and z, given as three arrays or as one."""
+    if values.y is None and values.z is None:
+        xyz = _array("points", values.points, (None, 3))
+        return dict(zip(_COORDINATES, xyz.T))
+    missing = next((name for name in ("y", "z") if getattr(values, name) is None), None)
+    if missing:
+        raise BareEarthError(f"{missing} is missing. Give x, y and z, or all as one array (n, 3).")
+    return {"x": values.points, "y": values.y, "z": values.z}
+
+
+def _array(name: str, given: Any, shape: tuple[int | None, ...]) -> np.ndarray:
+    """Return an argument as an array of numbers; None in a shape is any number."""
+    if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
+        raise BareEarthError(f"{name} has masked values. Leave these points out.")
+    array = np.asarray(given)
+    if array.ndim != len(shape) or any(
+        wanted not in (None, length) for wanted, length in zip(shape, array.shape)
+    ):
+        words = ", ".join("n" if length is None else f"{length:,}" for length in shape)
+        raise BareEarthError(
+            f"{name} must be an array of shape ({words}{',' * (len(shape) == 1)}), not"
+            f" {array.shape}."
+        )
+    if array.dtype.kind not in "biuf":
+        raise BareEarthError(f"{name} must be numbers, not {array.dtype}.")
+    return array
+
+
+def _coordinates(name: str, given: Any) -> np.ndarray:
+    """Return one coordinate of all points, with finite numbers."""
+    array = _array(name, given, (None,))
+    if not len(array):
+        return array
+    if array.dtype.kind != "f":
+        return array
+    # A number that is none stays in the sum.
+    if not all(math.isfinite(float(part)) for part in _of_parts(array, np.sum)):
+        count = int(np.count_nonzero(~np.isfinite(array)))
+        if count:
+            raise BareEarthError(
+                f"{name} has {count:,} values that are no finite numbers. Leave these points out."
+            )
+    if array.dtype.itemsize < 8:
+        step = float(np.spacing(np.abs(array).max()))
+        if step > _LONGEST_STEP:
+            raise BareEarthError(
+                f"{name} is {array.dtype}, which has steps of {step:g} here. Give float64."
+            )
+    return array.astype(np.float64, copy=False)
+
+
+class _Axis(NamedTuple):
+    """One coordinate of all points as integers, as in files."""
+
+    integers: np.ndarray  # int32, (n,)
+    scale: float
+    offset: float  # a multiple of the scale
+
+
+def _axis(name: str, array: np.ndarray) -> _Axis:
+    """Return coordinates as multiples of the coarsest power of ten that holds them exactly, or
+    rounded to the finest that holds them.
+    """
+    # Numbers of a file become the integers of the file. Files with equal scales give equal numbers
+    # for equal places, and so do these.
+    if not len(array):
+        return _Axis(np.zeros(0, dtype=np.int32), 1.0, 0.0)
+    low, high = (float(extreme(_of_parts(array, extreme))) for extreme in (np.min, np.max))
+    fitting = [
+        decimals
+        for decimals in range(_MOST_DECIMALS + 1)
+        if (high - low) * 10.0**decimals < _LARGEST
+    ]
+    if not fitting:
+        raise BareEarthError(
+            f"{name} runs from {low:.10g} to {high:.10g}, which is too far for one survey. Leave"
+            " stray points out."
+        )
+    digit = _LAST_DIGITS * float(np.spacing(max(abs(low), abs(high))))
+    exact = (decimals for decimals in fitting if _are_whole(array, decimals, digit))
+    decimals = next(exact, min(fitting[-1], _ROUNDED))
+    steps = 10.0**decimals
+    whole, integers = math.floor(low * steps), np.empty(len(array), dtype=np.int32)
+
+    def convert(part: slice) -> None:
+        integers[part] = np.rint(array[part] * steps) - whole
+
+    in_threads(convert, parts_of(len(array), _POINTS_A_PART))
+    scale = float(f"1e-{decimals}")
+    return _Axis(integers, scale, whole * scale)
+
+
+def _are_whole(array: np.ndarray, decimals: int, error: float) -> bool:
+    """Return whether all numbers have so few decimals, but for an error."""
+    steps = 10.0**decimals
+
+    def is_whole(part: slice) -> bool:
+        numbers = array[part] * steps
+        return bool((np.abs(numbers - np.rint(numbers)) <= error * steps).all())
+
+    if array.dtype.kind != "f":
+        return True
+    return error * steps < _WHOLE and all(
+        is_whole(part) for part in (slice(_FIRST), *parts_of(len(array), _POINTS_A_PART))
+    )
+
+
+def _of_parts(array: np.ndarray, function: Any) -> list[Any]:
+    """Return what a function finds for parts of an array."""
+    return in_threads(lambda part: function(array[part]), parts_of(len(array), _POINTS_A_PART))
+
+
+def _attribute(name: str, given: Any, count: int) -> np.ndarray:
+    """Return a further column of the points, or a mask, as a new array."""
+    array = _array(name, given, (count,))
+    if name not in _NUMBERS:
+        if array.dtype.kind == "f" or (
+            array.dtype.kind != "b" and not np.isin(array, (0, 1)).all()
+        ):
+            raise BareEarthError(f"{name} must be True or False for each point.")
+        return array.astype(bool)
+    with np.errstate(invalid="ignore"):
+        numbers = array.astype(np.uint8)
+    if not np.array_equal(numbers, array):
+        raise BareEarthError(f"{name} must be whole numbers from 0 to 255.")
+    return numbers
+
+
+def _of_las(las: Any, stated: str | None, progress: Progress) -> PointCloud:
+    """Return the points of a `laspy.LasData`."""
+    header, columns = las.header, dict(COLUMNS)
+    point_format = int(las.point_format.id)
+    if point_format < FIRST_EXTENDED_FORMAT:
+        del columns["scanner_channel"], columns["overlap"]
+    names = {*las.point_format.dimension_names}
+    arrays = {
+        field: np.asarray(las[name]) if field in _COORDINATES else np.array(las[name], dtype=kind)
+        for field, (name, kind) in columns.items()
+        if name in names
+    }
+    records = [
+        _Record((record.user_id, record.record_id), record.record_data_bytes())
+        for record in (*header.vlrs, *(header.evlrs or ()))
+    ]
+    prefers_text = header.global_encoding.wkt or point_format >= FIRST_EXTENDED_FORMAT
+    crs = crs_among(records, prefers_text, stated, "The cloud", progress)
+    return _made(arrays, header.scales, header.offsets, point_format, crs)
+
+
+def _made(arrays: Any, scales: Any, offsets: Any, point_format: int, crs: Crs) -> PointCloud:
+    """Return a cloud, given its columns by their names, and three scales and offsets."""
+    scale, offset = ((float(x), float(y), float(z)) for x, y, z in (scales, offsets))
+    return PointCloud(
+        path=_CLOUD, scale=scale, offset=offset, point_format=point_format, crs=crs, **arrays
+    )
+
+
+class _Record(NamedTuple):
+    """A record of a `laspy.LasData`."""
+
+    key: tuple[str, int]
+    data: bytes
+
+
+def _crs_text(given: Any) -> str | None:
+    """Return a CRS as text, given as text, as an EPSG code, or as an object of pyproj."""
+    if given is None or isinstance(given, str):
+        return given
+    if hasattr(given, "to_wkt"):
+        return str(given.to_wkt())
+    if isinstance(given, (int, np.integer)):
+        return f"EPSG:{given}"
+    raise BareEarthError(f"crs must be an EPSG code or well-known text (WKT), not {given!r}.")
+
+
+def _crs_of(given: Any, progress: Progress) -> Crs:
+    """Return the CRS of arrays; metres if none is given."""
+    text = stated_wkt(_crs_text(given))
+    return (crs_of_wkt(text, progress) if text else None) or Crs()
+
+
+def box_of(cloud: PointCloud) -> tuple[float, float, float, float]:
+    """Return the smallest x and y, and the largest, in units of the CRS."""
+    (east, north, _), (x, y, _) = cloud.scale, cloud.offset
+    (west, south), (right, top) = cloud.lowest, cloud.highest
+    return west * east + x, south * north + y, right * east + x, top * north + y

@@ -1,0 +1,256 @@
+"""Functions on arrays give what the functions for files give, whatever the arrays are."""
+
+import io
+import subprocess
+import sys
+from pathlib import Path
+
+import laspy
+import numpy as np
+import pytest
+from realdata import real
+from surveys import ORIGIN, strip, write
+
+import bare_earth
+from bare_earth import arrays
+from bare_earth.algorithms.library import array_names
+from bare_earth.algorithms.library.arrays import FUNCTIONS
+
+ROOT = Path(__file__).parents[2]
+REAL = "house_slope.laz", "conifer_1.laz", "nrw_rural.laz", "yard_photogrammetry.laz"
+
+
+def classes_of(path):
+    return np.asarray(laspy.read(str(path)).classification)
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """A raw file, and the same with classes."""
+    folder = tmp_path_factory.mktemp("arrays")
+    raw, done = write(folder / "raw.laz", strip()), folder / "done.laz"
+    bare_earth.classify(raw, done)
+    return raw, done
+
+
+def columns(las):
+    """Return the columns of points as PDAL names them."""
+    names = {
+        "X": "x", "Y": "y", "Z": "z", "ReturnNumber": "return_number",
+        "NumberOfReturns": "number_of_returns", "Classification": "classification",
+        "Intensity": "intensity", "Withheld": "withheld",
+    }  # fmt: skip
+    return {name: np.array(las[source]) for name, source in names.items()}
+
+
+def structured(table):
+    array = np.empty(len(table["X"]), [(name, column.dtype) for name, column in table.items()])
+    for name, column in table.items():
+        array[name] = column
+    return array
+
+
+def as_pandas(table):
+    return pytest.importorskip("pandas").DataFrame(table)
+
+
+def as_pyarrow(table):
+    return pytest.importorskip("pyarrow").table(table)
+
+
+def test_all_functions_are_listed():
+    assert sorted(FUNCTIONS) == array_names()
+    assert set(array_names()) < set(dir(arrays))
+
+
+@pytest.mark.parametrize("kind", [dict, structured, as_pandas, as_pyarrow])
+def test_a_table_gets_the_labels_of_the_file(files, kind):
+    raw, done = files
+    found = arrays.classify(kind(columns(laspy.read(str(raw)))))
+    assert found.dtype == np.uint8 and np.array_equal(found, classes_of(done))
+
+
+def test_arrays_get_the_labels_of_the_file_and_do_not_change(files):
+    raw, done = files
+    las = laspy.read(str(raw))
+    x, y, z = given = [np.asarray(las[axis]) for axis in "xyz"]
+    before = [axis.copy() for axis in given]
+    for axis in given:
+        axis.flags.writeable = False
+    ground = classes_of(done) == 2
+    assert np.array_equal(arrays.ground(x, y, z), ground)
+    assert np.array_equal(arrays.ground(las.xyz), ground)
+    assert np.array_equal(arrays.ground(las), ground)
+    assert all(map(np.array_equal, given, before))
+    order = np.random.default_rng(4).permutation(len(x))
+    assert np.array_equal(arrays.ground(x[order], y[order], z[order]), ground[order])
+
+
+def test_feet_and_codes_of_a_crs_are_understood(files):
+    pytest.importorskip("pyproj")
+    x, y, z = (np.asarray(laspy.read(str(files[0]))[axis]) for axis in "xyz")
+    feet = [np.round(axis / 0.3048, 2) for axis in (x - ORIGIN[0], y - ORIGIN[1], z)]
+    ground = arrays.ground(*feet, crs="EPSG:2222")  # international feet
+    assert np.mean(ground == (classes_of(files[1]) == 2)) > 0.97
+    assert np.array_equal(arrays.ground(x, y, z, crs=25832), classes_of(files[1]) == 2)
+    with pytest.raises(bare_earth.BareEarthError, match=r"not in a projected CRS .WGS 84."):
+        arrays.ground(x / 1e5, y / 1e6, z, crs=4326)
+
+
+def test_numbers_without_end_are_rounded_to_less_than_matters(files):
+    x, y, z = (np.asarray(laspy.read(str(files[0]))[axis]) for axis in "xyz")
+    shift = np.random.default_rng(1).uniform(-1e-7, 1e-7, (3, len(x)))
+    ground = arrays.ground(x + shift[0], y + shift[1], z + shift[2])
+    assert np.mean(ground == (classes_of(files[1]) == 2)) > 0.999
+
+
+def test_values_of_points_are_those_of_the_file(files, tmp_path):
+    _, done = files
+    las, target = laspy.read(str(done)), tmp_path / "a.laz"
+    bare_earth.heights(done, target)
+    heights = arrays.heights(las)
+    assert heights.dtype == np.float64
+    there = np.asarray(laspy.read(str(target))["HeightAboveGround"])
+    assert np.array_equal(heights.astype(np.float32), there, equal_nan=True)
+    bare_earth.above_ground(done, target)
+    assert np.array_equal(arrays.above_ground(las), classes_of(target))
+    bare_earth.key_points(done, target)
+    keys = arrays.key_points(las)
+    assert keys.dtype == bool and np.array_equal(keys, classes_of(target) == 8)
+
+
+def test_figures_are_those_of_the_file(files):
+    _, done = files
+    las = laspy.read(str(done))
+    places = las.xyz[las.classification == 2][::400] + np.array((0.4, 0.3, 0.05))
+    assert arrays.check(las, checkpoints=places, hold_out=0.02) == bare_earth.check(
+        [done], checkpoints=places, hold_out=0.02
+    )
+
+
+def test_rasters_are_those_of_the_file(files, tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    raw, done = files
+    names = ("dtm", "dsm", "hillshade", "confidence", "red_relief")
+    paths = {name: str(tmp_path / f"{name}.tif") for name in names}
+    bare_earth.terrain(done, crs="EPSG:25832", raster_nodata=None, **paths)
+    rasters = arrays.terrain(laspy.read(str(done)), rasters=names, crs=25832)
+    assert tuple(rasters) == names
+    for name, path in paths.items():
+        raster = rasters[name]
+        with rasterio.open(path) as file:
+            cells = file.read()
+            assert np.array_equal(
+                cells, raster.values.reshape(cells.shape), equal_nan=cells.dtype.kind == "f"
+            )
+            assert raster.transform == tuple(file.transform)[:6]
+            assert raster.nodata == file.nodata or np.isnan(raster.nodata)
+            assert file.crs == rasterio.crs.CRS.from_wkt(raster.crs)
+            assert file.descriptions[0] == raster.shows
+    las = laspy.read(str(raw))
+    dtm = arrays.terrain(las, ground=arrays.ground(las))["dtm"]
+    assert np.array_equal(dtm.values, rasters["dtm"].values, equal_nan=True)
+
+
+def test_xarray_has_the_conventions_of_rioxarray(files, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    las = laspy.read(str(files[1]))
+    raster = arrays.terrain(las, rasters="dtm", dtm_cell_size=2.0, crs=25832)["dtm"]
+    array = raster.to_xarray()
+    assert isinstance(array, xarray.DataArray) and array.dims == ("y", "x")
+    west, north = raster.transform[2], raster.transform[5]
+    assert array.x[0] == west + 1.0 and array.y[0] == north - 1.0 and array.y[1] == north - 3.0
+    assert array.spatial_ref.attrs["GeoTransform"] == f"{west} 2.0 0.0 {north} 0.0 -2.0"
+    pytest.importorskip("rioxarray")
+    assert array.rio.crs.to_epsg() == 25832 and np.isnan(array.rio.nodata)
+    assert tuple(array.rio.transform())[:6] == raster.transform
+
+
+def test_progress_is_a_callable_or_a_bar_of_tqdm(files):
+    tqdm = pytest.importorskip("tqdm")
+    las, shares = laspy.read(str(files[0])), []
+    arrays.ground(las, progress=shares.append)
+    assert shares == sorted(shares) and shares[-1] == 1.0
+    with tqdm.tqdm(file=io.StringIO()) as bar:
+        arrays.ground(las, progress=bar)
+        assert bar.n == bar.total == 1.0
+
+    def cancel(share):
+        raise bare_earth.Cancelled
+
+    with pytest.raises(bare_earth.Cancelled):
+        arrays.ground(las, progress=cancel)
+
+
+X = np.arange(5.0)
+WRONG = {
+    "z is missing. Give x, y and z, or all": dict(points=X, y=X),
+    "x, y and z have 5, 5 and 4 values. Give as many": dict(points=X, y=X, z=X[:4]),
+    r"points must be an array of shape \(n, 3\), not \(5,\)": dict(points=X),
+    "z has 1 values that are no finite numbers": dict(points=X, y=X, z=[0, 1, 2, 3, np.nan]),
+    "y is float32, which has steps of 0.5 here": dict(
+        points=X, y=(X + 5_700_000).astype(np.float32), z=X
+    ),
+    "x must be numbers, not ": dict(points=list("abcde"), y=X, z=X),
+    "x has masked values": dict(points=np.ma.masked_less(X, 2), y=X, z=X),
+    "x runs from 0 to 1e[+]11": dict(points=X * 2.5e10, y=X, z=X),
+    r"classification must be an array of shape \(5,\), not \(4,\)": dict(
+        points=X, y=X, z=X, classification=[1] * 4
+    ),
+    "return_number must be whole numbers from 0 to 255": dict(
+        points=X, y=X, z=X, return_number=X + 0.5
+    ),
+    "withheld must be True or False for each point": dict(points=X, y=X, z=X, withheld=X),
+    "The table of points has no column Z, only X, Y": dict(points={"X": X, "Y": X}),
+    "The table of points has its own y": dict(points={"X": X, "Y": X, "Z": X}, y=X),
+    "crs must be an EPSG code or well-known text": dict(points=X, y=X, z=X, crs=[1]),
+    "There are no points": dict(points=[], y=[], z=[]),
+}
+
+
+@pytest.mark.parametrize("words", WRONG)
+def test_an_error_names_the_argument(words):
+    with pytest.raises(bare_earth.BareEarthError, match=words):
+        arrays.ground(**WRONG[words])
+
+
+def test_ground_that_is_not_there_is_told():
+    with pytest.raises(bare_earth.BareEarthError, match="the cloud has no ground points"):
+        arrays.heights(X, X, X)
+    with pytest.raises(bare_earth.BareEarthError, match="There is no raster dem, only dtm"):
+        arrays.terrain(X, X, X, rasters="dem")
+    with pytest.raises(TypeError, match="has no parameter cell_size"):
+        arrays.terrain(X, X, X, cell_size=1)
+
+
+def test_mypy_accepts_a_script(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import laspy\nimport numpy as np\nfrom bare_earth import arrays\n"
+        "las = laspy.read('a.laz')\nmask = arrays.ground(las, method='slope', progress=print)\n"
+        "xyz = np.zeros((9, 3))\nheights = arrays.heights(xyz, ground=mask, crs='EPSG:25832')\n"
+        "print(heights.mean() + 1.0, mask.sum())\n"
+        "dtm = arrays.terrain(las, ground=mask, rasters=['dtm'])['dtm']\n"
+        "print(dtm.transform[0], dtm.values.shape, arrays.check(las).hold_out_rmse)\n"
+        "arrays.ground(las, metod='slope')\n"
+    )
+    (tmp_path / "bare_earth").symlink_to(ROOT, target_is_directory=True)
+    (tmp_path / "mypy.ini").write_text(
+        f"[mypy]\nstrict = True\nfollow_imports = silent\nignore_missing_imports = True\n"
+        f"mypy_path = {tmp_path}\ncache_dir = {ROOT / 'build' / 'mypy-user'}\n"
+    )
+    command = [sys.executable, "-m", "mypy", "--config-file", tmp_path / "mypy.ini", script]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+    (line,) = (line for line in done.stdout.splitlines() if ": error: " in line)
+    assert line.startswith("script.py:11") and 'Unexpected keyword argument "metod"' in line
+
+
+@pytest.mark.parametrize("name", REAL)
+def test_real_tiles_get_the_labels_of_the_file(name, tmp_path):
+    pytest.importorskip("pyproj")
+    source, target = real(f"real/{name}"), tmp_path / "done.laz"
+    bare_earth.classify(source, target)
+    las, wanted = laspy.read(str(source)), classes_of(target)
+    assert np.array_equal(arrays.classify(las), wanted)
+    crs = las.header.parse_crs()
+    assert np.array_equal(arrays.classify(columns(las), crs=crs), wanted)
