@@ -15,6 +15,8 @@ from ..core.points import Points
 from .cells import Cells
 from .gradient import steepness
 from .inpaint import inpaint
+from .morphology import within_square
+from .parts import parts_with
 
 # Side of the cells in metres. All values below were fitted with it.
 CELL = 1.0
@@ -98,14 +100,21 @@ def evidence(cells: Cells, z: np.ndarray, ground: np.ndarray) -> Evidence:
     doubtful = occupied & ~has_ground & (lowest - surface < _DOUBTFUL_HEIGHT)
     gap = np.log1p(ndimage.distance_transform_edt(~has_ground) * cells.size).astype(np.float32)
     rise = np.minimum(steepness(surface, cells.size), np.float32(_STEEPEST))
-    near, around = (_mean(occupied, reach) for reach in (_NEAR, _AROUND))
-    return Evidence(
-        np.clip(1.0 - _mean(has_ground, _NEAR) / np.maximum(near, _TINY), 0.0, 1.0),
-        _roughness(surface, has_ground),
-        gap**2,
-        gap * ndimage.maximum_filter(rise, 2 * _AROUND + 1, mode="nearest"),
-        _mean(doubtful, _AROUND) / np.maximum(around, _TINY),
-    )
+    holes, rough, doubts = np.zeros((3, *cells.shape), dtype=np.float32)
+    holes[:] = 1.0
+    # Far from all points there are no means.
+    near_points = within_square(np.maximum, occupied.view(np.uint8), _AROUND).view(bool)
+    for part in parts_with(near_points, _AROUND + 1):
+        there, has = part.around, has_ground[part.around]
+        near, around = (_mean(occupied[there], reach) for reach in (_NEAR, _AROUND))
+        for grid, values in (
+            (holes, np.clip(1.0 - _mean(has, _NEAR) / np.maximum(near, _TINY), 0.0, 1.0)),
+            (rough, _roughness(surface[there], has)),
+            (doubts, _mean(doubtful[there], _AROUND) / np.maximum(around, _TINY)),
+        ):
+            grid[part.core] = values[part.inner]
+    steepest = ndimage.maximum_filter(rise, 2 * _AROUND + 1, mode="nearest")
+    return Evidence(holes, rough, gap**2, gap * steepest, doubts)
 
 
 def _roughness(surface: np.ndarray, has_ground: np.ndarray) -> np.ndarray:

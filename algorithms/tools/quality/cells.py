@@ -263,16 +263,14 @@ class QualityCells:
                     slice(low, south + _TILE + WINDOWS[-1]),
                     slice(left, west + _TILE + WINDOWS[-1]),
                 )
-                number = self._number[tile].astype(np.float64)
-                sums = (self._x, self._y, self._z)
-                x, y, z = (values[tile] / np.maximum(number, 1.0) for values in sums)
+                number = self._number[tile]
                 wanted = np.zeros(number.shape, dtype=bool)
                 own = wanted[south - low :, west - left :][:_TILE, :_TILE]
-                own[:] = twice(self.highest > -np.inf, slice(south, south + own.shape[0]))[
-                    :, west : west + _TILE
-                ]
+                coarse = tuple(slice(start // 2, (start + _TILE) // 2) for start in (south, west))
+                own[:] = twice(self.highest[coarse] > -np.inf, slice(0, len(own)))
                 row, column = np.nonzero(wanted)
-                found = planes(number, x, y, z, size, wanted)
+                totals = (values[tile] for values in (self._x, self._y, self._z))
+                found = planes(number, totals, size, wanted)
                 for values, array in zip(found, (self._height, self._rise_x, self._rise_y)):
                     array[row + low, column + left] = values
             progress(min(south + _TILE, rows) / rows)

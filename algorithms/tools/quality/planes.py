@@ -6,6 +6,7 @@ from typing import Any, Iterable, Iterator
 
 import numpy as np
 
+from ...grids.parts import parts_with
 from ...grids.planes import means_and_moments, plane_slopes
 
 # Cells round a cell whose ground makes its plane: the first that hold enough points.
@@ -15,39 +16,51 @@ _LEAST_POINTS, _LEAST_SPREAD = 6, 0.02
 
 def planes(
     number: np.ndarray,  # of the ground points of cells
-    x: np.ndarray,  # mean of these from the centre of the cell, as y
-    y: np.ndarray,
-    z: np.ndarray,  # mean
+    totals: Iterable[np.ndarray],  # of their x and y from the centre of the cell, and of their z
     size: float,
     wanted: np.ndarray,  # boolean
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return planes through the ground round the n wanted cells of a size in metres: height at
     their centre, slope to the east and north; NaN without ground within ten cells.
     """
-    from scipy import ndimage
-
     # From the middle of all cells: numbers are so small that no digit of their squares is lost.
-    (rows, columns), place = number.shape, np.nonzero(wanted)
+    (rows, columns), (x, y, z) = number.shape, totals
     north, east = (np.arange(rows) - rows // 2) * size, (np.arange(columns) - columns // 2) * size
     some = number > 0
-    base = float(z[some].min()) if some.any() else 0.0
-    x, y, z = x + east, y + north[:, None], np.where(some, z - base, 0.0)
-    height, rise_x, rise_y = np.zeros((3, len(place[0])))
-    height[:] = np.nan
-    for window in WINDOWS if some.any() else ():
-        left = np.flatnonzero(np.isnan(height))
-        row, column = place[0][left], place[1][left]
-        ones, sums = np.ones(2 * window + 1), []
-        for values in moments(number, x, y, z):
-            for axis in (0, 1):
-                values = ndimage.convolve1d(values, ones, axis, mode="constant")
-            sums.append(values[row, column])
-        is_good, (level, rise_x[left], rise_y[left]) = plane_of(sums)
-        if window == WINDOWS[-1]:
-            is_good |= sums[0] > 0
-        level += base + rise_x[left] * east[column] + rise_y[left] * north[row]
-        height[left] = np.where(is_good, level, np.nan)
-    return height, rise_x, rise_y
+    base = float((z[some] / number[some]).min()) if some.any() else 0.0
+    found, left = np.zeros((3, *number.shape)), wanted.copy()
+    found[0] = np.nan
+    for window in WINDOWS:
+        for part in parts_with(left, window):
+            there, count = part.around, number[part.around].astype(np.float64)
+            if not count.any():
+                continue
+            mean_x, mean_y, mean_z = (total[there] / np.maximum(count, 1.0) for total in (x, y, z))
+            mean_x, mean_y = mean_x + east[there[1]], mean_y + north[there[0], None]
+            mean_z = np.where(count > 0, mean_z - base, 0.0)
+            place = np.nonzero(left[there][part.inner])
+            sums = [
+                _summed(values, window)[part.inner][place]
+                for values in moments(count, mean_x, mean_y, mean_z)
+            ]
+            is_good, (level, rise_x, rise_y) = plane_of(sums)
+            if window == WINDOWS[-1]:
+                is_good |= sums[0] > 0
+            to_east, to_north = east[part.core[1]][place[1]], north[part.core[0]][place[0]]
+            level += base + rise_x * to_east + rise_y * to_north
+            level[~is_good] = np.nan
+            found[:, part.core[0], part.core[1]][:, place[0], place[1]] = level, rise_x, rise_y
+        left &= np.isnan(found[0])
+    return tuple(found[:, wanted])
+
+
+def _summed(values: np.ndarray, window: int) -> np.ndarray:
+    """Return the sums over the cells up to so many to each side."""
+    from scipy import ndimage
+
+    for axis in (0, 1):
+        values = ndimage.convolve1d(values, np.ones(2 * window + 1), axis, mode="constant")
+    return values
 
 
 def moments(number: Any, x: Any, y: Any, z: Any) -> Iterator[np.ndarray]:

@@ -12,6 +12,7 @@ import numpy as np
 from ...core.points import Frame
 from ...core.progress import Progress
 from ...grids.cells import are_inside
+from ...grids.parts import parts_with
 from ...rasters import looks
 from ...rasters.geotiff import NODATA, RasterGrid
 from ...rasters.looks import Categories, Look, Ramp, Steps
@@ -77,9 +78,11 @@ def voids(cells: QualityCells, rows: slice) -> np.ndarray:
     size = cells.grids.fine.size
     margin = math.ceil(cells.void / size) + 1
     low = max(rows.start - margin, 0)
-    far = cells.ground_points[low : rows.stop + margin] == 0
-    if not far.all():
-        far = ndimage.distance_transform_edt(far, sampling=size) > cells.void
+    empty = cells.ground_points[low : rows.stop + margin] == 0
+    far = np.ones(empty.shape, dtype=bool)
+    for part in parts_with(~empty, margin):
+        there = ndimage.distance_transform_edt(empty[part.around], sampling=size) > cells.void
+        far[part.around] &= there
     return far[rows.start - low : rows.stop - low]
 
 
