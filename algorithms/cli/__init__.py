@@ -9,6 +9,7 @@ import traceback
 from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
+from ..engine.memory import share_one_heap
 from ..tools import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
 from . import odm
 from .commands import tool_command
@@ -28,6 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return 0 if it is done, 1 if it failed, 2 after wrong usage."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     _set_output_encoding()
+    share_one_heap()
     signal.signal(signal.SIGTERM, _stop)
     try:
         options = _parser(arguments).parse_args(arguments)

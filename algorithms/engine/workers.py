@@ -17,7 +17,7 @@ from ..core.threads import Counter, SharedThreads
 from .blockwise import JobProgress
 from .jobs import Job, JobResult, Share, attempt
 from .manifest import folders_of
-from .memory import Resources
+from .memory import Resources, share_one_heap
 
 # When the user cancels, jobs have so many seconds to stop by themselves.
 _PATIENCE = 0.7
@@ -183,6 +183,7 @@ def _begin(stop: threading.Event, free: Counter, threads: int) -> None:
     """Prepare a new process."""
     global _common
     _common = _OfProcess(stop, SharedThreads(free))
+    share_one_heap()
     # Ctrl-C reaches all processes of a terminal. Only the first one reacts, and stops the others.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # The threads that decompress.
