@@ -87,9 +87,9 @@ def _in_file(
 
 def _leaves_header(layout: LasFile, part: PointCloud) -> bool:
     """Return whether a point lies outside of the extent in the header."""
-    for axis, integers in enumerate((part.x, part.y)):
+    for axis, integers in enumerate(zip(part.lowest, part.highest)):
         scale, offset = layout.scale[axis], layout.offset[axis]
-        lowest, highest = (int(pick(integers)) * scale + offset for pick in (np.min, np.max))
+        lowest, highest = (integer * scale + offset for integer in integers)
         # Programs round the values in headers in different ways.
         if lowest < layout.minimum[axis] - scale or highest > layout.maximum[axis] + scale:
             return True
@@ -103,17 +103,22 @@ def may_touch(layout: LasFile, box: Box) -> bool:
     return not is_one or Area(box=box).may_touch(layout.outer_box)
 
 
+def _inside(layout: LasFile, area: Area, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return which places, as integers of a file, lie in an area."""
+    (east, north, _), (x0, y0, _) = layout.scale, layout.offset
+    return area.contains(x * east + x0, y * north + y0)
+
+
 def _joined(
     layout: LasFile, area: Area, parts: Iterator[PointCloud], progress: Progress
 ) -> PointCloud:
     """Return the points of parts that lie in an area, without what only writing needs."""
     kept = []
     for part in parts:
-        x, y = (
-            integers * layout.scale[axis] + layout.offset[axis]
-            for axis, integers in enumerate((part.x, part.y))
-        )
-        kept.append(part.take(np.flatnonzero(area.contains(x, y))))
+        corners = np.array([part.lowest, part.highest]).T if part.count else np.zeros((2, 0))
+        if not _inside(layout, area, *corners).all():
+            part = part.take(np.flatnonzero(_inside(layout, area, part.x, part.y)))
+        kept.append(part)
     if not kept:
         names = columns_of(layout)
         empty: dict[str, np.ndarray] = {
