@@ -12,12 +12,12 @@ from .algorithms.library.given import Bar
 from .algorithms.delivery.summary import DeliverySummary
 from .algorithms.las.reading import Description
 from .algorithms.remote.fetching import Fetched
-from .algorithms.runs.one_file import Summary
 from .algorithms.tools.above_ground import AboveGroundSummary
 from .algorithms.tools.assess import Assessment
 from .algorithms.tools.check.results import Check
 from .algorithms.tools.compare_settings import TrialSummary
 from .algorithms.tools.contours import Interval
+from .algorithms.tools.ground.step import Summary
 from .algorithms.tools.heights import HeightSummary
 from .algorithms.tools.key_points import KeyPointSummary
 from .algorithms.tools.off_terrain import Removal

@@ -17,8 +17,8 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
-from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.tools.assess import Assessment, AssessmentOptions, compare
+from benchmarks.clouds import classify_cloud
 
 from . import data
 from .phases import PHASES, Phased, shifted

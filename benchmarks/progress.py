@@ -13,23 +13,22 @@ import argparse
 import importlib.util
 import tempfile
 import time
-from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 from typing import Any, Callable, NamedTuple
 
+from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.delivery.maps import MapFiles, make_maps
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.runs.entry import classify, terrain
-from bare_earth.algorithms.runs.entry import write as write_with
-from bare_earth.algorithms.runs.requests import ClassifyRequest, PointRequest, TerrainRequest
-from bare_earth.algorithms.runs.terrain_maps import MapFiles, MapRequest, make_maps
+from bare_earth.algorithms.survey.files import Inputs
+from bare_earth.algorithms.tools import any_tool
 from bare_earth.algorithms.tools.assess import assess_files
 from bare_earth.algorithms.tools.ground.output import Output
-from bare_earth.algorithms.tools.heights import MeasureHeights
-from bare_earth.algorithms.tools.key_points import FindKeyPoints
+from bare_earth.algorithms.tools.rasters.parameters import MapTerrain
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
+from bare_earth.algorithms.tools.running import run as work
 
 _RASTERS = ("dtm", "dsm", "chm", "hillshade", "confidence")
 
@@ -116,41 +115,43 @@ def _percent(moment: tuple[float, float]) -> int:
 
 def runs(source: Path, folder: Path, resources: Resources) -> dict[str, Callable[[Progress], Any]]:
     """Return what is measured, by name; the first of them makes what others read."""
+
+    def doing(
+        command: str, points: Path, outputs: dict[str, Path], *sets: ParameterSet
+    ) -> Callable[[Progress], Any]:
+        inputs, sets = {"input": points}, (*sets, resources)
+        return lambda progress: work(any_tool(command), inputs, outputs, sets, progress)
+
     ground = folder / "ground.las"
     rasters = {name: folder / f"{name}.tif" for name in _RASTERS}
-    two = RasterFiles(dtm=rasters["dtm"], hillshade=rasters["hillshade"])
-    usual = ClassifyRequest(resources=resources)
-    full = replace(usual, rasters=two, output=Output(height_above_ground=True))
-    lines = folder / "lines.gpkg" if importlib.util.find_spec("osgeo") else None
-    rasters["relief"] = folder / "relief.tif"
-    maps = MapFiles(folder / "maps.laz", RasterFiles(**rasters), lines)
-    found: dict[str, Callable[[Progress], Any]] = {
-        "TIN densification": lambda progress: classify(source, ground, usual, progress),
-        "TIN, DTM, hillshade, heights": lambda progress: classify(
-            source, folder / "a.laz", full, progress
+    two = {name: rasters[name] for name in ("dtm", "hillshade")}
+    found = {
+        "TIN densification": doing("classify", source, {"output": ground}),
+        "TIN, DTM, hillshade, heights": doing(
+            "classify",
+            source,
+            {"output": folder / "a.laz", **two},
+            Output(height_above_ground=True),
         ),
     }
     for name in list(METHODS)[1:]:
-        request = replace(usual, parameters=METHODS[name].parameters())
-        found[METHODS[name].label] = lambda progress, request=request: classify(
-            source, folder / "b.laz", request, progress
+        parameters = METHODS[name].parameters()
+        found[METHODS[name].label] = doing(
+            "classify", source, {"output": folder / "b.laz"}, parameters
         )
-    all_rasters = TerrainRequest(resources=resources, rasters=RasterFiles(**rasters))
-    one_raster = TerrainRequest(resources=resources, rasters=RasterFiles(dtm=rasters["dtm"]))
-    found["Terrain model alone"] = lambda progress: terrain(ground, one_raster, progress)
-    found["All rasters"] = lambda progress: terrain(ground, all_rasters, progress)
-    above = PointRequest(MeasureHeights(), resources=resources)
-    keys = PointRequest(FindKeyPoints(), resources=resources)
-    found["Height above ground"] = lambda progress: write_with(
-        ground, folder / "h.laz", above, progress
-    )
-    found["Model key points"] = lambda progress: write_with(
-        ground, folder / "k.laz", keys, progress
-    )
+    found["Terrain model alone"] = doing("terrain", ground, {"dtm": rasters["dtm"]})
+    found["All rasters"] = doing("terrain", ground, rasters)
+    found["Height above ground"] = doing("height", ground, {"output": folder / "h.laz"})
+    found["Model key points"] = doing("key-points", ground, {"output": folder / "k.laz"})
     pages = folder / "report.html", folder / "errors.tif"
     found["Assess"] = lambda progress: assess_files(ground, ground, *pages, progress=progress)
-    request = MapRequest(resources=resources)
-    found["Point cloud to terrain"] = lambda progress: make_maps([source], maps, request, progress)
+    lines = folder / "lines.gpkg" if importlib.util.find_spec("osgeo") else None
+    maps = MapFiles(
+        folder / "maps.laz", RasterFiles(**rasters, relief=folder / "relief.tif"), lines
+    )
+    found["Point cloud to terrain"] = lambda progress: make_maps(
+        Inputs(source), maps, [MapTerrain(), resources], {}, progress
+    )
     return found
 
 

@@ -15,8 +15,8 @@ from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
-from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.survey.corrections import Corrections
+from benchmarks.clouds import classify_cloud
 from benchmarks.generated import TrueModel
 from benchmarks.scenes import Scene, make
 from benchmarks.scenes.scene import ORIGIN

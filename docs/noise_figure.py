@@ -9,8 +9,8 @@ from matplotlib import pyplot
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.dense_surface import DenseSurface
-from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.survey.selection import Selection
+from benchmarks.clouds import classify_cloud
 from benchmarks.scenes import make
 
 _SEED, _CELL, _WIDTH = 4, 0.5, 3.0

@@ -8,12 +8,12 @@ import sys
 import traceback
 from typing import Sequence
 
-from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
+from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay, UsageError
 from ..engine.memory import share_one_heap
 from ..tools import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
 from . import odm
 from .commands import tool_command
-from .options import FAILED, USAGE, UsageError
+from .options import FAILED, USAGE
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (

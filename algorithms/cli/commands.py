@@ -9,7 +9,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Sequence
 
-from ..core.errors import BareEarthError
+from ..core.errors import BareEarthError, UsageError
 from ..tools import (
     COMPOSITIONS,
     FILE_TOOLS,
@@ -18,9 +18,8 @@ from ..tools import (
     Listed,
     any_tool,
     file_tool,
-    map_tool,
 )
-from .options import DONE, FAILED, Command, UsageError, add_json, add_parameters, chosen
+from .options import DONE, FAILED, Command, add_json, add_parameters, chosen
 from .terminal import Terminal, tell
 
 if TYPE_CHECKING:
@@ -45,7 +44,7 @@ _HELP = {
 def tool_command(name: str) -> Command:
     """Return the command of a tool, which is imported when its options are asked for."""
     kinds = (
-        (FILE_TOOLS, _do_file_tool), (POINT_TOOLS, _do_point_tool), (MAP_TOOLS, _do_map_tool),
+        (FILE_TOOLS, _do_file_tool), (POINT_TOOLS, _do_on_points), (MAP_TOOLS, _do_on_points),
         (COMPOSITIONS, _do_composition),
     )  # fmt: skip
     listed: Listed
@@ -139,46 +138,13 @@ def _do_file_tool(name: str, options: argparse.Namespace) -> int:
     return DONE
 
 
-def _do_point_tool(name: str, options: argparse.Namespace) -> int:
-    """Write classified files with what a tool finds, and tell what was done."""
+def _do_on_points(name: str, options: argparse.Namespace) -> int:
+    """Write what a tool finds for points, or makes of them, and tell what was done."""
     from ..library.tools import of_tool
 
     done = _called(of_tool(name), options)
-    if hasattr(done, "failures"):
-        return _tell_of_survey(options, done)
-    tell(options, done, f"{Path(options.output).parent / done.text}")
-    return DONE
-
-
-def _do_map_tool(name: str, options: argparse.Namespace) -> int:
-    """Classify points, or make rasters of them, and tell what was done."""
-    from ..library.given import is_automatic
-    from ..library.tools import of_tool
-
-    tool = map_tool(name)
-    if tool.classifies and is_automatic(options.water):
-        raise UsageError(
-            "Water is found in classified points: make the rasters with 'bare-earth terrain"
-            " --water automatic'."
-        )
-    done = _called(of_tool(name), options)
-    if hasattr(done, "failures"):
-        return _tell_of_survey(options, done)
-    if not tool.classifies:
-        text = f"{done.columns:,} x {done.rows:,} cells of {done.ground_count:,} ground points"
-        tell(options, done, f"{options.sources[0]}: {text}")
-        return DONE
-    ground, count = done.area_ground_count, done.area_count
-    place = "" if options.extent is None and options.boundary is None else " in the area"
-    text = f"{ground:,} of {count:,} points{place} are ground ({100 * ground / count:.1f} %)"
-    tell(options, done, f"{options.output}: {text}")
-    return DONE
-
-
-def _tell_of_survey(options: argparse.Namespace, summary: Any) -> int:
-    """Print the result for many files; return the exit code."""
-    tell(options, summary, f"{options.output}: {summary.text}")
-    return FAILED if summary.failures else DONE
+    tell(options, done, done.told(Path(getattr(options, "output", options.sources[0]))))
+    return FAILED if done.failures else DONE
 
 
 def _do_composition(name: str, options: argparse.Namespace) -> int:

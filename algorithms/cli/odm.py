@@ -29,23 +29,20 @@ def _odm(options: argparse.Namespace) -> int:
     from ..core.files import replacing
     from ..engine.memory import Resources
     from ..filters.smrf import SmrfValues
-    from ..runs.entry import classify
-    from ..runs.requests import ClassifyRequest
     from ..survey.kept_classes import ALL_CLASSES
     from ..survey.outputs import check_outputs
     from ..survey.selection import Selection
+    from ..tools import map_tool
+    from ..tools.running import run
 
-    sets = chosen(options)
+    given = chosen(options)
     # As SMRF: 1 and 2 replace whatever class a point has; only noise stays.
-    request = ClassifyRequest(
-        parameters=SmrfValues.among(sets).as_tin(),
-        selection=Selection(from_classes=ALL_CLASSES, others="unclassified"),
-        resources=Resources.among(sets),
-        crs=options.crs,
-    )
+    selection = Selection(from_classes=ALL_CLASSES, others="unclassified")
+    sets = [SmrfValues.among(given).as_tin(), selection, Resources.among(given)]
+    inputs = {"input": options.input, "crs": options.crs}
     check_outputs([("cloud", options.output)])
     with Terminal(options.verbose) as progress, replacing(options.output) as temporary:
-        done = classify(options.input, temporary, request, progress)
+        done = run(map_tool("classify"), inputs, {"output": temporary}, sets, progress)
     ground = f"{done.ground_count:,} of {done.point_count:,} points are ground"
     tell(options, done, f"{options.output}: {ground}")
     return DONE

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any, Callable, NamedTuple, Sequence
 
-from ..core.errors import BareEarthError
+from ..core.errors import BareEarthError, UsageError
 from ..core.parameters import Declaration, ParameterSet, shown_value
 
 # Exit codes.
@@ -26,10 +26,6 @@ class Command(NamedTuple):
 # End of the help of `add_crs`.
 KEPT = "; written point clouds keep the records that the files have"
 _NOT_USED = ("none", "automatic")
-
-
-class UsageError(BareEarthError):
-    """The command line contains a value that is not allowed."""
 
 
 def add_crs(parser: argparse.ArgumentParser, note: str = "") -> None:

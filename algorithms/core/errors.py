@@ -17,6 +17,10 @@ class OutputInUse(BareEarthError):
     """An old output cannot be replaced, since another program has it open or it is read-only."""
 
 
+class UsageError(BareEarthError):
+    """The command line, or a call of a function, contains a value that is not allowed."""
+
+
 class Cancelled(Exception):
     """The user asked to stop. Code that catches it must remove incomplete files."""
 

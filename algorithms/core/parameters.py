@@ -191,8 +191,8 @@ class ParameterSet:
 
     @classmethod
     def among(cls: type[_Set], sets: Iterable[ParameterSet]) -> _Set:
-        """Return the set of this type from a list of sets."""
-        return next(found for found in sets if isinstance(found, cls))
+        """Return the set of this type from a list of sets, or the defaults."""
+        return next((found for found in sets if isinstance(found, cls)), None) or cls()
 
     @classmethod
     def declarations(cls) -> tuple[Declaration, ...]:

@@ -19,15 +19,14 @@ from ..engine.unpacking import Unpacking
 from ..engine.workers import Workers
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..report.units import Units
-from ..runs.requests import TerrainRequest
 from ..survey.feature_files import feature_writer
 from ..survey.files import Inputs, Survey, open_survey
 from ..survey.ground_classes import GroundClasses
 from ..survey.overview import overview_of
 from ..survey.selection import Selection
-from ..survey.shapes import Place
 from ..tools.rasters.fixed_terrain import parts_of
 from ..tools.rasters.parameters import SurfaceModel, TerrainModel
+from ..tools.rasters.step import MakeRasters
 from ..tools.water.finding import Water
 from ..tools.water.tool import SurveyWater, found_water, given_water
 from .deliveries import WITH_BUILDINGS, Delivery
@@ -243,9 +242,9 @@ def _write_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
     if they have any.
     """
     target, survey = job.known["raster_target"], open_survey(job.opened(progress)[0])
-    own = job.own.located(Place("the files", survey.crs, survey.box), progress)
-    terrain = TerrainRequest(terrain=job.set_of(TerrainModel), raster_target=target)
-    cell = terrain.raster_step.placed(survey.crs, survey.box).cell / VERTICES_A_SIDE
+    own = job.own.located(survey.place, progress)
+    rasters = MakeRasters(model=job.set_of(TerrainModel), target=target)
+    cell = rasters.placed(survey.place).cell / VERTICES_A_SIDE
     clouds = parts_of(survey.tiles, progress.part(0.0, 0.9))
     water = given_water(own, clouds, survey.crs, job.set_of(GroundClasses), cell)
     if job.found:

@@ -18,7 +18,6 @@ from ..crs.stated import stated_wkt
 from ..engine.options import TileInput
 from ..engine.workers import Workers
 from ..survey.files import Inputs, Sources, Survey, open_survey
-from ..survey.shapes import Place
 from ..tools import POINT_TOOLS
 from .deliveries import DELIVERIES
 from .folder import PAGE, DeliveryFolder
@@ -129,7 +128,7 @@ def _opened(
     recursive = any(isinstance(values, TileInput) and values.recursive for values in sets)
     survey = open_survey(files, recursive, reading, stated)
     if inputs["checkpoints"] is not None:
-        inputs["checkpoints"].located(Place("the files", survey.crs, survey.box), progress)
+        inputs["checkpoints"].located(survey.place, progress)
     return survey
 
 

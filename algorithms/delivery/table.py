@@ -12,8 +12,6 @@ from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..engine.workers import Workers
 from ..filters import DEFAULT_METHOD, METHODS
-from ..runs.entry import make, write
-from ..runs.requests import PointRequest, map_request
 from ..survey.files import Inputs
 from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
@@ -84,28 +82,24 @@ class Job:
 
     def run(self, row: Row, progress: Progress, vpc: Path | None = None, **outputs: Path) -> Any:
         """Let the tool of a row work, with further outputs that are given here."""
-        tool: Any = any_tool(row.tool)
+        tool = any_tool(row.tool)
         inputs = {name: self.known.get(value) for name, value in row.inputs.items()}
-        crs = self.known["crs"]
-        paths: dict[str, Path | None] = dict(outputs)
+        paths = {**outputs, "vpc": vpc}
         for output in tool.all_outputs:
             if output.name in row.outputs and inputs.get(output.needs, True) is not None:
                 paths[output.name] = self.place(output.kind, row.outputs[output.name])
-        sets = self.sets_of(tool)
-        if isinstance(tool, FileTool):
-            for declared in tool.inputs:
-                if declared.kind == "clouds":
-                    inputs[declared.name], progress = self.opened(progress)
-                elif declared.kind == "crs":
-                    inputs[declared.name] = crs
-            return run(tool, inputs, paths, sets, progress)
-        if isinstance(tool, MapTool):
-            request = map_request(tool, sets, paths, crs=crs, **inputs)
-            sources, part = (self.sources, progress) if tool.classifies else self.opened(progress)
-            return make(sources, paths, request, part, self.workers)
-        further = {one.name: one.of(inputs[one.name]) for one in tool.inputs if one.name in inputs}
-        asked = PointRequest.of(tool, sets, further, crs)
-        return write(self.sources, outputs["output"], asked, progress, self.workers, vpc=vpc)
+        only_reads = isinstance(tool, FileTool) or not getattr(tool, "classifies", True)
+        given: dict[str, Any] = {}
+        for one in tool.all_inputs:
+            if one.kind == "clouds" and only_reads:
+                given[one.name], progress = self.opened(progress)
+            elif one.kind in ("clouds", "crs"):
+                given[one.name] = self.sources if one.kind == "clouds" else self.known["crs"]
+        for one in tool.inputs:
+            if one.name in inputs:
+                given[one.name] = one.of(inputs[one.name])
+        given.update((name, value) for name, value in inputs.items() if name not in given)
+        return run(tool, given, paths, self.sets_of(tool), progress, self.workers)
 
     def sets_of(self, tool: Tool) -> list[ParameterSet]:
         """Return the parameters of a tool."""

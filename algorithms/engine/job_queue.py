@@ -13,8 +13,9 @@ from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..core.temporary import remove
 from .blockwise import ended
-from .jobs import BlockJob, Job, JobCost, JobResult, TileJob
+from .jobs import BlockJob, Job, JobResult, TileJob
 from .memory import GIGABYTE
+from .summary import JobCost
 from .workers import SCHEDULER_GONE, Running, Workers
 
 # A point takes so many times as long in a block as for reading and writing.

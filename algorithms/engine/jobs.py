@@ -29,18 +29,9 @@ from .file_points import FilePoints, TileResult, copies_all_else, memory_of_file
 from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
 from .memory_store import MemoryStore
+from .summary import JobCost
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, applied
-
-
-@dataclass(frozen=True)
-class JobCost:
-    """The time and memory that a job took."""
-
-    job: str  # "blocks" or the name of a file
-    seconds: float  # of wall-clock time
-    memory: int | None  # most bytes at a time; None if unknown, or other jobs ran in the process
-    planned: int  # most bytes that it was expected to take
 
 
 class JobResult(NamedTuple):

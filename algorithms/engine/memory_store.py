@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, NamedTuple
+from typing import Callable
 
 import numpy as np
 
@@ -17,23 +17,14 @@ from .store import BlockPoints, Corner, LeafIndex, Marks, Store, code_of, smalle
 _CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15
 
 
-class _Part(NamedTuple):
-    """The points of a part with their flags; None for flags that are equal for all points."""
-
-    cloud: PointCloud
-    selected: np.ndarray
-    known: np.ndarray | None
-    wanted: np.ndarray | None
-    flags: dict[str, Any]  # without those that no point has
-
-
 class MemoryStore(Store):
     """A store whose points are those of clouds in memory; `kind` is the type of the values."""
 
     def __init__(self, frame: Frame, blocks: Blocks, kind: type = np.uint8) -> None:
         super().__init__(frame, kind)
         self._blocks = blocks
-        self._parts: list[_Part] = []
+        # The clouds, with None for flags that are equal for all of their points.
+        self._parts: list[tuple[PointCloud, Marks]] = []
 
     def append(self, part: PointCloud, marks: Marks) -> None:
         """Add the selected points of the next part."""
@@ -46,7 +37,7 @@ class MemoryStore(Store):
             for name, flag in flags.items()
             if not isinstance(flag, np.ndarray) or flag.any()
         }
-        self._parts.append(_Part(part, selected, known, wanted, some))
+        self._parts.append((part, Marks(selected, known, wanted, some)))
         self.has_known |= known is not None
 
     def finish(self, progress: Progress = SILENT) -> None:
@@ -54,7 +45,10 @@ class MemoryStore(Store):
         self._values = np.zeros(self.count, dtype=self._value_kind)
         choosing = progress.part(0.0, 0.3).shares(*[1.0] * len(self._parts))
         # Selected points of each part, sorted by leaves; the index of runs counts through all.
-        self._orders = [_indices(part, share) for part, share in zip(self._parts, choosing)]
+        self._orders = [
+            _indices(cloud, marks.selected, share)
+            for (cloud, marks), share in zip(self._parts, choosing)
+        ]
         self._ends = np.cumsum([len(order) for order in self._orders], dtype=np.int64)
         # A single block is a single leaf.
         only, blocks = self._only_block(), self._blocks
@@ -76,14 +70,14 @@ class MemoryStore(Store):
         """Return column and row of the block that holds all points; None if there are several."""
         if not self._parts or self._ends[-1] > self._blocks.most_points:
             return None
-        corners = np.array([part.cloud.bounds(self._frame) for part in self._parts]).reshape(-1, 2)
+        corners = np.array([cloud.bounds(self._frame) for cloud, _ in self._parts]).reshape(-1, 2)
         numbers = self._blocks.number(corners)
         return numbers[0] if (numbers == numbers[:1]).all() else None
 
     def _sort(self, number: int, piece: slice) -> None:
         """Sort some of the selected points of a part by leaves."""
         order = self._orders[number]
-        places = self._parts[number].cloud.places(order[piece], self._frame)
+        places = self._parts[number][0].places(order[piece], self._frame)
         first = int(self._ends[number]) - len(order) + piece.start
         order[piece] = order[piece][self._runs.sort(places, first)]
 
@@ -111,21 +105,21 @@ class MemoryStore(Store):
 
     def _with_flag(self, number: int, which: np.ndarray, known_or: str) -> np.ndarray:
         """Return those of some points of a part that are known ground, or have a flag."""
-        part = self._parts[number]
-        masks = part.known, part.flags.get(known_or)
+        _, marks = self._parts[number]
+        masks = marks.known, marks.flags.get(known_or)
         flags = [mask[which] for mask in masks if mask is not None]
         return which[np.logical_or.reduce(flags)] if flags else which[:0]
 
     def _contents(self, number: int, which: np.ndarray, frame: Frame) -> BlockPoints:
-        part, count = self._parts[number], len(which)
-        known = np.zeros(count, bool) if part.known is None else part.known[which]
-        wanted = np.ones(count, bool) if part.wanted is None else part.wanted[which]
+        (cloud, marks), count = self._parts[number], len(which)
+        known = np.zeros(count, bool) if marks.known is None else marks.known[which]
+        wanted = np.ones(count, bool) if marks.wanted is None else marks.wanted[which]
         flags = {
-            name: part.flags[name][which] if name in part.flags else np.zeros(count, bool)
+            name: marks.flags[name][which] if name in marks.flags else np.zeros(count, bool)
             for name in self.flags
         }
         positions = np.add(which, self.starts[number], dtype=smallest_integers(self.count))
-        points = part.cloud.points(which, frame)
+        points = cloud.points(which, frame)
         return BlockPoints(points, known, wanted, positions, flags)
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:
@@ -135,18 +129,18 @@ class MemoryStore(Store):
     def values(self, number: int) -> np.ndarray:
         """Return the values of all points of a part."""
         start = self.starts[number]
-        return self._values[start : start + self._parts[number].cloud.count]
+        return self._values[start : start + self._parts[number][0].count]
 
 
-def _indices(part: _Part, progress: Progress) -> np.ndarray:
+def _indices(cloud: PointCloud, selected: np.ndarray, progress: Progress) -> np.ndarray:
     """Return the indices of the selected points of a part, in the smallest integer type."""
-    count = np.count_nonzero(part.selected)
-    indices: np.ndarray = np.empty(count, dtype=smallest_integers(part.cloud.count))
+    count = np.count_nonzero(selected)
+    indices: np.ndarray = np.empty(count, dtype=smallest_integers(cloud.count))
     end = 0
-    for some in parts_of(part.cloud.count, _CHOSEN):
-        found = np.flatnonzero(part.selected[some])
+    for some in parts_of(cloud.count, _CHOSEN):
+        found = np.flatnonzero(selected[some])
         indices[end : end + len(found)] = found
         indices[end : end + len(found)] += some.start
         end += len(found)
-        progress(some.stop / part.cloud.count)
+        progress(some.stop / cloud.count)
     return indices

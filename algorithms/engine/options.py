@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Iterable
 
 from ..core.parameters import ParameterSet, parameter
 from ..crs.stated import stated_wkt
@@ -61,6 +62,12 @@ class RunOptions:
     # The CRS of the points in place of that of files: an EPSG code such as "EPSG:2230", or WKT.
     # Written point clouds keep their records.
     crs: str | None = None
+
+    @classmethod
+    def of(cls, sets: Iterable[ParameterSet], crs: str | None = None) -> RunOptions:
+        """Return the options among parameter sets of a tool."""
+        files, tiles = TileInput.among(sets), TileOutput.among(sets)
+        return cls(files, tiles, Resources.among(sets), crs)
 
     @property
     def stated(self) -> str | None:

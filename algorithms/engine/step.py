@@ -21,7 +21,6 @@ from ..core.files import Outputs
 from ..core.parameters import ParameterSet
 from ..core.points import Box, Frame
 from ..core.progress import SILENT, Progress
-from ..crs.system import Crs
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
@@ -41,6 +40,7 @@ class Step:
 
     kind: type = np.uint8  # of the value that a store holds for each point
     counts: type  # of the counters that `marks` adds to
+    imports: tuple[str, ...] = ()  # modules that it needs, which take time to load
     weight_of_outputs = 0.0  # in the progress, as a share of `weight`
 
     @property
@@ -72,8 +72,8 @@ class Step:
         """The blocks in which the step works."""
         raise NotImplementedError
 
-    def placed(self, crs: Crs, box: Box | None = None, progress: Progress = SILENT) -> Any:
-        """Return the step for points in a CRS and, as far as it is known, a box."""
+    def placed(self, place: Place, progress: Progress = SILENT) -> Any:
+        """Return the step for points at a place."""
         return self
 
     def seeing(self, parts: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT) -> Any:
@@ -168,7 +168,7 @@ class PointStep(Step):
         """Return an object that collects the values of a file, given what `marks` counted in it;
         None in a survey, in which that is not known by file.
         """
-        return CountedPoints(self)
+        return PointResult(self)
 
 
 class Sink(Step):
@@ -199,21 +199,16 @@ class Sink(Step):
         raise NotImplementedError
 
 
-class CountedClasses:
-    """Base of summaries, which are frozen dataclasses, with the number of points of each class."""
-
-    class_counts: dict[int, int]
-
-    def __post_init__(self) -> None:
-        # The keys of the JSON record are strings.
-        counts = {int(value): count for value, count in self.class_counts.items()}
-        object.__setattr__(self, "class_counts", counts)
-
-
 class PointResult:
-    """What a step found for the points of a file, beside their classes."""
+    """What a step found for the points of a file: here the `numbers` of its summary, as of a step
+    that changes only classes.
+    """
 
     kept: np.ndarray | None = None  # bool, (n,): which points are written; None for all
+
+    def __init__(self, step: PointStep) -> None:
+        self._step: Any = step
+        self._numbers = Counter[str]()
 
     @property
     def is_empty(self) -> bool:
@@ -224,7 +219,7 @@ class PointResult:
         """Add the values, shape (k,), of the points at `where` in the file, given without and with
         what the step changes.
         """
-        raise NotImplementedError
+        self._numbers.update(point_count=before.count, **self._step.numbers(before, after, values))
 
     def end(self, progress: Progress, why: str = "") -> None:
         """Report what was found in a file, or refuse to write it without a result, of which `why`
@@ -239,21 +234,6 @@ class PointResult:
 
     def summary(self, name: str, class_counts: dict[int, int]) -> Any:
         """Return the summary of an output with points of each class, as `summary_type`."""
-        raise NotImplementedError
-
-
-class CountedPoints(PointResult):
-    """What a step that changes only classes found: the `numbers` of its summary."""
-
-    def __init__(self, step: PointStep) -> None:
-        self._step, self._numbers = step, Counter[str]()
-
-    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
-        """Count some points."""
-        self._numbers.update(point_count=before.count, **self._step.numbers(before, after, values))
-
-    def summary(self, name: str, class_counts: dict[int, int]) -> Any:
-        """Return the numbers of points."""
         return self._step.summary_type(name, **self._numbers, class_counts=class_counts)
 
 

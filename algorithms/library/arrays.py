@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Callable, Iterator, cast
+from typing import Any, Callable, Iterator, Sequence, cast
 
 import numpy as np
 
@@ -20,13 +20,13 @@ from ..core.progress import Progress
 from ..core.threads import available_cpus, may_use
 from ..engine.file_points import FilePoints, TileResult
 from ..engine.memory import Resources
-from ..engine.step import PointStep, located
-from ..engine.values import StoreValues
+from ..engine.one_file import FileRun
+from ..engine.step import Step, located
 from ..las.cloud import PointCloud, survey_frame
-from ..runs.requests import ClassifyRequest, PointRequest, TerrainRequest
+from ..survey.files import Inputs
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.selection import Selection
-from ..tools import point_tool
+from ..tools import map_tool, point_tool
 from ..tools.check.accuracy import Accuracy
 from ..tools.check.checking import CheckOptions, check_points
 from ..tools.check.results import Check
@@ -36,7 +36,7 @@ from ..tools.heights import HeightOutput, HeightsOfPoints
 from ..tools.key_points import KeyPointMark
 from ..tools.rasters.output import write_rasters
 from ..tools.rasters.parameters import SurfaceModel, TerrainModel
-from ..tools.rasters.rows import RASTERS, RasterFiles
+from ..tools.rasters.rows import RASTERS
 from . import arguments, tool_commands
 from .arguments import REQUIRED, Argument, Kind
 from .functions import PACKAGE, Function
@@ -90,6 +90,7 @@ _CRS = Argument(
     " that of a laspy.LasData, and without both coordinates are metres",
 )
 _LAST = (_CRS, arguments.PROGRESS)
+_NO_FILES = Inputs((), is_survey=False)
 
 
 @dataclass(frozen=True)
@@ -100,20 +101,13 @@ class ArrayTerrain(TerrainModel):
 
 
 def _found(
-    cloud: PointCloud, step: PointStep, resources: Resources, progress: Progress
+    cloud: PointCloud, steps: Sequence[Step], resources: Resources, progress: Progress
 ) -> TileResult:
-    """Return what a step finds for points."""
+    """Return what steps find for points."""
     with may_use(resources.thread_count):
-        points = FilePoints(cloud, resources)
-        (step,) = located([step], points.place, progress)
-        counts = step.counts()
-        (store,) = points.gathered([(step, counts)], points.parts(), progress.part(0.0, 0.1))
-        step.work(store, points.resources, progress.part(0.1, 0.95))
-        result = TileResult(points, [StoreValues(step, store)], [counts])
-        for where, part in points.parts(progress.part(0.95, 1.0)):
-            result.add(where, part)
-        result.end(progress)
-        return result
+        run = FileRun(FilePoints(cloud, resources), steps, progress)
+        run.work(progress.part(0.0, 0.95))
+        return run.found(progress.part(0.95, 1.0))
 
 
 def _cloud(values: SimpleNamespace, sets: list[Any], progress: Progress) -> PointCloud:
@@ -122,18 +116,18 @@ def _cloud(values: SimpleNamespace, sets: list[Any], progress: Progress) -> Poin
     return with_ground(cloud, values.ground, GroundClasses.among(sets).ground_classes)
 
 
-def _classes(values: SimpleNamespace, sets: list[Any]) -> tuple[Any, ClassifyRequest]:
-    """Return the class of each point, and what was asked for."""
+def _classes(values: SimpleNamespace, sets: list[Any]) -> Any:
+    """Return the class of each point."""
     progress = progress_of(values.progress)
-    request = ClassifyRequest.of(sets, area=area_of(values), corrections=corrections_of(values))
+    inputs = {"area": area_of(values), "corrections": corrections_of(values)}
+    steps = map_tool("classify").steps(sets, {"input": _NO_FILES, **inputs}, {})
     cloud = cloud_of(values, progress)
-    found = _found(cloud, request.step, request.resources.now(), progress)
-    return found.classification, request
+    return _found(cloud, steps, Resources.among(sets).now(), progress).classification
 
 
 def _ground_of(values: SimpleNamespace, sets: list[Any]) -> np.ndarray:
-    classes, request = _classes(values, sets)
-    return np.isin(classes, request.ground.ground_classes)
+    ground = GroundClasses.of_selection(Selection.among(sets))
+    return np.isin(_classes(values, sets), ground.ground_classes)
 
 
 def _of_classes(
@@ -172,9 +166,9 @@ def _of_tool(
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         progress = progress_of(values.progress)
         inputs = {one.name: _input_of(one, values) for one in tool.inputs}
-        request = PointRequest.of(tool, [*sets, *fixed], inputs)
+        steps = tool.steps([*sets, *fixed], inputs, {})
         cloud = _cloud(values, sets, progress)
-        return value(_found(cloud, request.step, request.resources.now(), progress))
+        return value(_found(cloud, steps, Resources.among(sets).now(), progress))
 
     sets = tuple(kind for kind in tool.sets if kind not in map(type, fixed))
     inputs = [argument for declared in tool.inputs for argument in arguments_of(declared)]
@@ -196,16 +190,17 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
     if is_automatic(values.water):
         raise BareEarthError("Water is found in files only: give polygons of water.")
     sets = [TerrainModel(**vars(one)) if type(one) is ArrayTerrain else one for one in sets]
-    request = TerrainRequest.of(
-        sets, rasters=RasterFiles(**{name: Path(name) for name in names}), area=area_of(values),
-        constraints=constraints_of(values), raster_target=target_of(values),
-    )  # fmt: skip
-    cloud, resources = _cloud(values, sets, progress), request.resources.now()
+    inputs = {
+        "area": area_of(values), "constraints": constraints_of(values),
+        "raster_target": target_of(values),
+    }  # fmt: skip
+    steps = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})
+    cloud, resources = _cloud(values, sets, progress), Resources.among(sets).now()
     with may_use(resources.thread_count), Outputs() as outputs:
         points = FilePoints(cloud, resources)
         place = points.place
-        (step,) = located([request.raster_step], place, progress)
-        step, counts = step.placed(cloud.crs, place.box, progress), step.counts()
+        (step,) = located(steps, place, progress)
+        step, counts = step.placed(place, progress), step.counts()
         (store,) = points.gathered([(step, counts)], points.parts(), progress.part(0.0, 0.1))
         frame, collected = survey_frame(cloud.crs, step.origin), Collected()
         step = step.seeing((part for _, part in points.parts()), frame, progress)
@@ -308,7 +303,7 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
         "classify",
         "Classify ground (2), low noise (7) and bridge decks (17).",
         _CLASSES_KIND,
-        lambda values, sets: _classes(values, sets)[0],
+        _classes,
     ),
     "ground": lambda: _of_classes(
         "ground", "Find the ground points.", _MASK_KIND("Which points are ground."), _ground_of

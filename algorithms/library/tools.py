@@ -5,12 +5,12 @@ from __future__ import annotations
 import inspect
 import sys
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Callable
+from typing import Any, Callable, Mapping
 
-from ..core.errors import BareEarthError
+from ..core.errors import UsageError
 from ..core.progress import Progress
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
@@ -171,20 +171,6 @@ def _input(declared: Input, values: SimpleNamespace) -> Any:
 def _of_point_tool(command: str) -> Function:
     """Return the function of a tool that writes classified files anew."""
     tool = point_tool(command)
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..runs.entry import write
-        from ..runs.requests import PointRequest
-
-        progress, inputs, given = progress_of(values.progress), inputs_of(values), {}
-        for declared in tool.inputs:
-            given[declared.name], progress = _tool_input(
-                tool, declared, values, inputs, sets, progress
-            )
-        request = PointRequest.of(tool, sets, given, values.crs)
-        workers = workers_of(values, request.resources)
-        return write(inputs, values.output, request, progress, workers)
-
     return Function(
         POINT_TOOLS[command].file,
         _about(POINT_TOOLS[command].help, tool.command_about),
@@ -194,36 +180,33 @@ def _of_point_tool(command: str) -> Function:
             arguments.CRS_OF_OUTPUT, *_REACHES,
         ),
         (*tool.sets, TileInput, TileOutput, Resources),
-        run,
+        partial(_run_on_points, tool),
         tool.step.summary_type,
         is_survey_if_many=True,
     )  # fmt: skip
 
 
+def _run_on_points(tool: Tool, values: SimpleNamespace, sets: list[Any]) -> Any:
+    """Let a tool work on points."""
+    from ..tools.running import run
+
+    outputs = _outputs_of(tool, values)
+    points = inputs_of(values, getattr(tool, "is_survey", False))
+    inputs, progress = {"input": points, "crs": values.crs}, progress_of(values.progress)
+    for declared in tool.inputs:
+        inputs[declared.name], progress = _tool_input(
+            declared, values, inputs, sets, _kinds(tool, outputs), progress
+        )
+    workers = workers_of(values, Resources.among(sets))
+    return run(tool, inputs, outputs, sets, progress, workers)
+
+
 def _of_map_tool(command: str) -> Function:
     """Return the function of a tool that makes rasters of points."""
-    from ..runs.one_file import Summary
+    from ..tools.ground.step import Summary
     from ..tools.rasters.output import RasterSize
 
     tool = map_tool(command)
-
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        from ..runs.entry import make
-        from ..runs.requests import map_request
-
-        progress, given = progress_of(values.progress), {}
-        inputs = inputs_of(values, tool.is_survey)
-        for declared in tool.inputs:
-            given[declared.name], progress = _tool_input(
-                tool, declared, values, inputs, sets, progress
-            )
-        outputs = _outputs_of(tool, values)
-        request = map_request(tool, sets, outputs, crs=values.crs, **given)
-        workers = workers_of(values, request.resources)
-        if tool.classifies:
-            outputs.update(output=Path(values.output), vpc=path_of(values.vpc))
-        return make(inputs, outputs, request, progress, workers)
-
     first = [_argument_of(output) for output in tool.all_outputs if not output.advanced]
     inputs = [argument for declared in tool.inputs for argument in arguments_of(declared)]
     last = [_argument_of(output) for output in tool.all_outputs if output.advanced]
@@ -240,7 +223,7 @@ def _of_map_tool(command: str) -> Function:
             *_REACHES,
         ),
         tool.sets,
-        run,
+        partial(_run_on_points, tool),
         Summary if tool.classifies else RasterSize,
         is_survey_if_many=tool.classifies,
         has_method=tool.classifies,
@@ -280,16 +263,24 @@ def _of_composition(command: str) -> Function:
 
 
 def _outputs_of(tool: Tool, values: SimpleNamespace) -> dict[str, Path | None]:
-    """Return the paths of the outputs of a tool, by their names."""
-    return {output.name: path_of(getattr(values, _name_of(output))) for output in tool.all_outputs}
+    """Return the paths of the outputs of a tool, by their names, and of the points."""
+    names = {output.name: _name_of(output) for output in tool.all_outputs}
+    names = {"output": "output", "vpc": "vpc", **names}
+    return {name: path_of(getattr(values, option, None)) for name, option in names.items()}
+
+
+def _kinds(tool: Tool, paths: Mapping[str, Path | None]) -> list[tuple[str, Path]]:
+    """Return the kinds and paths of the outputs that the user wants."""
+    kinds = {output.name: output.kind for output in tool.all_outputs}
+    return [(kinds[name], path) for name, path in paths.items() if path and name in kinds]
 
 
 def _tool_input(
-    tool: Tool,
     declared: Input,
     values: SimpleNamespace,
-    inputs: Inputs,
+    inputs: Mapping[str, Any],
     sets: list[Any],
+    outputs: list[tuple[str, Path]],
     progress: Progress,
 ) -> tuple[Any, Progress]:
     """Return a further input of a tool as its run has it, and what is left of the progress."""
@@ -300,20 +291,18 @@ def _tool_input(
         return (None if path is None else declared.of(path)), progress
     is_found = declared.found is not None and is_automatic(values.water)
     if declared.kind == "constraints" and not is_found and is_automatic(values.water):
-        raise BareEarthError(
-            "Water is found in classified points: make the rasters with terrain() and its"
-            ' water="automatic".'
-        )
+        is_command = getattr(values, "in_processes", False)
+        how = "'bare-earth terrain --water automatic'"
+        how = how if is_command else 'terrain() and its water="automatic"'
+        raise UsageError(f"Water is found in classified points: make the rasters with {how}.")
     if declared.kind in _READERS:
         given = _READERS[declared.kind](values)
     else:
         given = None if is_found else declared.of(polygons_of(getattr(values, declared.name)))
     if not is_found or declared.found is None:
         return given, progress
-    places = _outputs_of(tool, values)
-    kinds = [(output.kind, places[output.name]) for output in tool.all_outputs]
     # To find polygons can take minutes.
-    check_outputs([(kind, path) for kind, path in kinds if path is not None], inputs)
+    check_outputs(outputs, inputs["input"])
     ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
-    found = declared.found(inputs, ground, values.crs, part)
+    found = declared.found(inputs["input"], ground, values.crs, part)
     return (found if given is None else given.with_water(found, part)), progress.part(0.4, 1.0)

@@ -23,6 +23,7 @@ from ..las.opening import open_las
 from ..las.sources import read_text
 from .copies import copies_in, tell_of_twins
 from .overview import is_overview
+from .shapes import Place
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import no_extent, read_vpc
 
@@ -87,6 +88,11 @@ class Survey:
     def box(self) -> Box:
         """Smallest x and y, largest x and y of all tiles, in units of the CRS."""
         return box_round(self._boxes)
+
+    @property
+    def place(self) -> Place:
+        """Where the points lie."""
+        return Place("the files", self.crs, self.box)
 
     @cached_property
     def _boxes(self) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import Any, Callable, Mapping, Sequence
 
 from ..core.parameters import ParameterSet
 from ..core.progress import Progress
-from ..engine.step import PointStep
+from ..engine.step import PointStep, Step
 from ..survey.ground_classes import GroundClasses
 
 # Search words of the toolbox that several tools share; each text is translated as a whole.
@@ -94,6 +94,9 @@ class Output:
     by_default: bool = True  # whether the dialog makes it unless the user says no
     look: str = ""  # how QGIS shows it: a name in `LOOKS` of plugin/styles/layers.py
     needs: str = ""  # the input without which dialogs and deliveries do not make it
+    # Another tool draws it when the points are done: its command, and the output that it reads.
+    drawn_by: str = ""
+    drawn_of: str = ""
     # Of a folder: the rasters that the tool writes, by their names, in the folder that the user
     # gives, or that file alone. The work gets their temporary paths by name.
     files: Callable[[Path, Sequence[ParameterSet]], dict[str, Path]] | None = None
@@ -183,8 +186,20 @@ class PointTool(Tool):
         label, text = self.output_label, self.output_help
         return (Output("output", "cloud", _CLOUD_HELP, label, text, is_main=True),)
 
+    def steps(
+        self,
+        sets: Sequence[ParameterSet],
+        inputs: Mapping[str, Any],
+        outputs: Mapping[str, Path],
+    ) -> tuple[Step, ...]:
+        """Return its step, given its sets, and inputs and outputs by their names."""
+        names = {type(default): name for name, default in vars(self.step()).items()}
+        fields = {names[type(values)]: values for values in sets if type(values) in names}
+        given = (declared.name for declared in self.inputs if declared.name in inputs)
+        return (self.step(**fields, **{name: inputs[name] for name in given}),)
 
-def _nothing(**given: Any) -> None:
+
+def _nothing(*given: Any, **named: Any) -> Any:
     """Do nothing."""
 
 
@@ -213,6 +228,9 @@ class FileTool(Tool):
 class MapTool(Tool):
     """A tool that makes rasters and contour lines of points, in a run of several steps."""
 
+    # Returns the steps, given sets, and inputs and outputs by their names, none of which need be
+    # there but the points.
+    steps: Callable[..., tuple[Step, ...]] = _nothing
     function_about: str = ""  # first paragraph of the documentation of the function
     # Without the points that it writes; asked for anew, since rows of rasters can be added.
     outputs: Callable[[], tuple[Output, ...]] = tuple

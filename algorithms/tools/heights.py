@@ -17,8 +17,9 @@ from ..crs.system import unit_name
 from ..engine.blocks import Block, Blocks
 from ..engine.blockwise import over_blocks
 from ..engine.memory import Cost, Resources
-from ..engine.step import Allocate, CountedClasses, PointResult, PointStep
+from ..engine.step import Allocate, PointResult, PointStep
 from ..engine.store import BlockPoints, Marks, Store
+from ..engine.summary import TileSummary
 from ..grids.height_above_ground import GroundSurface, with_roads
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
@@ -53,7 +54,7 @@ class HeightOutput(ParameterSet):
 
 
 @dataclass(frozen=True, order=True)
-class HeightSummary(CountedClasses):
+class HeightSummary(TileSummary):
     """The heights above ground of a file, in the vertical unit of the CRS."""
 
     name: str  # of the output
@@ -128,7 +129,8 @@ class HeightsOfPoints(PointResult):
     """The heights above ground of a file; `allocate` returns an array, one value a point."""
 
     def __init__(self, step: MeasureHeights, allocate: Allocate) -> None:
-        self._step, self._as_z = step, step.output.output_as == "z"
+        super().__init__(step)
+        self._as_z = step.output.output_as == "z"
         # Single precision is enough for a dimension. Heights that replace z are rounded as z is.
         # float, (n,): vertical unit of the CRS; NaN far from ground
         self.heights = allocate(np.float64 if self._as_z else np.float32)

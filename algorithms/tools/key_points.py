@@ -14,8 +14,9 @@ from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
 from ..engine.blockwise import fill
 from ..engine.memory import Resources
-from ..engine.step import Allocate, CountedClasses, CountedPoints, PointStep, with_classes
+from ..engine.step import Allocate, PointResult, PointStep, with_classes
 from ..engine.store import BlockPoints, Corner, Marks, Store
+from ..engine.summary import TileSummary
 from ..grids.model_key_points import ModelKeyPoints, model_key_points, reach
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
@@ -54,7 +55,7 @@ class KeyPointMark(ParameterSet):
 
 
 @dataclass(frozen=True, order=True)
-class KeyPointSummary(CountedClasses):
+class KeyPointSummary(TileSummary):
     """The numbers of key points of a file."""
 
     name: str  # of the output
@@ -132,12 +133,12 @@ class FindKeyPoints(PointStep):
             "key_point_count": int(np.count_nonzero(values == _KEY)),
         }
 
-    def result(self, path: Path, allocate: Allocate, counts: Any = None) -> CountedPoints:
+    def result(self, path: Path, allocate: Allocate, counts: Any = None) -> PointResult:
         """Return an object that counts the key points of a file, and collects their flags."""
-        return CountedPoints(self) if self.gives_classes else _Flags(self, allocate)
+        return PointResult(self) if self.gives_classes else _Flags(self, allocate)
 
 
-class _Flags(CountedPoints):
+class _Flags(PointResult):
     """The key points of a file that keep their class, as a flag of each point."""
 
     def __init__(self, step: FindKeyPoints, allocate: Allocate) -> None:

@@ -1,39 +1,93 @@
-"""Runs a tool that works on files, for the command line, the library and the dialogs."""
+"""Runs a tool of any kind, for the command line, the library, the dialogs and deliveries."""
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import inspect
 from pathlib import Path
 from typing import Any, Mapping, Sequence
 
-from ..core.files import Outputs, new_folder
+from ..core.files import Outputs, new_folder, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
+from ..engine.options import RunOptions
+from ..engine.run import Run
+from ..engine.workers import Workers
+from ..rasters.virtual import virtual_of
 from ..remote.addresses import is_address
 from ..survey.files import Inputs
 from ..survey.outputs import check_outputs, place
-from .declaration import FileTool
+from . import file_tool
+from .declaration import FileTool, MapTool, PointTool, Tool
 
 _FILES = ("cloud", "raster", "address")
 
 
 def run(
-    tool: FileTool,
+    tool: Tool,
     inputs: Mapping[str, Any],
     outputs: Mapping[str, str | Path | None] = {},
     sets: Sequence[ParameterSet] = (),
     progress: Progress = SILENT,
+    workers: Workers | None = None,
 ) -> Any:
-    """Check the outputs, which are given by name, and let the tool write them: all of them or none;
-    return what it found.
+    """Let a tool work, given inputs and outputs by their names, and return what it found; `workers`
+    are those of many files.
     """
+    paths = {name: Path(path) for name, path in outputs.items() if path}
+    if isinstance(tool, FileTool):
+        return _run_on_files(tool, inputs, paths, sets, progress)
+    if isinstance(tool, (PointTool, MapTool)):
+        return _run_on_points(tool, inputs, paths, sets, progress, workers)
+    raise TypeError(f"{tool.command} has no run of its own.")
+
+
+def _run_on_points(
+    tool: PointTool | MapTool,
+    inputs: Mapping[str, Any],
+    outputs: dict[str, Path],
+    sets: Sequence[ParameterSet],
+    progress: Progress,
+    workers: Workers | None,
+) -> Any:
+    """Let the steps of a tool work, and then the tools that draw further outputs of theirs."""
+    points = Inputs(inputs["input"])
+    drawn = [one for one in tool.all_outputs if one.drawn_by and one.name in outputs]
+    check_outputs([(one.kind, outputs[one.name]) for one in drawn], points)
+    working, *drawing = progress.shares(9.0, *(1.0 for _ in drawn)) if drawn else [progress]
+    with contextlib.ExitStack() as folders:
+        own = dict(outputs)
+        for one in drawn:
+            # If nobody asks for what it is drawn of, that is a temporary file.
+            folder = folders.enter_context(temporary_folder(own.pop(one.name).parent))
+            own.setdefault(one.drawn_of, folder / f"{one.drawn_of}.tif")
+        steps = tool.steps(sets, {**inputs, "input": points}, own)
+        work = Run(steps, RunOptions.of(sets, inputs.get("crs")))
+        done = work.work(points, own.get("output"), working, workers, own.get("vpc"))
+        written = [output for step in steps for output in step.outputs(points.is_survey)]
+        for one, part in zip(drawn, drawing):
+            source = own[one.drawn_of]
+            if ("raster set", source) in written:
+                source = virtual_of(source)
+            target = {"output": outputs[one.name]}
+            _run_on_files(file_tool(one.drawn_by), {"source": source}, target, sets, part)
+    return done
+
+
+def _run_on_files(
+    tool: FileTool,
+    inputs: Mapping[str, Any],
+    paths: Mapping[str, Path],
+    sets: Sequence[ParameterSet],
+    progress: Progress,
+) -> Any:
+    """Check the outputs, and let the tool write them: all of them or none; return what it found."""
     given: dict[str, Any] = {declared.name: None for declared in tool.inputs}
     given.update({output.name: None for output in tool.outputs}, **inputs)
     for declared in tool.inputs:
         if declared.kind == "clouds":
             given[declared.name] = Inputs(given[declared.name] or ())
-    paths = {name: Path(path) for name, path in outputs.items() if path}
     wanted = [
         (output, paths[output.name], output.paths(paths[output.name], sets))
         for output in tool.outputs

@@ -12,8 +12,9 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
 from ..engine.memory import Resources
-from ..engine.step import CountedClasses, PointStep, with_classes
+from ..engine.step import PointStep, with_classes
 from ..engine.store import Marks, Store
+from ..engine.summary import TileSummary
 from ..grids.lines import near_rings
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
@@ -120,7 +121,7 @@ def classes_at_water(
 
 
 @dataclass(frozen=True, order=True)
-class WaterClassSummary(CountedClasses):
+class WaterClassSummary(TileSummary):
     """The points of a file that became water or ignored ground."""
 
     name: str  # of the output

@@ -25,7 +25,6 @@ _PARTS = {
     # Where the main thread waits for the threads of the blocks.
     "algorithms/engine/": "filtering",
     "algorithms/tools/ground/": "filtering",
-    "algorithms/runs/": "filtering",
     "algorithms/filters/": "filtering",
     "algorithms/grids/": "filtering",
 }

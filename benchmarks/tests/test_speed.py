@@ -102,7 +102,7 @@ def test_survey_is_one(survey, tmp_path):
 def test_survey_has_ground_houses_and_trees(survey):
     from bare_earth.algorithms.filters import METHODS
     from bare_earth.algorithms.las.reading import read_cloud
-    from bare_earth.algorithms.runs.one_file import classify_cloud
+    from benchmarks.clouds import classify_cloud
 
     cloud = read_cloud(survey)
     landscape = tiles.Landscape(np.random.default_rng(tiles.SEED))

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from qgis.core import QgsProcessingContext
 
 from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.survey.selection import Selection
 from ...algorithms.tools import map_tool
 from ...algorithms.tools.declaration import MapTool
 from ...algorithms.tools.ground.tool import METHOD_TOOLS, as_command
-from ...algorithms.tools.rasters.parameters import RasterOutput
+from ...algorithms.tools.rasters.parameters import RasterOutput, TerrainModel
 from ..i18n import mark
 from .base import command_line
 from .classified import show_classified
@@ -44,14 +44,10 @@ class MapAlgorithm(ToolAlgorithm):
     ) -> dict[str, Any]:
         """Run the tool, show what was written, and return the results."""
         # Imported here, so that QGIS starts faster.
-        from ...algorithms.runs.entry import make
-        from ...algorithms.runs.requests import ClassifyRequest, map_request
+        from ...algorithms.tools.running import run
 
-        tool = self._tool
-        paths = {name: Path(path) for name, path in outputs.items() if path}
-        given = {declared.name: inputs[declared.name] for declared in tool.inputs}
-        request = map_request(tool, as_command(chosen), paths, crs=self.stated, **given)
-        done = make(self.inputs, paths, request, progress)
+        tool, given = self._tool, {**inputs, "input": self.inputs, "crs": self.stated}
+        done = run(tool, given, outputs, chosen, progress)
         if tool.is_survey:
             progress.info(f"{done.text}.")
             outputs["vpc"] = done.vpc
@@ -66,12 +62,11 @@ class MapAlgorithm(ToolAlgorithm):
             rasters = {output.field_name for output in self._outputs if output.kind == "raster"}
             drawn = {name: path for name, path in results.items() if name in rasters}
             results.update(shown_rasters(drawn, RasterOutput.among(chosen), context))
-        if isinstance(request, ClassifyRequest):
-            cloud = done.vpc if tool.is_survey else outputs["output"]
-            self.class_counts = done.class_counts
-            cells = request.terrain.dtm_cell_size, request.terrain.dtm_cell_unit == "crs"
-            ground = request.selection.to_class
-            show_classified(self, cloud, done.class_counts, ground, cells, context, progress)
+        if tool.classifies:
+            self.class_counts, model = done.class_counts, TerrainModel.among(chosen)
+            cells = model.dtm_cell_size, model.dtm_cell_unit == "crs"
+            shown = done.class_counts, Selection.among(chosen).to_class, cells
+            show_classified(self, done.vpc or outputs["output"], *shown, context, progress)
         return {**results, **{name: getattr(done, name.lower()) for name, _ in tool.numbers}}
 
     def _cloud(self, request: Request, name: str) -> str:

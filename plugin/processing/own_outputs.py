@@ -31,27 +31,27 @@ def make_own(
     progress: FeedbackProgress,
 ) -> dict[str, Any]:
     """Make the outputs, set the looks of their layers, and return what the algorithm returns."""
-    from ...algorithms.runs.terrain_maps import MapFiles, MapRequest, make_maps
+    from ...algorithms.delivery.maps import MapFiles, make_maps
 
     chosen = without_delivery(algorithm.chosen(parameters, context))
-    request = MapRequest.of(chosen, **limits)
     cloud = algorithm.point_cloud_destination(parameters, "OUTPUT", context)
     results: dict[str, Any] = dict(outputs.raster_paths(algorithm, parameters, context))
     lines, rasters = results.get("CONTOURS"), outputs.raster_files(results)
     files = MapFiles(Path(cloud) if cloud else None, rasters, Path(lines) if lines else None)
-    summary = make_maps(algorithm.inputs, files, request, progress)
+    summary = make_maps(algorithm.inputs, files, chosen, limits, progress)
     written = str(cloud and summary.cloud)
-    area = area_options(request.area, progress, is_all=True)
+    area = area_options(limits["area"], progress, is_all=True)
     for command in _commands(algorithm.inputs, written, results, chosen, area, limits):
         progress.command(command)
-    progress.share(summary.ground_count, summary.point_count, bool(request.area))
+    progress.share(summary.ground_count, summary.point_count, bool(limits["area"]))
     if lines and summary.contour_interval is not None:
         algorithm.show(lines, contours(summary.contour_interval))
     if cloud:
         results["OUTPUT"], algorithm.class_counts = written, summary.class_counts
         outputs.do_not_load(context, {cloud} - {written})
-        cells = request.terrain.dtm_cell_size, request.terrain.dtm_cell_unit == "crs"
-        look = request.selection.to_class, cells, context, progress, BELOW_TERRAIN
+        model, ground = MapTerrain.among(chosen), Selection.among(chosen).to_class
+        cells = model.dtm_cell_size, model.dtm_cell_unit == "crs"
+        look = ground, cells, context, progress, BELOW_TERRAIN
         show_classified(algorithm, written, summary.class_counts, *look)
     return {**results, "POINT_COUNT": summary.point_count, "GROUND_COUNT": summary.ground_count}
 

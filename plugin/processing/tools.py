@@ -271,14 +271,13 @@ class PointToolAlgorithm(ToolAlgorithm):
         progress: FeedbackProgress,
     ) -> dict[str, Any]:
         """Find the values of the points, write them, and show the points."""
-        from ...algorithms.runs.entry import write
-        from ...algorithms.runs.requests import PointRequest
+        from ...algorithms.tools.running import run
 
         output, ground = outputs["output"], GroundClasses.among(chosen)
         start = _FINDING if any(declared.found for declared in self._tool.inputs) else 0.0
         if start:  # to find them can take minutes
             check_outputs([("cloud", Path(output))], self.inputs)
-        finding, further = progress.part(0.0, start), {}
+        finding, given = progress.part(0.0, start), {"input": self.inputs, "crs": self.stated}
         for declared in self._tool.inputs:
             value = inputs.get(declared.name)
             if declared.kind == "raster" and value is not None:
@@ -286,18 +285,17 @@ class PointToolAlgorithm(ToolAlgorithm):
             elif declared.found and value is None:
                 value = declared.found(self.inputs, ground, self.stated, finding)
             if declared.name in inputs:
-                further[declared.name] = value
-        request = PointRequest.of(self._tool, chosen, further, self.stated)
-        found = write(self.inputs, Path(output), request, progress.part(start, 1.0))
+                given[declared.name] = value
+        found = run(self._tool, given, {"output": output}, chosen, progress.part(start, 1.0))
         progress.info(found.text)
-        if self.inputs.is_survey:
+        if found.vpc:
             output = found.vpc
             if compat.can_load(output):
                 compat.load_point_cloud(output, context)
             else:
                 progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
         numbers = _numbers_of(found, [name for name, _ in self._tool.numbers])
-        self.class_counts = getattr(found, "class_counts", {})
+        self.class_counts = found.class_counts
         self.show(output, self._look(chosen, found, numbers))
         if not compat.can_load(output):
             first = (*ground.ground_classes, GROUND)[0]
@@ -309,15 +307,14 @@ class PointToolAlgorithm(ToolAlgorithm):
         if self._tool.shows != "heights":
             return layers.classes(found.class_counts, _TITLES[self._tool.shows])
         is_z = any(getattr(values, "output_as", "") == "z" for values in chosen)
-        unit = getattr(found, "tiles", (found,))[0].unit_size
+        unit = found.tiles[0].unit_size
         return layers.heights("Z" if is_z else HEIGHT_DIMENSION, numbers["MAXIMUM"], unit)
 
 
 def _numbers_of(found: Any, names: list[str]) -> dict[str, Any]:
     """Return the outputs that are numbers, from a summary of one file or of many."""
-    files = getattr(found, "tiles", (found,))
     return {
-        name: _TOGETHER.get(name, sum)(getattr(file, name.lower()) for file in files)
+        name: _TOGETHER.get(name, sum)(getattr(file, name.lower()) for file in found.tiles)
         for name in names
     }
 

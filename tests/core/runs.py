@@ -6,6 +6,7 @@ import contextlib
 import io
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import bare_earth
@@ -13,11 +14,12 @@ from bare_earth import Cancelled, Progress
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.temporary import is_temporary
 from bare_earth.algorithms.engine.memory_store import MemoryStore
-from bare_earth.algorithms.engine.options import TileOutput
+from bare_earth.algorithms.engine.options import RunOptions, TileOutput
+from bare_earth.algorithms.engine.run import Run
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.las.return_numbers import MULTI_RETURN, SeveralReturns
-from bare_earth.algorithms.runs import many_files
-from bare_earth.algorithms.runs.requests import ClassifyRequest
+from bare_earth.algorithms.survey.files import Inputs
+from bare_earth.algorithms.tools import map_tool
 from bare_earth.algorithms.tools.ground.output import Output
 
 
@@ -62,8 +64,10 @@ def classify_tiles(
     output=TileOutput(), points=Output(),
 ):  # fmt: skip
     """Classify many files with workers and blocks that users cannot choose."""
-    request = ClassifyRequest(parameters=parameters, tiles=output, output=points)
-    return many_files.classify_files(sources, folder, request, progress, workers, blocks=blocks)
+    inputs = Inputs(sources, is_survey=True)
+    ground, *others = map_tool("classify").steps([parameters, points], {"input": inputs}, {})
+    run = Run((replace(ground, cut=blocks), *others), RunOptions(tiles=output))
+    return run.work(inputs, folder, progress, workers)
 
 
 def memory_store(parts, frame, blocks):

@@ -10,8 +10,8 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.bridge_decks import bridge_decks
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.survey.selection import Selection
+from benchmarks.clouds import classify_cloud
 from benchmarks.scenes.simple import scatter, surveyed
 
 SIZE = 120.0

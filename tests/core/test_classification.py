@@ -15,10 +15,10 @@ from bare_earth.algorithms.filters.pipeline import Pipeline, PointRule, Stage
 from bare_earth.algorithms.filters.stages.outliers import below_ground
 from bare_earth.algorithms.las import cloud as cloud_module
 from bare_earth.algorithms.las.cloud import PointCloud
-from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground import labelling, step
+from benchmarks.clouds import classify_cloud
 from benchmarks.scenes.simple import village
 
 EAST, NORTH = 500_000.0, 5_700_000.0

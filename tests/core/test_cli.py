@@ -12,9 +12,8 @@ from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.points import Frame
+from bare_earth.algorithms.engine.run import Run
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.runs import entry as runs
-from bare_earth.algorithms.runs.one_file import Summary
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground.explanation import (
     ExplainedCells,
@@ -22,8 +21,10 @@ from bare_earth.algorithms.tools.ground.explanation import (
     rules_in,
     write_explanation,
 )
+from bare_earth.algorithms.tools.ground.step import LabelGround, Summary
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
+from bare_earth.algorithms.tools.rasters.step import MakeRasters
 from benchmarks.scenes.simple import village
 
 EAST, NORTH = ORIGIN[:2]
@@ -163,7 +164,7 @@ def failing(monkeypatch, error):
     def fail(*_, **__):
         raise error
 
-    monkeypatch.setattr(runs, "classify", fail)
+    monkeypatch.setattr(Run, "work", fail)
 
 
 @pytest.mark.parametrize(
@@ -258,14 +259,15 @@ def test_an_empty_parameter_is_automatic_as_its_help_says(capsys):
 # What reaches the classifier
 
 
-def requests_of_classify(monkeypatch):
+def steps_of_runs(monkeypatch):
+    """Return a list that gets the steps of each run by their types, in place of its work."""
     calls = []
 
-    def classify(sources, output, request, *_):
-        calls.append(request)
+    def work(run, *_):
+        calls.append({type(step): step for step in run.steps})
         return Summary(1, 1, 1, 1, 1, {2: 1})
 
-    monkeypatch.setattr(runs, "classify", classify)
+    monkeypatch.setattr(Run, "work", work)
     return calls
 
 
@@ -280,40 +282,42 @@ def options():
 
 @pytest.mark.parametrize(("method", "declared", "each"), list(options()))
 def test_each_parameter_reaches_the_classifier(method, declared, each, monkeypatch):
-    calls = requests_of_classify(monkeypatch)
+    calls = steps_of_runs(monkeypatch)
     value, text = OTHER_VALUES[each.kind](each)
     flag = each.name.replace("_", "-")
     words = [f"--{flag}", *text.split()] if text else [f"--{flag}" if value else f"--no-{flag}"]
-    assert run("classify", "in.las", "out.las", "--method", method.name, *words) == 0
+    words += ["--method", method.name, "--dtm", "a.tif"]
+    assert run("classify", "in.las", "out.las", *words) == 0
     expected = [
         kind(**{each.name: value}) if kind is declared else kind()
         for kind in (method.parameters, Selection, TerrainModel)
     ]
-    chosen = [calls[0].parameters, calls[0].selection, calls[0].terrain]
+    ground, rasters = calls[0][LabelGround], calls[0][MakeRasters]
+    chosen = [ground.parameters, ground.selection, rasters.model]
     assert chosen == expected
     assert all(isinstance(one, ParameterSet) for one in chosen)
 
 
 @pytest.mark.parametrize("word", ["none", "automatic", "None"])
 def test_a_parameter_can_be_left_empty(word, monkeypatch):
-    calls = requests_of_classify(monkeypatch)
+    calls = steps_of_runs(monkeypatch)
     assert run("classify", "in.las", "out.las", "--stop-edge", word) == 0
-    assert calls[0].parameters.stop_edge is None
+    assert calls[0][LabelGround].parameters.stop_edge is None
     assert run("classify", "in.las", "out.las", "--from-classes", word) == 0
-    assert calls[1].selection.from_classes is None
+    assert calls[1][LabelGround].selection.from_classes is None
 
 
 def test_rasters_and_area_reach_the_classifier(monkeypatch, tmp_path):
-    calls = requests_of_classify(monkeypatch)
+    calls = steps_of_runs(monkeypatch)
     boundary = tmp_path / "a.wkt"
     boundary.write_text("POLYGON ((0 0, 5 0, 5 5))")
     words = "classify in.las out.las --dtm a.tif --hillshade b.tif --extent -1.5 -2 3 4e0"
     assert run(*words.split(), "--boundary", boundary) == 0
-    rasters, area = calls[0].rasters, calls[0].area
+    rasters, area = calls[0][MakeRasters].files, calls[0][LabelGround].area
     assert rasters == RasterFiles(dtm="a.tif", hillshade="b.tif")
     assert area.box == (-1.5, -2.0, 3.0, 4.0) and len(area.polygons) == 1
     assert run("classify", "in.las", "out.las") == 0
-    assert calls[1].area is None
+    assert calls[1][LabelGround].area is None
 
 
 # What comes out

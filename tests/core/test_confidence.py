@@ -6,7 +6,7 @@ import pytest
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.confidence import Weights, confidence
-from bare_earth.algorithms.runs.one_file import classify_cloud
+from benchmarks.clouds import classify_cloud
 from benchmarks.confidence import Seen, compared, fitted, reliability
 from benchmarks.scenes import make
 

@@ -8,8 +8,8 @@ from surveys import cloud_of
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.cloud import survey_frame
-from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.tools.ground.labelling import label_ground
+from benchmarks.clouds import classify_cloud
 
 EXTENT, LITTLE, OUTLIERS = "the points reach less than", "Hardly any ground", "low outliers"
 

@@ -12,9 +12,9 @@ from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.tools.assess import compare
 from benchmarks import data
+from benchmarks.clouds import classify_cloud
 from benchmarks.scenes import make as make_scene
 from benchmarks.scenes.simple import error, scatter, surveyed, village
 

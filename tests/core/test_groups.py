@@ -13,8 +13,8 @@ from bare_earth.algorithms.filters.stages.low_noise import BelowWater, LowGroups
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.high_groups import HighGroups
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.survey.selection import Selection
+from benchmarks.clouds import classify_cloud
 from benchmarks.peers import write_las
 from benchmarks.scenes import make
 

@@ -12,8 +12,8 @@ from bare_earth import classify
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.runs.one_file import classify_cloud
 from bare_earth.algorithms.tools.ground.labelling import blocks_of, label_ground
+from benchmarks.clouds import classify_cloud
 
 PARAMETERS = [method.parameters() for method in METHODS.values()]
 LONG = pytest.mark.long

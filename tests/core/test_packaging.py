@@ -101,7 +101,7 @@ def test_the_zip_holds_one_folder_with_what_qgis_needs(names):
     assert {name.split("/")[0] for name in names} == {"bare_earth"}
     needed = (
         "__init__.py metadata.txt LICENSE README.md requirements.txt plugin/plugin.py"
-        " algorithms/runs/entry.py packages/laspy/__init__.py help/index.html"
+        " algorithms/engine/run.py packages/laspy/__init__.py help/index.html"
         " algorithms/tools/check/words.ini"
         " plugin/i18n/bare_earth_de.qm plugin/i18n/bare_earth_fr.qm"
         " plugin/models/terrain_contours.model3 plugin/models/cloud_heights.model3"

@@ -24,13 +24,12 @@ FLOORS = {
     "engine": "core crs las survey",
     "tools": "core crs grids las survey rasters report engine remote",
     "tools/ground": "core crs grids las survey rasters filters engine",
-    "runs": "core crs grids las survey rasters filters engine tools",
-    "tools/compare_settings": ("core crs grids las survey filters report engine tools runs"),
-    "delivery": "core crs grids las survey rasters filters report engine tools runs",
-    "library": ("core crs grids las survey rasters filters engine tools runs delivery"),
-    "cli": ("core crs grids las survey rasters filters engine tools runs delivery library"),
+    "tools/compare_settings": ("core crs grids las survey filters report engine tools"),
+    "delivery": "core crs grids las survey rasters filters report engine tools",
+    "library": ("core crs grids las survey rasters filters engine tools delivery"),
+    "cli": ("core crs grids las survey rasters filters engine tools delivery library"),
     "__main__": "cli",
-    "__init__": ("core crs grids las survey rasters filters engine tools runs delivery"),
+    "__init__": ("core crs grids las survey rasters filters engine tools delivery"),
 }
 
 

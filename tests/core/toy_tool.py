@@ -10,8 +10,9 @@ import numpy as np
 
 from bare_earth.algorithms.core.parameters import ParameterSet, parameter
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.step import CountedClasses, PointStep, with_classes
+from bare_earth.algorithms.engine.step import PointStep, with_classes
 from bare_earth.algorithms.engine.store import Marks
+from bare_earth.algorithms.engine.summary import TileSummary
 from bare_earth.algorithms.survey.ground_classes import GroundClasses, GroundCounts
 from bare_earth.algorithms.tools import POINT_TOOLS, Listed
 from bare_earth.algorithms.tools.declaration import CLOUD, PointTool
@@ -27,7 +28,7 @@ class NewClass(ParameterSet):
 
 
 @dataclass(frozen=True, order=True)
-class ToySummary(CountedClasses):
+class ToySummary(TileSummary):
     """The points of a file with the new class."""
 
     name: str

@@ -13,8 +13,9 @@ from ...core.progress import Progress
 from ...engine.blocks import Blocks
 from ...engine.blockwise import fill
 from ...engine.memory import Cost, Resources
-from ...engine.step import CountedClasses, PointStep, with_classes
+from ...engine.step import PointStep, with_classes
 from ...engine.store import BlockPoints, Corner, Marks, Store
+from ...engine.summary import TileSummary
 from ...grids.height_above_ground import with_roads
 from ...las.cloud import PointCloud
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
@@ -32,7 +33,7 @@ _BLOCKS = Blocks.of(100.0, Cost(350.0, 120.0))
 
 
 @dataclass(frozen=True, order=True)
-class AboveGroundSummary(CountedClasses):
+class AboveGroundSummary(TileSummary):
     """The classes of the points above the ground of a file."""
 
     name: str  # of the output

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass, field
+from dataclasses import InitVar, dataclass, field
 from pathlib import Path
-from typing import Sequence
+from typing import ClassVar, Sequence
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from ...engine.blocks import Blocks
 from ...engine.memory import Resources
 from ...engine.step import Allocate, PointResult, PointStep, with_classes
 from ...engine.store import Marks, Store
+from ...engine.summary import RunSummary, TileSummary
 from ...filters import method_of
 from ...las.cloud import PointCloud
 from ...las.edits import Edits
@@ -36,8 +37,32 @@ from .labelling import Label, blocks_of, label_ground
 from .output import Output
 
 
+@dataclass(frozen=True)
+class Summary(RunSummary):
+    """The result of a classification; without an area, all points are in it."""
+
+    point_count: int
+    area_count: int
+    selected_count: int  # in the area, took part in the filter
+    ground_count: int  # of the target class in the output, also outside
+    area_ground_count: int  # of the target class in the area
+    class_counts: dict[int, int] = field(default_factory=dict)  # in the output, also outside
+    where: InitVar[str] = ""  # " in the area" if there is one
+    _where: ClassVar[str] = ""
+
+    def __post_init__(self, where: str) -> None:
+        object.__setattr__(self, "_where", where)
+
+    @property
+    def text(self) -> str:
+        """The share of the ground in words."""
+        ground, count = self.area_ground_count, self.area_count
+        share = 100 * ground / count
+        return f"{ground:,} of {count:,} points{self._where} are ground ({share:.1f} %)"
+
+
 @dataclass(frozen=True, order=True)
-class ClassifiedSummary:
+class ClassifiedSummary(TileSummary):
     """The result for one file of a survey."""
 
     name: str  # of the output
@@ -51,10 +76,10 @@ class ClassifiedSummary:
     found_ground: bool = True
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         # The keys of the JSON record are strings.
-        for name in ("input_class_counts", "class_counts"):
-            counts = {int(value): count for value, count in getattr(self, name).items()}
-            object.__setattr__(self, name, counts)
+        counts = {int(value): count for value, count in self.input_class_counts.items()}
+        object.__setattr__(self, "input_class_counts", counts)
 
     @property
     def text(self) -> str:
@@ -77,6 +102,7 @@ class LabelGround(PointStep):
 
     counts = PointCounts
     weight = 5.0
+    imports = "scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph"
     summary_type = ClassifiedSummary
     vpc_name = "classified.vpc"
 
@@ -188,7 +214,8 @@ class ClassifiedPoints(PointResult):
     def __init__(
         self, step: LabelGround, path: Path, allocate: Allocate, counts: PointCounts | None
     ) -> None:
-        self._step, self._path, output = step, path, step.output
+        super().__init__(step)
+        self._path, output = path, step.output
         self._counts, self._is_tile = counts or PointCounts(), counts is None
         # bool, (n,); None for all
         self.kept = allocate(bool) if output.ground_only or output.area_only else None
@@ -292,13 +319,19 @@ class ClassifiedPoints(PointResult):
             progress.info(f"{counted(count - ground, *words)} left out of the output.")
         return Edits(kept=self.kept)
 
-    def summary(self, name: str, class_counts: dict[int, int]) -> ClassifiedSummary:
+    def summary(self, name: str, class_counts: dict[int, int]) -> Summary | ClassifiedSummary:
         """Return the numbers of points."""
-        area_only = self._step.output.area_only
+        step, counts = self._step, self._counts
+        ground_count = class_counts.get(step.selection.to_class, 0)
+        if not self._is_tile:
+            return Summary(
+                counts.points, counts.inside, counts.wanted, ground_count, self.area_ground_count,
+                class_counts, "" if step.area is None else " in the area",
+            )  # fmt: skip
         return ClassifiedSummary(
             name,
-            self.area_count if area_only else self._count,
-            class_counts.get(self._step.selection.to_class, 0),
+            self.area_count if step.output.area_only else self._count,
+            ground_count,
             self.area_count,
             self._by_hand_count,
             self._overlap_count,

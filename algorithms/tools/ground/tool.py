@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Iterable
+from pathlib import Path
+from typing import Any, Iterable, Mapping, Sequence
 
+from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter_of
 from ...engine.memory import Resources
 from ...engine.options import TileInput, TileOutput
+from ...engine.step import Step
 from ...filters import METHODS
+from ...survey.area import Area
+from ...survey.corrections import NO_CORRECTIONS
+from ...survey.ground_classes import GroundClasses
 from ...survey.selection import Selection
+from ..above_ground import ClassifyAboveGround
 from ..above_ground.classes import ThenAboveGround
 from ..contours import Contours
 from ..declaration import CLOUD, GROUND, TERRAIN, TILES, Input, MapTool, Output
+from ..heights import MeasureHeights
 from ..rasters.parameters import Gaps, RasterOutput, SurfaceModel, TerrainModel
-from ..rasters.tool import maps
+from ..rasters.step import MakeRasters
+from ..rasters.tool import maps, rasters_of
 from .method import TileMethod
 from .output import Output as Written
+from .step import LabelGround
 
 
 @dataclass(frozen=True)
@@ -95,6 +105,69 @@ def _usual_maps() -> list[Output]:
     return [output for output in maps() if output.name in ("dtm", "hillshade")]
 
 
+def _steps(
+    sets: Sequence[ParameterSet], inputs: Mapping[str, Any], outputs: Mapping[str, Path]
+) -> tuple[Step, ...]:
+    """Return the steps for the ground, for what is above it, for rasters, and for heights."""
+    selection, written, above = (
+        Selection.among(sets), Written.among(sets), ThenAboveGround.among(sets),
+    )  # fmt: skip
+    area, corrections = inputs.get("area"), inputs.get("corrections") or NO_CORRECTIONS
+    explain, ground = outputs.get("explain"), GroundClasses.of_selection(selection)
+    rasters = rasters_of(sets, inputs, outputs, ground, selection.roads)
+    rasters = replace(rasters, covers_ground=written.ground_only and not rasters.needs_all)
+    is_survey = inputs["input"].is_survey
+    _check(written, area, above, rasters, is_survey, explain)
+    steps: list[Step] = [
+        LabelGround(_method(sets), selection, area, written, None, corrections, explain)
+    ]
+    if above.wanted:
+        steps.append(ClassifyAboveGround(above, ground, area, corrections))
+    if rasters.files.wanted:
+        # Before the heights, since what is known of their points stays in memory.
+        steps.append(rasters)
+    if written.height_above_ground:
+        within = area if written.area_only else None
+        steps.append(MeasureHeights(ground, area=within, roads=selection.roads))
+    return tuple(steps)
+
+
+def _method(sets: Sequence[ParameterSet]) -> ParameterSet:
+    """Return the parameters of the ground filter."""
+    kinds = tuple(method.parameters for method in METHODS.values())
+    chosen = next((values for values in sets if isinstance(values, kinds)), None)
+    return chosen or TileMethod.among(sets).parameters
+
+
+def _check(
+    written: Written,
+    area: Area | None,
+    above: ThenAboveGround,
+    rasters: MakeRasters,
+    is_survey: bool,
+    explain: Path | None,
+) -> None:
+    """Refuse what does not fit together."""
+    written.check_area(area is not None)
+    if above.wanted and written.ground_only:
+        raise BareEarthError(
+            "Classes above the ground need all points. Write all points, not only the ground."
+        )
+    if rasters.constraints.any and not rasters.files.wanted:
+        raise BareEarthError(
+            "Breaklines, water, rivers and places without ground only change rasters. Choose a"
+            " raster to make, such as the terrain model."
+        )
+    if is_survey and explain is not None:
+        raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
+    # One file has all its points at hand.
+    if is_survey and written.ground_only and rasters.files.wanted and not rasters.covers_ground:
+        raise BareEarthError(
+            "The surface model, the canopy height and the confidence need all points. Write all"
+            " points, not only the ground."
+        )
+
+
 _ABOUT = (
     " Many files, folders and virtual point clouds are one survey: each point gets the class that"
     " it would get if all were one file, so there are no seams. A file that cannot be classified"
@@ -125,6 +198,7 @@ TOOL = MapTool(
     inputs=(_TARGET, _CONSTRAINTS, _AREA, _CORRECTIONS),
     dialog_inputs=(_AREA, _CORRECTIONS, _CONSTRAINTS, _TARGET),
     outputs=_outputs,
+    steps=_steps,
     classifies=True,
     command="classify",
     command_about="Classifies the ground points of LAS, LAZ and COPC files. Only the classification"

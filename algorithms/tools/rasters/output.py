@@ -13,6 +13,7 @@ from ...core.errors import BareEarthError
 from ...core.files import Outputs, new_folder
 from ...core.points import Box, Frame, box_in_words, box_round
 from ...core.progress import SILENT, Progress
+from ...engine.summary import RunSummary
 from ...grids.cell_window import CellWindow
 from ...rasters.cell_grid import (
     MOST_CELLS,
@@ -37,13 +38,18 @@ WriteCells = Callable[[Path, Rows, RasterGrid, float, Progress, str], None]
 
 
 @dataclass(frozen=True)
-class RasterSize:
+class RasterSize(RunSummary):
     """The size of rasters, and the points that terrain and surface were made from."""
 
     ground_count: int
     surface_count: int
     columns: int
     rows: int
+
+    @property
+    def text(self) -> str:
+        """The size in words."""
+        return f"{self.columns:,} x {self.rows:,} cells of {self.ground_count:,} ground points"
 
 
 def write_rasters(

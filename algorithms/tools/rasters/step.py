@@ -12,10 +12,10 @@ import numpy as np
 
 from ...core.errors import BareEarthError
 from ...core.files import Outputs, split_name
-from ...core.points import Box, Frame
+from ...core.points import Frame
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
-from ...crs.system import Crs
+from ...crs.measurable import require_measurable
 from ...engine.block_grid import BlockGrid, BlockIndex
 from ...engine.blocks import Block, Blocks
 from ...engine.blockwise import over_blocks
@@ -32,6 +32,7 @@ from ...las.lasfile import LasFile
 from ...rasters.cell_grid import cell_grid
 from ...survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
+from ...survey.shapes import Place
 from .block import LAYERS, BlockRasters, BlockView
 from .constraints import NO_CONSTRAINTS, Constraints
 from .drawing import Drawing
@@ -97,10 +98,11 @@ class MakeRasters(Drawing, Sink):
         """The origin of the cells, in units of the CRS."""
         return self.cells.origin
 
-    def placed(self, crs: Crs, box: Box | None = None, progress: Progress = SILENT) -> MakeRasters:
-        """Return the step for points in a CRS; see `cell_grid`."""
-        usual = self.model.cells(crs.horizontal_unit)
-        cells = cell_grid(self.target, usual, crs, box, progress)
+    def placed(self, place: Place, progress: Progress = SILENT) -> MakeRasters:
+        """Return the step for points at a place; see `cell_grid`."""
+        require_measurable(*place)
+        usual = self.model.cells(place.crs.horizontal_unit)
+        cells = cell_grid(self.target, usual, place.crs, place.box, progress)
         return replace(self, placed_cells=cells)
 
     def seeing(

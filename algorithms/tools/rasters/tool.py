@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Sequence
+from typing import Any, Mapping, Sequence
 
+from ...core.errors import BareEarthError
+from ...core.parameters import ParameterSet
 from ...core.progress import Progress
 from ...engine.memory import Resources
 from ...engine.options import TileInput
+from ...rasters.cell_grid import ANYWHERE
 from ...survey.feature_files import FORMATS
 from ...survey.ground_classes import GroundClasses
 from ..contours import Contours
 from ..declaration import CANOPY, CLOUD, RASTER, TERRAIN, TIN, Input, MapTool, Output
 from ..water.tool import found_water
-from .constraints import Constraints
-from .parameters import RasterOutput, SurfaceModel, TerrainModel
-from .rows import RASTERS
+from .constraints import NO_CONSTRAINTS, Constraints
+from .parameters import Gaps, RasterOutput, SurfaceModel, TerrainModel
+from .rows import RASTERS, RasterFiles
+from .step import MakeRasters
 
 
 def maps() -> tuple[Output, ...]:
@@ -31,7 +35,40 @@ def maps() -> tuple[Output, ...]:
         f"contour lines of the terrain model ({', '.join(FORMATS)}); the field ELEV has the height,"
         " INDEX is 1 for every fifth line. All but .geojson need pyogrio"
     )
-    return *rasters, Output("contours", "features", contours)
+    lines = Output("contours", "features", contours, drawn_by="contours", drawn_of="dtm")
+    return *rasters, lines
+
+
+def rasters_of(
+    sets: Sequence[ParameterSet],
+    inputs: Mapping[str, Any],
+    outputs: Mapping[str, Path],
+    ground: GroundClasses,
+    roads: tuple[int, ...] = (),
+) -> MakeRasters:
+    """Return the step that makes the wanted rasters, given which points are ground."""
+    gaps = next((values.max_edge for values in sets if isinstance(values, Gaps)), None)
+    surface = SurfaceModel.among(sets) if gaps is None else SurfaceModel(max_edge=gaps)
+    return MakeRasters(
+        files=RasterFiles(**{name: outputs.get(name) for name in RASTERS}),
+        model=TerrainModel.among(sets), surface=surface, ground=ground, roads=roads,
+        constraints=inputs.get("constraints") or NO_CONSTRAINTS, area=inputs.get("area"),
+        per_file=RasterOutput.among(sets).raster_per_file,
+        target=inputs.get("raster_target") or ANYWHERE,
+    )  # fmt: skip
+
+
+def _steps(
+    sets: Sequence[ParameterSet], inputs: Mapping[str, Any], outputs: Mapping[str, Path]
+) -> tuple[MakeRasters]:
+    """Return the step for points that are classified."""
+    ground = GroundClasses.among(sets)
+    step = rasters_of(sets, inputs, outputs, ground, inputs.get("roads") or ())
+    if not step.files.wanted:
+        raise BareEarthError("Choose at least one raster to make.")
+    if not ground.ground_classes:
+        raise BareEarthError("Choose at least one ground class.")
+    return (step,)
 
 
 def _found(
@@ -66,6 +103,7 @@ TOOL = MapTool(
     inputs=(TARGET, _AREA, CONSTRAINTS),
     dialog_inputs=(_AREA, CONSTRAINTS, TARGET),
     outputs=maps,
+    steps=_steps,
     dialog_outputs=_in_dialog,
     command="terrain",
     command_about="Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Give at"

@@ -9,17 +9,15 @@ from typing import Sequence
 from ..core.errors import BareEarthError
 from ..core.files import check_free, check_lengths, check_output, split_name
 from ..crs.measurable import require_measurable
-from ..engine.manifest import names_beside
 from ..las.writing import check_writable
 from ..survey.files import Survey
 from ..survey.outputs import check_outputs
 from ..survey.vpc import check_vpc
-from ..tools.rasters.rows import RasterFiles
-from ..tools.rasters.step import MakeRasters
+from .manifest import names_beside
 
 
 def check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Path]) -> None:
-    """Refuse, before any work, a survey and outputs that would fail or overwrite something."""
+    """Refuse a survey and a folder that would fail, or overwrite something."""
     require_measurable("The survey", survey.crs, survey.box)
     if folder.exists() and not folder.is_dir():
         raise BareEarthError(f"Cannot write into {folder}: it is a file. Give a folder.")
@@ -42,20 +40,22 @@ def check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Pat
         check_output(vpc)
 
 
-def check_rasters(
-    step: MakeRasters, survey: Survey, folder: Path, others: tuple[Path, ...]
+def check_own(
+    outputs: Sequence[tuple[str, Path]],
+    survey: Survey,
+    others: Sequence[Path],
+    folder: Path | None = None,
 ) -> None:
-    """Refuse rasters that could not be written; the folder of the output may not be there yet."""
-    rasters = step.files
-    if not folder.exists():
-        paths = rasters.wanted.items()
-        rasters = RasterFiles(**{name: path for name, path in paths if path.parent != folder})
-    check_outputs(rasters.outputs(step.per_file), others)
-    if step.per_file:
-        check_stems(survey)
+    """Refuse outputs of steps that could not be written, or are among others; the folder of the
+    points may not be there yet.
+    """
+    is_made = folder is not None and not folder.exists()
+    check_outputs([one for one in outputs if not (is_made and one[1].parent == folder)], others)
+    if any(kind == "raster set" for kind, _ in outputs):
+        _check_stems(survey)
 
 
-def check_stems(survey: Survey) -> None:
+def _check_stems(survey: Survey) -> None:
     """Refuse files whose rasters would get the same name."""
     stems: dict[str, Path] = {}
     for tile in survey.tiles:

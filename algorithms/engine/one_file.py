@@ -1,0 +1,130 @@
+"""Steps on the points of one file: a survey of one tile, whose values stay in this process."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Sequence
+
+from ..core.files import Outputs
+from ..core.progress import Progress
+from ..core.threads import import_early, may_use
+from ..las.cloud import survey_frame
+from ..las.crs_records import read_crs
+from ..las.lasfile import LasFile
+from ..las.opening import open_las
+from ..survey.outputs import check_outputs
+from ..survey.shapes import Place
+from .file_points import FilePoints, TileResult, copies_all_else
+from .options import RunOptions
+from .step import PointStep, Step, located
+from .store import Store
+from .values import PointValues, StoreValues, with_values
+
+# Share of reading in the progress, as the `weight` of steps, and of all before points are written.
+_READING, _BEFORE_WRITING = 1.5, 0.92
+
+
+def work_on_file(
+    steps: Sequence[Step],
+    source: Path | LasFile,
+    target: Path | None,
+    options: RunOptions,
+    progress: Progress,
+) -> Any:
+    """Let steps work on a LAS, LAZ or COPC file, and write its points with what they found, and
+    nothing else changed; all outputs or none.
+    """
+    las, resources = open_las(source, options.stated), options.resources.now()
+    own = [output for step in steps for output in step.outputs(is_survey=False)]
+    check_outputs([("cloud", target), *own] if target else own, [las.path])
+    place = Place(str(las.path), read_crs(las), las.outer_box if las.states_extent else None)
+    steps = [step.placed(place, progress) for step in steps]
+    import_early(*(name for step in steps for name in step.imports))
+    for_points = [step for step in steps if isinstance(step, PointStep)]
+    beside = target or own[0][1]
+    needs_records = bool(for_points) and not copies_all_else(las, beside, for_points)
+    before = progress.part(0.0, _BEFORE_WRITING) if target else progress
+    reading, working = before.shares(_READING, sum(step.weight for step in steps))
+    with Outputs() as outputs:
+        outputs.enter_context(may_use(resources.thread_count))
+        points = FilePoints.opened(las, beside, resources, needs_records, reading)
+        run = FileRun(outputs.enter_context(points), steps, progress, outputs)
+        run.work(working)
+        if target is None:
+            return run.told[-1]
+        writing = progress.part(_BEFORE_WRITING, 1.0)
+        result = run.found(writing.part(0.0, 0.2))
+        result.write(outputs.file(target), writing.part(0.2, 1.0))
+    return result.summary(target.name)
+
+
+class FileRun:
+    """Steps that work on the points of one file, one after the other; their own outputs get their
+    names when `outputs` is closed.
+    """
+
+    def __init__(
+        self,
+        points: FilePoints,
+        steps: Sequence[Step],
+        progress: Progress,
+        outputs: Outputs | None = None,
+    ) -> None:
+        self.steps: list[Any] = located(steps, points.place, progress)  # in the CRS of the points
+        self.counts = [step.counts() for step in self.steps]  # by the steps, among the points
+        self.points, self.outputs = points, outputs or Outputs()
+        self.told: list[Any] = []  # what `finish` of the steps returned
+        self._values: list[PointValues] = []
+
+    def work(self, progress: Progress) -> None:
+        """Run the steps, each of which sees what those before it have found."""
+        start, weights = 0, [step.weight for step in self.steps]
+        total = sum(weights)
+        while start < len(self.steps):
+            end = self._end_of_group(start)
+            part = progress.part(sum(weights[:start]) / total, sum(weights[:end]) / total)
+            self._work_group(slice(start, end), part)
+            start = end
+
+    def _end_of_group(self, start: int) -> int:
+        """Return the end of the steps that see the same points, so that these are read once."""
+        ends = (n + 1 for n in range(start, len(self.steps)) if self.steps[n].gives_classes)
+        return next(ends, len(self.steps))
+
+    def _work_group(self, group: slice, progress: Progress) -> None:
+        """Run steps that see the same points."""
+        points, steps = self.points, list(zip(self.steps[group], self.counts[group]))
+        reading = points.sparing(progress.part(0.0, 0.08))
+        parts = with_values(points.parts(reading, self._reads_once), self._values)
+        stores = points.gathered(steps, parts, progress.part(0.08, 0.12))
+        shares = progress.part(0.12, 1.0).shares(*(step.weight for step, _ in steps))
+        for (step, _), share in zip(steps, shares):
+            self._work_step(step, stores.pop(0), share)
+
+    @property
+    def _reads_once(self) -> bool:
+        """Whether the points are read only once, as no step gives values or looks at them first."""
+        return not any(isinstance(step, PointStep) or step.looks_first for step in self.steps)
+
+    def _work_step(self, step: Any, store: Store, progress: Progress) -> None:
+        """Run a step on the points of a store, and let it write its own outputs."""
+        working, writing = progress.shares(1.0, step.weight_of_outputs)
+        frame = survey_frame(self.points.cloud.crs, step.origin)
+        seen = with_values(self.points.parts(), self._values)
+        step = step.seeing((part for _, part in seen), frame, progress)
+        result = step.work(store, self.points.resources, working)
+        if isinstance(step, PointStep):
+            self._values.append(StoreValues(step, store))
+        else:
+            result = [found for _, found in result]
+        self.told.append(step.finish(result, frame, self.outputs, writing))
+
+    def found(self, progress: Progress) -> TileResult:
+        """Return what the steps found for each point."""
+        pairs = zip(self.steps, self.counts)
+        counts = [counted for step, counted in pairs if isinstance(step, PointStep)]
+        result = TileResult(self.points, self._values, counts)
+        for where, part in self.points.parts(self.points.sparing(progress)):
+            result.add(where, part)
+        result.end(progress)
+        return result

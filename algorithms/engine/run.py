@@ -1,0 +1,40 @@
+"""A run: steps that work on the points of a file, or of many files as one survey."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..core.progress import SILENT, Progress
+from ..survey.files import Inputs
+from .one_file import work_on_file
+from .options import RunOptions
+from .step import Step
+from .survey_run import work_on_survey
+from .workers import Workers
+
+
+@dataclass(frozen=True)
+class Run:
+    """Steps, each of which sees the points with what those before it have found."""
+
+    steps: tuple[Step, ...]
+    options: RunOptions = field(default_factory=RunOptions)
+
+    def work(
+        self,
+        inputs: Inputs,
+        target: Path | None = None,
+        progress: Progress = SILENT,
+        workers: Workers | None = None,
+        vpc: Path | None = None,
+    ) -> Any:
+        """Let the steps work, and write the points into a file, those of a survey into a folder;
+        return the summary.
+        """
+        # `target` is None if no step finds a value for each point. The workers are by default
+        # threads of this process, and the virtual point cloud is by default in the folder.
+        if not inputs.is_survey:
+            return work_on_file(self.steps, inputs.file, target, self.options, progress)
+        return work_on_survey(self.steps, inputs, target, self.options, progress, workers, vpc)

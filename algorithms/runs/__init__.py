@@ -1,1 +1,0 @@
-"""Runs on one file and on many, and what they are asked for."""
