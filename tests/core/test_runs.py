@@ -6,10 +6,15 @@ import laspy
 import numpy as np
 import pytest
 from surveys import bytes_of, cut, finished, strip, write
+from toy_sink import CountPoints
 
 import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.engine.run import Run
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.survey.files import Inputs
+from bare_earth.algorithms.tools.ground.step import LabelGround
 
 SLOPE = {"method": "slope", "preset": "whitebox"}
 
@@ -116,3 +121,19 @@ def test_the_public_functions_take_one_file_and_many(survey, tmp_path):
     assert json.dumps(many.failures) == "{}"
     again = bare_earth.classify(tmp_path / "in", tmp_path / "many", method="slope", resume=True)
     assert again.kept_count == many.done_count
+
+
+def test_a_run_knows_nothing_of_what_its_sinks_make(survey, tmp_path):
+    sinks = {name: CountPoints(tmp_path / f"{name}.csv") for name in ("one", "many", "classified")}
+    count = Run((sinks["one"],)).work(Inputs(survey))
+    assert Run((sinks["many"],)).work(Inputs(tmp_path / "in")) == count > 10
+    one, many = ((tmp_path / f"{name}.csv").read_text() for name in ("one", "many"))
+    assert one == many
+    rows = np.loadtxt(tmp_path / "one.csv", delimiter=",", dtype=int)
+    assert rows[:, 2].sum() == 9000 and not rows[:, 3].any()
+    # Behind another step, it sees what that has found.
+    ground = LabelGround(METHODS["slope"].parameters(preset="whitebox"))
+    run = Run((ground, sinks["classified"]))
+    done = run.work(Inputs(tmp_path / "in"), tmp_path / "out")
+    rows = np.loadtxt(tmp_path / "classified.csv", delimiter=",", dtype=int)
+    assert rows[:, 3].sum() == done.ground_count > 1000

@@ -1,0 +1,50 @@
+"""A sink as somebody would add it: it counts the points of each block, and draws nothing."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from bare_earth.algorithms.engine.blocks import Blocks
+from bare_earth.algorithms.engine.blockwise import over_blocks
+from bare_earth.algorithms.engine.step import Sink
+from bare_earth.algorithms.engine.store import Marks
+from bare_earth.algorithms.survey.ground_classes import GroundCounts
+
+
+@dataclass(frozen=True)
+class CountPoints(Sink):
+    """Writes how many points each block has, and how many of them are ground."""
+
+    target: Path
+
+    counts = GroundCounts
+    blocks = Blocks(40.0, 5.0)
+
+    def outputs(self, is_survey):
+        return [("table", self.target)]
+
+    def marks(self, part, counts):
+        return Marks(np.ones(part.count, dtype=bool), part.classification == 2)
+
+    def work(self, store, resources, progress, is_wanted=None):
+        def count(block, is_only, progress):
+            contents = self.blocks.contents(block, store, progress)
+            core = block.holds(contents.points, self.blocks.corner(block))
+            return block, [*block[:2], int(core.sum()), int((core & contents.known).sum())]
+
+        found = over_blocks(store, self.blocks, count, resources, progress, is_wanted)
+        return [block for _, block in sorted(found, key=lambda pair: pair[0])]
+
+    def save(self, results, stream):
+        stream.write(json.dumps(results).encode())
+
+    def load(self, file):
+        return json.loads(file.read_text())
+
+    def finish(self, result, frame, outputs, progress, tiles=None):
+        rows = sorted(row for row in result if row[2])
+        text = "\n".join(",".join(map(str, row)) for row in rows)
+        outputs.file(self.target).write_text(text)
+        return len(rows)
