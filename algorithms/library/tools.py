@@ -8,14 +8,12 @@ from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Callable, Mapping
+from typing import Any, Callable
 
 from ..core.errors import UsageError
-from ..core.progress import Progress
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..survey.files import Inputs
-from ..survey.ground_classes import GroundClasses
 from ..survey.vector_files import FORMATS
 from ..tools import (
     COMPOSITIONS,
@@ -27,7 +25,7 @@ from ..tools import (
     map_tool,
     point_tool,
 )
-from ..tools.declaration import FileTool, Input, Output, Tool
+from ..tools.declaration import FileTool, Input, Output, ToFind, Tool
 from . import arguments, tool_commands
 from .arguments import REQUIRED, Argument
 from .functions import Function
@@ -192,13 +190,10 @@ def _run_on_points(tool: Tool, values: SimpleNamespace, sets: list[Any]) -> Any:
 
     outputs = _outputs_of(tool, values)
     points = inputs_of(values, getattr(tool, "is_survey", False))
-    inputs, progress = {"input": points, "crs": values.crs}, progress_of(values.progress)
-    for declared in tool.inputs:
-        inputs[declared.name], progress = _tool_input(
-            declared, values, inputs, sets, _kinds(tool, outputs), progress
-        )
+    inputs: dict[str, Any] = {"input": points, "crs": values.crs}
+    inputs.update((declared.name, _tool_input(declared, values)) for declared in tool.inputs)
     workers = workers_of(values, Resources.among(sets))
-    return run(tool, inputs, outputs, sets, progress, workers)
+    return run(tool, inputs, outputs, sets, progress_of(values.progress), workers)
 
 
 def _of_map_tool(command: str) -> Function:
@@ -269,40 +264,19 @@ def _outputs_of(tool: Tool, values: SimpleNamespace) -> dict[str, Path | None]:
     return {name: path_of(getattr(values, option, None)) for name, option in names.items()}
 
 
-def _kinds(tool: Tool, paths: Mapping[str, Path | None]) -> list[tuple[str, Path]]:
-    """Return the kinds and paths of the outputs that the user wants."""
-    kinds = {output.name: output.kind for output in tool.all_outputs}
-    return [(kinds[name], path) for name, path in paths.items() if path and name in kinds]
-
-
-def _tool_input(
-    declared: Input,
-    values: SimpleNamespace,
-    inputs: Mapping[str, Any],
-    sets: list[Any],
-    outputs: list[tuple[str, Path]],
-    progress: Progress,
-) -> tuple[Any, Progress]:
-    """Return a further input of a tool as its run has it, and what is left of the progress."""
-    from ..survey.outputs import check_outputs
-
+def _tool_input(declared: Input, values: SimpleNamespace) -> Any:
+    """Return a further input of a tool for points as its run has it."""
     if declared.kind == "raster":
         path = getattr(values, declared.name)
-        return (None if path is None else declared.of(path)), progress
-    is_found = declared.found is not None and is_automatic(values.water)
-    if declared.kind == "constraints" and not is_found and is_automatic(values.water):
+        return None if path is None else declared.of(path)
+    can_be_found = declared.found is not None or declared.kind == "constraints"
+    is_found = can_be_found and is_automatic(values.water)
+    if is_found and declared.found is None:
         is_command = getattr(values, "in_processes", False)
         how = "'bare-earth terrain --water automatic'"
         how = how if is_command else 'terrain() and its water="automatic"'
         raise UsageError(f"Water is found in classified points: make the rasters with {how}.")
     if declared.kind in _READERS:
         given = _READERS[declared.kind](values)
-    else:
-        given = None if is_found else declared.of(polygons_of(getattr(values, declared.name)))
-    if not is_found or declared.found is None:
-        return given, progress
-    # To find polygons can take minutes.
-    check_outputs(outputs, inputs["input"])
-    ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
-    found = declared.found(inputs["input"], ground, values.crs, part)
-    return (found if given is None else given.with_water(found, part)), progress.part(0.4, 1.0)
+        return ToFind(given) if is_found else given
+    return ToFind() if is_found else declared.of(polygons_of(getattr(values, declared.name)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Callable, Mapping, Sequence
+from typing import Any, Callable, Mapping, NamedTuple, Sequence
 
 from ..core.parameters import ParameterSet
 from ..core.progress import Progress
@@ -51,14 +51,20 @@ class Input:
     optional: bool = False  # otherwise a cloud or a raster is an argument of the command
     advanced: bool = False
     is_last: bool = False  # whether the field is below the parameters
-    # Finds the value where the user gives no polygons, or the word automatic: given files, which of
-    # their points are ground, their CRS if it is stated, and the progress.
+    # Finds the value in place of `ToFind`, where the user gives no polygons, or the word automatic:
+    # given files, which of their points are ground, their CRS if it is stated, and the progress.
     found: Callable[[Sequence[Path], GroundClasses, str | None, Progress], Any] | None = None
 
     @property
     def field_name(self) -> str:
         """The name of the field in the dialog, and of the argument in the help of the command."""
         return self.named or self.name.upper()
+
+
+class ToFind(NamedTuple):
+    """In place of the value of an input: it is found before the work, beside what is given."""
+
+    given: Any = None
 
 
 # The points and their CRS, as most tools have them.

@@ -17,9 +17,10 @@ from ..engine.workers import Workers
 from ..rasters.virtual import virtual_of
 from ..remote.addresses import is_address
 from ..survey.files import Inputs
+from ..survey.ground_classes import GroundClasses
 from ..survey.outputs import check_outputs, place
 from . import file_tool
-from .declaration import FileTool, MapTool, PointTool, Tool
+from .declaration import FileTool, MapTool, PointTool, ToFind, Tool
 
 _FILES = ("cloud", "raster", "address")
 
@@ -53,6 +54,7 @@ def _run_on_points(
 ) -> Any:
     """Let the steps of a tool work, and then the tools that draw further outputs of theirs."""
     points = Inputs(inputs["input"])
+    given, progress = _with_found(tool, {**inputs, "input": points}, outputs, sets, progress)
     drawn = [one for one in tool.all_outputs if one.drawn_by and one.name in outputs]
     check_outputs([(one.kind, outputs[one.name]) for one in drawn], points)
     working, *drawing = progress.shares(9.0, *(1.0 for _ in drawn)) if drawn else [progress]
@@ -62,7 +64,7 @@ def _run_on_points(
             # If nobody asks for what it is drawn of, that is a temporary file.
             folder = folders.enter_context(temporary_folder(own.pop(one.name).parent))
             own.setdefault(one.drawn_of, folder / f"{one.drawn_of}.tif")
-        steps = tool.steps(sets, {**inputs, "input": points}, own)
+        steps = tool.steps(sets, given, own)
         work = Run(steps, RunOptions.of(sets, inputs.get("crs")))
         done = work.work(points, own.get("output"), working, workers, own.get("vpc"))
         written = [output for step in steps for output in step.outputs(points.is_survey)]
@@ -73,6 +75,28 @@ def _run_on_points(
             target = {"output": outputs[one.name]}
             _run_on_files(file_tool(one.drawn_by), {"source": source}, target, sets, part)
     return done
+
+
+def _with_found(
+    tool: Tool,
+    inputs: dict[str, Any],
+    outputs: Mapping[str, Path],
+    sets: Sequence[ParameterSet],
+    progress: Progress,
+) -> tuple[dict[str, Any], Progress]:
+    """Return the inputs with those that are found first, and what is left of the progress."""
+    for declared in tool.inputs:
+        value = inputs.get(declared.name)
+        if isinstance(value, ToFind) and declared.found is not None:
+            # To find them can take minutes.
+            wanted = [one for one in tool.all_outputs if one.name in outputs]
+            check_outputs([(one.kind, outputs[one.name]) for one in wanted], inputs["input"])
+            ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
+            found = declared.found(inputs["input"], ground, inputs.get("crs"), part)
+            if value.given is not None:
+                found = value.given.with_water(found, part)
+            inputs, progress = {**inputs, declared.name: found}, progress.part(0.4, 1.0)
+    return inputs, progress
 
 
 def _run_on_files(

@@ -16,7 +16,7 @@ from qgis.core import (
 )
 
 from ...algorithms.core.progress import SILENT, Progress
-from ...algorithms.tools.declaration import Input
+from ...algorithms.tools.declaration import Input, ToFind
 from .. import compat
 from ..i18n import mark
 from .area import OF_RASTERS, add_area, area_of, area_options, given_options
@@ -191,7 +191,7 @@ def _checkpoints(request: Request, declared: Input) -> Given:
 
 def _polygons(request: Request, declared: Input) -> Given:
     if declared.found and request.is_empty(declared):
-        return Given(None, {declared.name: "automatic"})
+        return Given(ToFind(), {declared.name: "automatic"})
     algorithm, parameters, context, progress = request
     file = f"{declared.name}.geojson"
     progress.info(

@@ -21,7 +21,6 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.survey.files import Inputs
 from ...algorithms.survey.ground_classes import GroundClasses
 from ...algorithms.survey.kept_classes import GROUND
-from ...algorithms.survey.outputs import check_outputs
 from ...algorithms.tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool
 from ...algorithms.tools.declaration import FileTool, Output, PointTool, Tool
 from ...algorithms.tools.heights import HEIGHT_DIMENSION
@@ -39,8 +38,6 @@ from .tool_inputs import Given, Request, add_input, given
 _FILES, _LATE = ("cloud", "clouds", "files", "raster"), ("checkpoints", "polygons")
 # Titles of the layers of classes, by what a tool for points shows.
 _TITLES = {"classes": layers.CLASSES, "key points": mark("key points")}
-# Share of the progress bar until what the user did not give is found.
-_FINDING = 0.4
 # Of the numbers of many files; all others are added up.
 _TOGETHER = {"MINIMUM": min, "MAXIMUM": max}
 
@@ -274,19 +271,11 @@ class PointToolAlgorithm(ToolAlgorithm):
         from ...algorithms.tools.running import run
 
         output, ground = outputs["output"], GroundClasses.among(chosen)
-        start = _FINDING if any(declared.found for declared in self._tool.inputs) else 0.0
-        if start:  # to find them can take minutes
-            check_outputs([("cloud", Path(output))], self.inputs)
-        finding, given = progress.part(0.0, start), {"input": self.inputs, "crs": self.stated}
+        given = {**inputs, "input": self.inputs, "crs": self.stated}
         for declared in self._tool.inputs:
-            value = inputs.get(declared.name)
-            if declared.kind == "raster" and value is not None:
-                value = declared.of(value, finding)
-            elif declared.found and value is None:
-                value = declared.found(self.inputs, ground, self.stated, finding)
-            if declared.name in inputs:
-                given[declared.name] = value
-        found = run(self._tool, given, {"output": output}, chosen, progress.part(start, 1.0))
+            if declared.kind == "raster" and inputs.get(declared.name) is not None:
+                given[declared.name] = declared.of(inputs[declared.name], progress.part(0.0, 0.0))
+        found = run(self._tool, given, {"output": output}, chosen, progress)
         progress.info(found.text)
         if found.vpc:
             output = found.vpc
