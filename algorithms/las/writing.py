@@ -46,13 +46,6 @@ def check_writable(target: Path) -> None:
         require("lazrs")
 
 
-def write_classified(
-    source: Path | LasFile, target: Path, classification: np.ndarray, progress: Progress = SILENT
-) -> None:
-    """Write `source` with other classes, uint8 (n,) in file order, as `write_changed`."""
-    write_changed(source, target, Edits(classification=classification), progress)
-
-
 def write_changed(
     source: Path | LasFile,
     target: Path,

@@ -30,6 +30,7 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 from mutants import Original, mutant
+from surveys import write_classified
 
 import bare_earth.algorithms as package
 from bare_earth import BareEarthError, classify, heights, info, key_points, terrain
@@ -37,7 +38,7 @@ from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.las.writing import write_changed, write_classified
+from bare_earth.algorithms.las.writing import write_changed
 from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc

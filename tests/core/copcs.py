@@ -4,9 +4,9 @@ import struct
 
 import numpy as np
 from conftest import las_bytes, make_records
+from surveys import write_classified
 
 from bare_earth.algorithms.las import copc_octree
-from bare_earth.algorithms.las.writing import write_classified
 
 _ENTRY = struct.Struct("<4iQ2i")
 # The info record is the first VLR: in it, where the first page begins and how many bytes it has.

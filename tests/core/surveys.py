@@ -13,11 +13,14 @@ import laspy
 import numpy as np
 import pytest
 
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.jobs import TileJob
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.las.edits import Edits
+from bare_earth.algorithms.las.writing import write_changed
 
 SCALE = (0.01, 0.01, 0.01)
 ORIGIN = (500_000.0, 5_700_000.0, 0.0)
@@ -56,6 +59,11 @@ def write(path, integers, shift=(0, 0, 0), classes=1):
     las.return_number[:] = las.number_of_returns[:] = 1
     las.write(str(path))
     return path
+
+
+def write_classified(source, target, classes, progress=SILENT):
+    """Write a file with other classes, and nothing else changed."""
+    write_changed(source, target, Edits(classification=classes), progress)
 
 
 def write_points(path, x, y, z, classes=1, *, offset=ORIGIN, crs=None, **columns):

@@ -6,13 +6,14 @@ import sys
 
 import numpy as np
 import pytest
+from surveys import write_classified
 
 from bare_earth import BareEarthError, info
 from bare_earth.algorithms.core.files import check_output
 from bare_earth.algorithms.las import backends, sources
 from bare_earth.algorithms.las.backends import install_hint, missing_packages, require
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.las.writing import check_writable, write_classified
+from bare_earth.algorithms.las.writing import check_writable
 
 
 def refused(path, match, count=60):

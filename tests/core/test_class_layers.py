@@ -6,6 +6,7 @@ import struct
 import lazrs
 import numpy as np
 import pytest
+from surveys import write_classified
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.las import class_layers as module
@@ -15,7 +16,7 @@ from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.lasfile import LASZIP
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.las.writing import write_changed, write_classified
+from bare_earth.algorithms.las.writing import write_changed
 
 COUNT, CHUNK, CLASS_LAYER = 24_000, 10_000, 2
 LAYERS = {6: 9, 7: 10, 8: 11}

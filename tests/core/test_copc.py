@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from fulldisks import TELLS, become_full
 from laspy import CopcReader
+from surveys import write_classified
 
 from bare_earth import BareEarthError, Cancelled, Progress, info
 from bare_earth.algorithms.las import copc, copc_octree, copc_points, edits
@@ -15,7 +16,7 @@ from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.records import read_records
-from bare_earth.algorithms.las.writing import write_changed, write_classified
+from bare_earth.algorithms.las.writing import write_changed
 
 NEW_FORMAT = {0: 6, 1: 6, 2: 7, 3: 7, 4: 6, 5: 7, 6: 6, 7: 7, 8: 8, 9: 6, 10: 8}
 FOOT_CRS = 'PROJCS["feet",GEOGCS["g",UNIT["degree",0.0174]],UNIT["US survey foot",0.30480060960]]'

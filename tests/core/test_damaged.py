@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 import surveys
 from conftest import GPS_TIMES, make_records
+from surveys import write_classified
 
 from bare_earth import BareEarthError, Progress, classify, info
 from bare_earth.algorithms.crs.provider import to_wgs84
@@ -24,7 +25,7 @@ from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.laszip import Compression
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud, read_parts
-from bare_earth.algorithms.las.writing import write_changed, write_classified
+from bare_earth.algorithms.las.writing import write_changed
 from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
@@ -41,12 +42,13 @@ with contextlib.suppress(ImportError, ValueError):  # Windows has no such limits
     import resource
     resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
 from bare_earth import BareEarthError, info
-from bare_earth.algorithms.las.writing import write_classified
-classes = np.zeros(60, np.uint8)
+from bare_earth.algorithms.las.edits import Edits
+from bare_earth.algorithms.las.writing import write_changed
+classes = Edits(classification=np.zeros(60, np.uint8))
 for source in map(Path, sys.argv[1:]):
     for action in (
         lambda: info(source),
-        lambda: write_classified(source, source.with_name("out.laz"), classes),
+        lambda: write_changed(source, source.with_name("out.laz"), classes),
     ):
         try:
             action()
@@ -200,10 +202,12 @@ import sys
 from pathlib import Path
 import numpy as np
 from bare_earth import BareEarthError
-from bare_earth.algorithms.las.writing import write_classified
+from bare_earth.algorithms.las.edits import Edits
+from bare_earth.algorithms.las.writing import write_changed
+classes = Edits(classification=np.zeros(3000, np.uint8))
 for source in map(Path, sys.argv[1:]):
     try:
-        write_classified(source, source.with_name("out.las"), np.zeros(3000, np.uint8))
+        write_changed(source, source.with_name("out.las"), classes)
         print("read", flush=True)
     except BareEarthError as error:
         print(error, flush=True)

@@ -15,8 +15,8 @@ from conftest import evlr, las_bytes, make_records, vlr
 from copcs import many_nodes
 from independent import CLASS, KEY_POINT, copc_nodes, in_any_order, meaning, without
 from runs import said, temporary_in
+from surveys import write_classified
 
-from bare_earth.algorithms.las.writing import write_classified
 from benchmarks.data import FOLDER
 
 pytest.importorskip("laszip")

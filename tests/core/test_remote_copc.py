@@ -10,12 +10,12 @@ from conftest import evlr, las_bytes, make_records
 from copcs import many_nodes
 from remote_server import serving
 from runs import said
+from surveys import write_classified
 
 import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.records import read_records
-from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.remote import transfers
 
 BOX = (400_000.55, 5_000_000.05, 400_052.0, 5_000_000.65)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from conftest import LasKit
 from runs import CancelAt
+from surveys import write_classified
 
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.las import copc_nodes, copc_octree, reading, writing
@@ -12,7 +13,6 @@ from bare_earth.algorithms.las.copc_nodes import find_nodes, read_hierarchy, rea
 from bare_earth.algorithms.las.lasfile import COPC_INFO, VLR_HEADER
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.las.writing import write_classified
 from bare_earth.algorithms.survey.window import read_window
 
 POINTS = 9000

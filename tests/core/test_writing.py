@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from realdata import real
 from runs import CancelAt
+from surveys import write_classified
 
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.las import edits
 from bare_earth.algorithms.las import records as records_module
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.las.writing import check_writable, write_classified
+from bare_earth.algorithms.las.writing import check_writable
 
 VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
