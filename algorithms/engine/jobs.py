@@ -127,13 +127,13 @@ class BlockJob(Job):
                 yield cloud
 
     @contextlib.contextmanager
-    def store(self, share: Share, kind: type = np.uint8) -> Iterator[MemoryStore | DiskStore]:
+    def store(self, share: Share) -> Iterator[MemoryStore | DiskStore]:
         """Yield an empty store for the points: on disk if they do not fit into memory."""
         grid, (beside, *_) = self.output.grid, self.output.files.values()
         if memory_of(grid, self.count) <= share.resources.bytes:
-            yield MemoryStore(grid.frame, grid.blocks, kind)
+            yield MemoryStore(grid.frame, grid.blocks, grid.step.kind)
             return
-        with DiskStore(beside, grid.frame, grid.blocks, kind) as store:
+        with DiskStore(beside, grid.frame, grid.blocks, grid.step.kind) as store:
             yield store
 
 
@@ -147,7 +147,7 @@ class PointJob(BlockJob):
         parts: list[tuple[Path, np.ndarray]] = []
         grid, files = self.output.grid, self.output.files
         counts, failure, has_work = grid.step.counts(), "", False
-        with self.store(share, grid.step.kind) as store:
+        with self.store(share) as store:
             for cloud in self.clouds(progress.part(0.0, 0.3)):
                 codes = grid.codes(cloud)
                 blocks = np.zeros(cloud.count, dtype=np.uint8)
@@ -183,7 +183,7 @@ class SinkJob(BlockJob):
         step, files, has_points = self.output.grid.step, self.output.files, False
         counts = step.counts()
         found: dict[BlockIndex, list[Any]] = {place: [] for place in files}
-        with self.store(share, step.kind) as store:
+        with self.store(share) as store:
             for cloud in self.clouds(progress.part(0.0, 0.5)):
                 marks = step.marks(cloud, counts)
                 has_points |= bool(marks.selected.any())
