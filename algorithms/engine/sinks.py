@@ -72,7 +72,7 @@ def run_sink(
         queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8), kept)
         queue.work()
         if queue.lost:
-            raise BareEarthError(f"The rasters cannot be made. {queue.lost[0]}")
+            raise BareEarthError(f"The {step.title} cannot be made. {queue.lost[0]}")
         found = [result for file in files.values() for result in step.load(file)]
         with Outputs() as outputs:
             return step.finish(found, frame, outputs, progress.part(0.8, 1.0), survey.tiles)

@@ -174,6 +174,7 @@ class PointStep(Step):
 class Sink(Step):
     """Base of the steps whose result is of blocks, and goes into files of its own."""
 
+    title = "outputs"  # what it makes, for messages
     weight_of_outputs = 0.25
 
     def wanted(self, places: Sequence[BlockIndex], grid: BlockGrid) -> Sequence[BlockIndex]:

@@ -87,6 +87,7 @@ class MeasureHeights(PointStep):
 
     counts = GroundCounts
     kind = np.float64
+    imports = ("scipy.spatial",)
     blocks = _BLOCKS
     gives_classes = False
     summary_type = HeightSummary

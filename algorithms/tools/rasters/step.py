@@ -63,6 +63,8 @@ class MakeRasters(Drawing, Sink):
     constraints: Constraints = NO_CONSTRAINTS  # breaklines, water, and areas without ground
 
     counts = RasterCounts
+    imports = "scipy.ndimage", "scipy.spatial"
+    title = "rasters"
 
     @property
     def weight(self) -> float:
