@@ -9,6 +9,8 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 import bare_earth
 from bare_earth import Cancelled, Progress
 from bare_earth.algorithms.cli import main
@@ -19,6 +21,7 @@ from bare_earth.algorithms.engine.run import Run
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.las.return_numbers import MULTI_RETURN, SeveralReturns
 from bare_earth.algorithms.survey.files import Inputs
+from bare_earth.algorithms.survey.ground_classes import ROADS_FLAG
 from bare_earth.algorithms.tools import map_tool
 from bare_earth.algorithms.tools.ground.output import Output
 
@@ -74,7 +77,8 @@ def memory_store(parts, frame, blocks):
     """Return a store of clouds in memory, each given with its marks."""
     store = MemoryStore(frame, blocks)
     for cloud, *marks in parts:
-        flags = {MULTI_RETURN: SeveralReturns(cloud)}
+        none = np.zeros(cloud.count, dtype=bool)
+        flags = {MULTI_RETURN: SeveralReturns(cloud), ROADS_FLAG: none}
         store.append(cloud, Marks(*marks)._replace(flags=flags))
     store.finish()
     return store
