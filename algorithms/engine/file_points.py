@@ -242,7 +242,7 @@ class TileResult:
         """Add the next points of the file."""
         for result, found in zip(self.results, self._values):
             before, values = part, found.of(where, part)
-            part = found.step.applied(before, values)
+            part = result.applied(before, values)
             result.add(where, before, part, values)
         if self.classification is not None:
             self.classification[where] = part.classification

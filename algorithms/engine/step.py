@@ -216,9 +216,14 @@ class PointResult:
         """Whether no point is to be written."""
         return False
 
+    def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Return the next points with their values, as the step does."""
+        after: PointCloud = self._step.applied(part, values)
+        return after
+
     def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
-        """Add the values, shape (k,), of the points at `where` in the file, given without and with
-        what the step changes.
+        """Add the values, shape (k,), of the points at `where` in the file, given without them and
+        as `applied` has just returned them.
         """
         self._numbers.update(point_count=before.count, **self._step.numbers(before, after, values))
 

@@ -27,7 +27,7 @@ from ...las.lasfile import LasFile
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...rasters.writing import raster_file
 from ...survey.area import Area
-from ...survey.corrections import NO_CORRECTIONS, Corrections
+from ...survey.corrections import NO_CORRECTIONS, ByHand, Corrections
 from ...survey.kept_classes import overlapping
 from ...survey.point_chooser import PointChooser
 from ...survey.point_counts import PointCounts, by_class, count_classes
@@ -129,7 +129,12 @@ class LabelGround(PointStep):
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their new classes; points that are not written become withheld."""
-        inside, by_hand = self.chooser.inside(part), self.chooser.by_hand(part)
+        return self.decided(part, values, self.chooser.inside(part), self.chooser.by_hand(part))
+
+    def decided(
+        self, part: PointCloud, values: np.ndarray, inside: np.ndarray, by_hand: ByHand | None
+    ) -> PointCloud:
+        """Return the same, given which points lie in the area, and the corrections by hand."""
         ground, low, decks, high = (values == label for label in Label)
         classes = self.selection.classes(part, ground, low, inside, decks, by_hand, high)
         part = with_classes(part, classes, self.selection.remember_classes)
@@ -226,13 +231,20 @@ class ClassifiedPoints(PointResult):
         self._counts_before = np.zeros(256, dtype=np.int64)
         self._has_ground = False
 
+    def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
+        """Return points with their new classes, and keep what `add` needs as well."""
+        chooser = self._step.chooser
+        # To find points in polygons takes long.
+        if self._is_tile:
+            self._inside, _, _ = chooser.choose(part, self._counts)
+        else:
+            self._inside = chooser.inside(part)
+        self._by_hand = chooser.by_hand(part)
+        return self._step.decided(part, values, self._inside, self._by_hand)
+
     def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
         """Count some points, given their labels."""
-        chooser = self._step.chooser
-        if self._is_tile:
-            inside, _, _ = chooser.choose(before, self._counts)
-        else:
-            inside = chooser.inside(before)
+        inside, by_hand = self._inside, self._by_hand
         ground = after.classification == self._step.selection.to_class
         if self.kept is not None:
             self.kept[where] = inside if self._step.output.area_only else True
@@ -241,7 +253,6 @@ class ClassifiedPoints(PointResult):
         self._has_ground |= bool((values == Label.GROUND).any())
         self._counts_before += count_classes(before.classification)
         self._overlap_count += int(np.count_nonzero(overlapping(before)))
-        by_hand = chooser.by_hand(before)
         if by_hand is not None:
             self._by_hand_count += int(np.count_nonzero(by_hand.known & inside))
         self._count += before.count
