@@ -18,6 +18,7 @@ BareEarthError: Cell size must be at least 0.01 m, not -1.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from dataclasses import dataclass
 from typing import Any, Iterable, Mapping, TypeVar
@@ -195,6 +196,7 @@ class ParameterSet:
         return next((found for found in sets if isinstance(found, cls)), None) or cls()
 
     @classmethod
+    @functools.cache
     def declarations(cls) -> tuple[Declaration, ...]:
         """Return the declarations of all parameters, in order."""
         return tuple(

@@ -36,7 +36,7 @@ _PATTERNS = tuple(
         (r"\d{4}-\d\d-\d\d([T ]\d\d:\d\d(:\d\d(\.\d+)?)?Z?)?", "DATE"),
         (r"\b\d[\d,.]* ?(s|seconds?|minutes?|MB|GB|MiB|GiB)\b", r"SOME \1"),
         (r"Seconds by stage:.*", "SECONDS"),
-        (r".* jobs? (is|are) done\. The largest took .*\n?", ""),  # only with one processor
+        (r"(?m)^.* jobs? (is|are) done\. The largest took .*\n?", ""),  # only with one processor
         (r"(--memory|--threads) \S+", r"\1 N"),
         (r"[-\u2212](0(\.0+)?)(?![\d.])", r"\1"),
         (r"\r\n", "\n"),

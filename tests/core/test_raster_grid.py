@@ -219,7 +219,7 @@ def test_what_is_no_extent_is_refused(source, tmp_path, box):
     assert "smallest x and y" in errors
 
 
-def test_each_file_gets_its_part_of_the_grid(source, files, tmp_path):
+def test_each_file_gets_its_part_of_the_grid(source, files, tmp_path, threads_for_processes):
     like = given(tmp_path / "like.tif", shape=(70, 100))
     out = tmp_path / "dtm.tif"
     code, _, errors = said(

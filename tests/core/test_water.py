@@ -16,7 +16,7 @@ from bare_earth.algorithms.grids.descent import isotonic
 from bare_earth.algorithms.tools.water.finding import Water, find_water
 from bare_earth.algorithms.tools.water.grid import WaterGrid, cell_for
 
-WIDE, DENSITY, LEVEL = 400.0, 4.0, 100.0
+WIDE, DENSITY, LEVEL = 400.0, 2.0, 100.0
 
 
 class Scene:
@@ -97,7 +97,8 @@ def written_water(source, folder):
 
 def overlap(bodies, away, size=(WIDE, WIDE)):
     """Return the intersection over union of found and true water."""
-    x, y = np.meshgrid(np.arange(0.5, size[0]), np.arange(0.5, size[1]))
+    step = size[0] / 250.0
+    x, y = np.meshgrid(*(np.arange(step / 2.0, side, step) for side in size))
     true, found = away(x, y) < 0, np.zeros(x.shape, dtype=bool)
     for body in bodies:
         found |= contains(body, x, y)
@@ -105,7 +106,7 @@ def overlap(bodies, away, size=(WIDE, WIDE)):
 
 
 def lake_scene(kind):
-    scene = Scene()
+    scene = Scene(density=4.0 if kind == "class 9" else DENSITY)
     scene.basin(lake)
     inside = scene.inside(lake) < 0
     scene.z[inside] = LEVEL + scene.random.normal(0, 0.03, inside.sum())

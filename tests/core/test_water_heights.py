@@ -25,7 +25,7 @@ def surveys(tmp_path_factory):
     def make(kind):
         if kind in known:
             return known[kind]
-        scene = Scene(500.0, 300.0, 3.0) if kind == "river" else Scene(density=3.0)
+        scene = Scene(500.0, 300.0, 1.5) if kind == "river" else Scene(density=1.5)
         away = river if kind == "river" else lake
         scene.basin(away, (lambda x, y: LEVEL - 0.002 * x) if kind == "river" else LEVEL)
         scene.keep(scene.inside(away) > 0)
@@ -37,8 +37,8 @@ def surveys(tmp_path_factory):
         tiles.mkdir(parents=True)
         for number in range(4):
             there = (columns[0] >= 200.3) + 2 * (columns[1] >= 140.7) == number
-            write(tiles / f"{number}.laz", *(each[there] for each in columns))
-        known[kind] = write(folder / kind / "one.laz", *columns), tiles
+            write(tiles / f"{number}.las", *(each[there] for each in columns))
+        known[kind] = write(folder / kind / "one.las", *columns), tiles
         return known[kind]
 
     return make
