@@ -1456,6 +1456,8 @@ def fetch(
     boundary: _Path | Sequence[Any] | None = None,
     resolution: float | None = None,
     limit: float = 2.0,
+    skip_missing: bool = False,
+    follow: bool = False,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Fetched:
     """Download part of a remote point cloud.
@@ -1467,9 +1469,12 @@ def fetch(
     Parameters
     ----------
     address : str
-        The address of a COPC file (https, s3, gs or az), or the path of one.
+        The address (https, s3, gs or az) of a COPC file, of the ept.json of an EPT data set, of
+        a virtual point cloud (.vpc), or of a STAC item or collection with such files; or the
+        path of one.
     output : path
-        The file to write (.copc.laz or .laz).
+        The file to write (.copc.laz or .laz), or a new folder, without an ending, with a file
+        for each point cloud of a list.
     extent : four floats, optional
         Xmin, ymin, xmax, ymax: download only points in this rectangle, in the CRS of the
         points; without an area all points.
@@ -1482,6 +1487,11 @@ def fetch(
         of its octree are downloaded, whose points are about so far apart. None: all points.
     limit : float, default 2.0 GB
         A download of more is refused before it begins. The error says how large it is.
+    skip_missing : bool, default False
+        Go on if tiles of an EPT data set are missing on the server. A warning counts them.
+    follow : bool, default False
+        Whether a virtual point cloud or a STAC item may name files on servers that you did not
+        name. Without it, they are named and nothing is downloaded.
     progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.

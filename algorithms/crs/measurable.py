@@ -43,8 +43,8 @@ def require_measurable(subject: object, crs: Crs, box: Box | None = None) -> Non
     if wrong:
         raise BareEarthError(
             f"{subject} is in a Mercator projection ({crs.name}), in which {wrong}, so that nothing"
-            f" can be measured in it. {_reproject()} If the file states the wrong CRS, give the"
-            f" right one: {HOW}."
+            f" can be measured in it. {how_to_reproject()} If the file states the wrong CRS, give"
+            f" the right one: {HOW}."
         )
 
 
@@ -90,7 +90,7 @@ def _not_projected(subject: object, crs: Crs, box: Box | None) -> BareEarthError
         )
     return BareEarthError(
         f"{subject} is not in a projected CRS ({crs.name}), so that nothing can be measured in it."
-        f" {_reproject()}"
+        f" {how_to_reproject()}"
     )
 
 
@@ -107,7 +107,8 @@ def _is_geocentric(crs: Crs) -> bool:
     return text.startswith("GEOCCS") or "CS[CARTESIAN,3]" in text.replace(" ", "")
 
 
-def _reproject() -> str:
+def how_to_reproject() -> str:
+    """Return what to do with points in which nothing can be measured."""
     return (
         "Reproject it first: in QGIS with 'Reproject' of the group Point cloud data management,"
         " elsewhere with 'pdal translate INPUT OUTPUT reprojection"

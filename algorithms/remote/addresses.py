@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from urllib.parse import quote, unquote, urljoin, urlsplit, urlunsplit
 
 from ..core.errors import BareEarthError
@@ -65,9 +66,11 @@ def ends_with(address: str, *endings: str) -> bool:
 
 
 def beside(address: str, name: str) -> str:
-    """Return the address of a file in the folder of another one, with the same query, in which the
-    signature of a whole folder may stand.
+    """Return the address or path of a file in the folder of another one, with the same query, in
+    which the signature of a whole folder may stand.
     """
+    if not is_address(address):
+        return str(Path(address).parent / name)
     parts = urlsplit(address)
     folder = parts.path.rpartition("/")[0]
     return urlunsplit(parts._replace(path=f"{folder}/{name}"))

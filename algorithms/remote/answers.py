@@ -42,7 +42,7 @@ class Unfinished(Exception):
 
 
 class Missing(BareEarthError):
-    """The server does not have the file, or does not give it."""
+    """The server does not have the file, or does not say whether it has it."""
 
 
 class State(NamedTuple):
@@ -129,7 +129,7 @@ def check_status(address: str, status: int, headers: Headers) -> None:
         raise Unfinished(f"it answers with status {status}", _pause(headers.get("Retry-After", "")))
     if status in (401, 403):
         if _SIGNED.search(address):
-            raise Missing(
+            raise BareEarthError(
                 f"{host} refuses {place} (status {status}): the signature in the address is wrong"
                 " or has expired. Get a new address, and run it again."
             )

@@ -15,6 +15,7 @@ from typing import BinaryIO, Iterator, cast
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..crs.measurable import length_scale
 from ..crs.system import Crs
@@ -33,7 +34,6 @@ from ..las.lasfile import (
     LASZIP,
     VLR_HEADER,
     Evlr,
-    LasFile,
     Vlr,
 )
 from ..las.opening import read_layout
@@ -52,6 +52,8 @@ _LARGEST = 1 << 20
 class CopcPart:
     """What an area and a resolution need of a COPC file: nodes, and the requests for them."""
 
+    is_exact, missing_count = True, 0
+
     def __init__(
         self,
         file: RangeFile,
@@ -59,7 +61,7 @@ class CopcPart:
         resolution: float | None = None,
         progress: Progress = SILENT,
     ) -> None:
-        self.file, self._bytes = file, cast(BinaryIO, file)
+        self.file, self.name, self._bytes = file, file.name, cast(BinaryIO, file)
         file.fetch(file.plan(_first_pieces(self._bytes, file.size)), progress.quiet())
         file.seek(0)
         path = Path(file.name)
@@ -69,7 +71,7 @@ class CopcPart:
                 f"{file.name} is not COPC, so that no part of it can be found. Download all of it,"
                 " and give it as a file."
             )
-        self.crs = read_crs(self.layout, progress)
+        self.crs, self.box = read_crs(self.layout, progress), self.layout.box
         self.area = None if area is None else area.located(Place(file.name, self.crs), progress)
         self._hierarchy = read_hierarchy(self.layout)
         self.nodes = np.zeros(0, dtype=HIERARCHY_ENTRY)
@@ -78,7 +80,7 @@ class CopcPart:
             self.nodes = find_nodes(
                 self._hierarchy,
                 box,
-                levels_of(self._hierarchy.spacing, resolution, self.crs, self.layout),
+                levels_of(self._hierarchy.spacing, resolution, self.crs, self.box),
                 self._bytes,
                 lambda pages: file.fetch(file.plan(pages), progress.quiet()),
             )
@@ -181,13 +183,13 @@ class CopcPart:
         return self.area.contains(x, y)
 
 
-def levels_of(spacing: float, resolution: float | None, crs: Crs, layout: LasFile) -> int:
+def levels_of(spacing: float, resolution: float | None, crs: Crs, box: Box) -> int:
     """Return how many levels of an octree are needed for points so many metres apart; each has half
     the spacing of the one above.
     """
     if not resolution or not spacing > 0:
         return 64
-    units = resolution / crs.horizontal_unit * length_scale(crs, layout.box)
+    units = resolution / crs.horizontal_unit * length_scale(crs, box)
     return max(1, math.ceil(math.log2(spacing / units)) + 1)
 
 

@@ -8,14 +8,17 @@ from typing import Protocol
 
 from ..core.errors import BareEarthError
 from ..core.files import make_work_folder, write_errors_told
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
+from ..crs.measurable import how_to_reproject, length_scale, wrong_lengths
 from ..crs.system import Crs
-from ..las.lasfile import LasFile
 from ..survey.area import Area
 from ..survey.shapes import outside
 from .addresses import checked, is_address, name_of, shown
 from .copc import SUFFIX, CopcPart
+from .ept import DESCRIPTION, EptPart
 from .files import LocalFile, RemoteFile
+from .lists import clouds_of
 from .parts import remove_parts
 from .transfers import Transfers
 
@@ -29,6 +32,8 @@ class Wanted:
     area: Area | None = None  # None for all of it
     resolution: float | None = None  # metres between points; None for all points
     most: float = 2.0 * _GIGABYTE  # bytes
+    skips_missing: bool = False  # whether tiles may be missing
+    follows: bool = False  # whether lists may name servers that the user did not
 
 
 @dataclass(frozen=True)
@@ -39,6 +44,7 @@ class Fetched:
     file_count: int  # files that were written
     size: int  # bytes that were downloaded
     request_count: int
+    missing_count: int  # tiles that the server lacks
 
     @property
     def text(self) -> str:
@@ -53,12 +59,15 @@ class Fetched:
 class Part(Protocol):
     """What an area and a resolution need of a point cloud."""
 
-    layout: LasFile  # of the points; its extent may be larger than that of the part
+    name: str
+    box: Box  # of the whole cloud
     crs: Crs
     area: Area | None  # in the CRS of the points
-    size: int  # bytes to download, as far as they are known
+    size: int  # bytes to download
+    is_exact: bool  # whether these are known, and not estimated
     request_count: int
     point_count: int  # with some that lie outside of the area
+    missing_count: int  # tiles that the server lacks
 
     def fetch(self, progress: Progress) -> None:
         """Get all that is needed."""
@@ -75,59 +84,46 @@ def fetch(
     an error or a cancel.
     """
     address = checked(address) if is_address(address) else address
-    with Transfers(progress) as transfers:
-        with write_errors_told(waiting):
-            make_work_folder(waiting)
-        is_planned = False
-        try:
-            parts = _planned(address, transfers, waiting, wanted, progress.part(0.0, 0.1))
-            is_planned, tell = True, progress.part(0.1, 0.7)
-            for part, share in zip(parts, tell.shares(*(part.size for part in parts))):
+    is_planned = False
+    with write_errors_told(waiting):
+        make_work_folder(waiting)
+    try:
+        with Transfers(progress) as transfers:
+            progress = transfers.progress
+            parts = _found(address, transfers, waiting, wanted, progress.part(0.0, 0.1))
+            _check(parts, target, wanted.most, progress)
+            is_planned = True
+            shares = progress.part(0.1, 0.7).shares(*(part.size for part in parts))
+            for part, share in zip(parts, shares):
                 part.fetch(share)
             counts = _written(parts, target, progress.part(0.7, 1.0))
             if not counts:
-                remove_parts(waiting)
-                raise _nothing_there(parts[0], address)
-        except BaseException:
-            if is_planned:
-                _tell_of_rest(waiting, progress)
-            else:
-                remove_parts(waiting)
-            raise
-        done = Fetched(sum(counts), len(counts), transfers.received, transfers.requests)
+                is_planned = False
+                raise _nothing_there(parts, address)
+    except BaseException:
+        if is_planned:
+            _tell_of_rest(waiting, progress)
+        else:
+            remove_parts(waiting)
+        raise
     remove_parts(waiting)
-    return done
+    missing = sum(part.missing_count for part in parts)
+    return Fetched(sum(counts), len(counts), transfers.received, transfers.requests, missing)
 
 
-def _planned(
+def _found(
     address: str, transfers: Transfers, waiting: Path, wanted: Wanted, progress: Progress
 ) -> list[Part]:
-    """Return what is needed of each point cloud that has points in the area, and tell how much that
-    is; refuse too much.
-    """
-    addresses = [address]
+    """Return what is needed of each point cloud that has points in the area."""
+    clouds = clouds_of(address, transfers, wanted.follows)
+    near = [cloud.address for cloud in clouds if cloud.may_touch(wanted.area)]
     parts = [
-        _part(one, transfers, waiting / str(number), wanted, share)
-        for number, (one, share) in enumerate(
-            zip(addresses, progress.shares(*[1] * len(addresses)))
-        )
+        _part(place, transfers, waiting / str(number), wanted, share)
+        for number, (place, share) in enumerate(zip(near, progress.shares(*[1] * len(near))))
     ]
     found = [part for part in parts if part.point_count]
     if not found:
-        raise _nothing_there(parts[0], address)
-    size = sum(part.size for part in found)
-    points = sum(part.point_count for part in found)
-    if size > wanted.most:
-        raise BareEarthError(
-            f"This would download {in_words(size)} ({points:,} points), more than the limit of"
-            f" {in_words(wanted.most)}. Choose a smaller area or a coarser resolution, or raise the"
-            f" limit: --limit {size / _GIGABYTE + 0.1:.1f}."
-        )
-    requests = sum(part.request_count for part in found)
-    progress.info(
-        f"Downloads {in_words(size)} in {requests:,} requests, with {points:,} points in and near"
-        " the area."
-    )
+        raise _nothing_there(parts, address)
     return found
 
 
@@ -135,20 +131,48 @@ def _part(
     address: str, transfers: Transfers, waiting: Path, wanted: Wanted, progress: Progress
 ) -> Part:
     """Return what is needed of a point cloud."""
+    if name_of(address).lower() == DESCRIPTION:
+        skips = wanted.skips_missing
+        return EptPart(transfers, address, waiting, wanted.area, wanted.resolution, skips, progress)
     file = (
         RemoteFile(transfers, address, waiting) if is_address(address) else LocalFile(Path(address))
     )
     return CopcPart(file, wanted.area, wanted.resolution, progress)
 
 
+def _check(parts: list[Part], target: Path, most: float, progress: Progress) -> None:
+    """Tell how much will be downloaded; refuse too much, and one file for several clouds."""
+    if len(parts) > 1 and target.suffix:
+        raise BareEarthError(
+            f"{len(parts)} point clouds have points there. Name a new folder as output, without an"
+            " ending: each becomes a file in it."
+        )
+    size, points = sum(part.size for part in parts), sum(part.point_count for part in parts)
+    about = "" if all(part.is_exact for part in parts) else "about "
+    if size > most:
+        raise BareEarthError(
+            f"This would download {about}{in_words(size)} ({points:,} points), more than the limit"
+            f" of {in_words(most)}. Choose a smaller area or a coarser resolution, or raise the"
+            f" limit: --limit {size / _GIGABYTE + 0.1:.1f}."
+        )
+    requests = sum(part.request_count for part in parts)
+    progress.info(
+        f"Downloads {about}{in_words(size)} in {requests:,} requests, with {points:,} points in and"
+        " near the area."
+    )
+    for part in parts:
+        # Such as those of 3DEP in Web Mercator.
+        box = part.box if part.area is None else part.area.bounds
+        if wrong := wrong_lengths(length_scale(part.crs, box)):
+            progress.warning(
+                f"{part.name} is in a Mercator projection ({part.crs.name}), in which {wrong}. Its"
+                f" points are kept as they are. {how_to_reproject()}"
+            )
+
+
 def _written(parts: list[Part], target: Path, progress: Progress) -> list[int]:
     """Write one file, or one for each part into a new folder; return their numbers of points."""
     if target.suffix:
-        if len(parts) > 1:
-            raise BareEarthError(
-                f"{len(parts)} point clouds have points there. Name a new folder as output: each"
-                " becomes a file in it."
-            )
         counts = [parts[0].write(target, progress)]
     else:
         target.mkdir()
@@ -156,7 +180,7 @@ def _written(parts: list[Part], target: Path, progress: Progress) -> list[int]:
         for part, name, share in zip(parts, names, progress.shares(*[1] * len(parts))):
             counts.append(part.write(target / name, share))
             if not counts[-1]:
-                (target / name).unlink()
+                (target / name).unlink(missing_ok=True)
     return [count for count in counts if count]
 
 
@@ -164,18 +188,23 @@ def _names(parts: list[Part]) -> list[str]:
     """Return different names for the files of a folder."""
     names: list[str] = []
     for part in parts:
-        name = part.layout.path.name
-        stem = name[: -len(SUFFIX)] if name.lower().endswith(SUFFIX) else Path(name).stem
-        ending, number = SUFFIX, 1
-        while (new := f"{stem}{'' if number == 1 else f'-{number}'}{ending}") in names:
+        stem, number = part.name, 1
+        for ending in (SUFFIX, ".laz"):
+            stem = stem[: -len(ending)] if stem.lower().endswith(ending) else stem
+        while (new := f"{stem}{'' if number == 1 else f'-{number}'}{SUFFIX}") in names:
             number += 1
         names.append(new)
     return names
 
 
-def _nothing_there(part: Part, address: str) -> BareEarthError:
-    bounds = part.layout.box if part.area is None else part.area.bounds
-    return outside("the area", bounds, name_of(address) or shown(address), part.layout.box)
+def _nothing_there(parts: list[Part], address: str) -> BareEarthError:
+    """Return the error for an area without points."""
+    if len(parts) == 1 and parts[0].area is not None:
+        return outside("the area", parts[0].area.bounds, parts[0].name, parts[0].box)
+    return BareEarthError(
+        f"No point cloud of {name_of(address) or shown(address)} has points in the area. Give the"
+        " area in the CRS of their points."
+    )
 
 
 def _tell_of_rest(waiting: Path, progress: Progress) -> None:

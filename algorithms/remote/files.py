@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from functools import partial
 from pathlib import Path
 from typing import Iterable, NamedTuple, Protocol
 
@@ -20,7 +21,7 @@ _LEAST = 1 << 14
 # Most bytes of a request of several pieces.
 _MOST = 1 << 23
 # Most bytes of a gap, and of all gaps in proportion to what is wanted.
-_WIDEST_GAP, _GAPS = 1 << 20, 0.12
+_WIDEST_GAP, _GAPS = 1 << 20, 0.02
 
 Range = tuple[int, int]  # first byte, and the one after the last
 
@@ -61,7 +62,8 @@ class RemoteFile(io.RawIOBase):
         self._transfers, self._parts, self._position = transfers, Parts(folder, address), 0
         # Asked for in any case, since it tells the version of the file.
         self._head, self._state = transfers.one(lambda: transfers.read(address, 0, _FIRST, None))
-        self.size, self.kept = self._state.size, self._parts.begin(self._state)
+        self.size = self._state.size
+        self._parts.begin(self._state._asdict(), self._state.is_certain)
 
     def plan(self, pieces: Iterable[Range]) -> Plan:
         """Return the requests that give some pieces, joined across gaps."""
@@ -73,7 +75,7 @@ class RemoteFile(io.RawIOBase):
 
     def fetch(self, plan: Plan, progress: Progress) -> None:
         """Get what was planned, in threads, and keep it on disk."""
-        tasks = [lambda piece=piece: self._fetch(*piece) for piece in plan.requests]
+        tasks = [partial(self._fetch, *piece) for piece in plan.requests]
         self._transfers.run(tasks, progress, plan.size)
 
     def readable(self) -> bool:

@@ -8,19 +8,20 @@ import json
 import re
 import threading
 from pathlib import Path
+from typing import Mapping
 
 from ..core.errors import BareEarthError
 from ..core.files import make_work_folder, replacing, write_errors_told
 from ..core.temporary import is_temporary, remove
 from .addresses import shown
-from .answers import State
 
-_ABOUT, _PART = "about.json", re.compile(r"(\d+)-(\d+)")
+_ABOUT, _RANGE = "about.json", re.compile(r"(\d+)-(\d+)")
+_TILE = re.compile(r"\d+-\d+-\d+-\d+\.\w+")
 
 
 class Parts:
-    """Ranges of bytes of one version of a remote file, each a file in a folder, which stays after
-    an error or a cancel, so that the next run goes on.
+    """Ranges or tiles of one version of a remote point cloud, each a file in a folder, which stays
+    after an error or a cancel, so that the next run goes on.
     """
 
     def __init__(self, folder: Path, address: str) -> None:
@@ -29,12 +30,12 @@ class Parts:
         self._stops: dict[int, int] = {}
         self._lock = threading.Lock()
 
-    def begin(self, state: State) -> int:
-        """Keep what is there of this version of the file, remove what is not, and return how many
-        bytes there are.
+    def begin(self, version: Mapping[str, object], is_certain: bool) -> None:
+        """Keep what is there of this version of the cloud, if it is certain which one it is, and
+        remove what is not.
         """
         # Signatures differ from run to run, and belong into no file.
-        about = json.dumps({"address": shown(self._address), **state._asdict()})
+        about = json.dumps({"address": shown(self._address), **version})
         with write_errors_told(self._folder):
             make_work_folder(self._folder)
             if not all(map(_is_ours, self._folder.iterdir())):
@@ -42,16 +43,15 @@ class Parts:
                     f"{self._folder} is in the way: what is downloaded waits in a folder of this"
                     " name. Rename it, or choose another output."
                 )
-            if not state.is_certain or self._about() != about:
+            if not is_certain or self._about() != about:
                 for path in self._folder.iterdir():
                     remove(path)
                 with replacing(self._folder / _ABOUT) as temporary:
                     temporary.write_text(about, encoding="utf-8")
             for path in self._folder.iterdir():
-                found = _PART.fullmatch(path.name)
+                found = _RANGE.fullmatch(path.name)
                 if found and path.stat().st_size == int(found[2]) - int(found[1]):
                     self._know(int(found[1]), int(found[2]))
-        return sum(stop - start for start, stop in self._stops.items())
 
     def _about(self) -> str | None:
         with contextlib.suppress(OSError, ValueError):
@@ -73,11 +73,19 @@ class Parts:
 
     def add(self, start: int, data: bytes) -> None:
         """Keep bytes; the file gets its name when it is whole."""
-        path = self._folder / f"{start}-{start + len(data)}"
-        with write_errors_told(self._folder), replacing(path) as temporary:
-            temporary.write_bytes(data)
+        self.add_file(f"{start}-{start + len(data)}", data)
         with self._lock:
             self._know(start, start + len(data))
+
+    def add_file(self, name: str, data: bytes) -> None:
+        """Keep a whole file."""
+        path = self.path_of(name)
+        with write_errors_told(self._folder), replacing(path) as temporary:
+            temporary.write_bytes(data)
+
+    def path_of(self, name: str) -> Path:
+        """Return where a whole file is kept."""
+        return self._folder / name
 
     def read(self, start: int, stop: int) -> bytes | None:
         """Return the bytes of a range; None if they are not all in one part."""
@@ -91,7 +99,8 @@ class Parts:
 
 
 def _is_ours(path: Path) -> bool:
-    return path.name == _ABOUT or _PART.fullmatch(path.name) is not None or is_temporary(path)
+    is_part = _RANGE.fullmatch(path.name) or _TILE.fullmatch(path.name)
+    return path.name == _ABOUT or is_part is not None or is_temporary(path)
 
 
 def remove_parts(folder: Path) -> None:

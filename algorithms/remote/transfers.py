@@ -9,7 +9,7 @@ from typing import Callable, Protocol, Sequence, TypeVar
 from urllib.parse import urlsplit
 
 from ..core.errors import BareEarthError
-from ..core.progress import Progress
+from ..core.progress import PassingOn, Progress
 from .addresses import STORES, host_of
 from .answers import State, Unfinished
 from .connections import HttpReader
@@ -73,11 +73,21 @@ class _Pace:
 _PACE = _Pace()
 
 
+class _Latest(PassingOn):
+    """Passes on progress, and knows how much of the whole is done."""
+
+    share = 0.0
+
+    def report(self, fraction: float) -> None:
+        self.share = fraction
+        super().report(fraction)
+
+
 class Transfers:
     """Requests of a run, which end with the block."""
 
     def __init__(self, progress: Progress, web: Reader | None = None) -> None:
-        self._progress, self._share = progress, 0.0
+        self.progress = _Latest(progress)
         self._web, self._stores = web or HttpReader(), StoreReader()
         self._stopped = threading.Event()
         self._threads: list[threading.Thread] = []
@@ -164,9 +174,9 @@ class Transfers:
         """Tell what is done, which also notices a cancel, and what the user should know."""
         for reader in (self._web, self._stores):
             while reader.notes:
-                self._progress.info(reader.notes.pop(0))
+                self.progress.info(reader.notes.pop(0))
         if progress is None:
-            self._progress(self._share)
+            self.progress(self.progress.share)
         else:
             progress(share)
 

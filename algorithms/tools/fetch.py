@@ -34,6 +34,19 @@ class Download(ParameterSet):
         minimum=0.0,
         help="A download of more is refused before it begins. The error says how large it is.",
     )
+    skip_missing: bool = parameter(
+        False,
+        label="Skip missing tiles",
+        advanced=True,
+        help="Go on if tiles of an EPT data set are missing on the server. A warning counts them.",
+    )
+    follow: bool = parameter(
+        False,
+        label="Follow lists to other servers",
+        advanced=True,
+        help="Whether a virtual point cloud or a STAC item may name files on servers that you did"
+        " not name. Without it, they are named and nothing is downloaded.",
+    )
 
 
 def download(
@@ -47,7 +60,8 @@ def download(
     # The folder for what is not finished is beside what the user names, not beside the temporary
     # file that is to become it.
     waiting = Path(f"{shown(output)}.parts")
-    return fetch(address, output, Wanted(area, how.resolution, how.limit * 1e9), waiting, progress)
+    wanted = Wanted(area, how.resolution, how.limit * 1e9, how.skip_missing, how.follow)
+    return fetch(address, output, wanted, waiting, progress)
 
 
 TOOL = FileTool(
@@ -57,7 +71,9 @@ TOOL = FileTool(
         Input(
             "address",
             "address",
-            help="the address of a COPC file (https, s3, gs or az), or the path of one",
+            help="the address (https, s3, gs or az) of a COPC file, of the ept.json of an EPT data"
+            " set, of a virtual point cloud (.vpc), or of a STAC item or collection with such"
+            " files; or the path of one",
             named="ADDRESS",
         ),
         Input(
@@ -69,7 +85,13 @@ TOOL = FileTool(
         ),
     ),
     outputs=(
-        Output("output", "points", help="the file to write (.copc.laz or .laz)", is_main=True),
+        Output(
+            "output",
+            "points",
+            help="the file to write (.copc.laz or .laz), or a new folder, without an ending, with a"
+            " file for each point cloud of a list",
+            is_main=True,
+        ),
     ),
     command="fetch",
     command_about="Downloads the points of a remote point cloud that lie in an area, and nothing"

@@ -1,5 +1,6 @@
 """Ranges of remote files: the same bytes as in the file, or one sentence, never other bytes."""
 
+import sys
 import threading
 import time
 
@@ -237,3 +238,47 @@ def test_addresses_are_shown_without_secrets():
     for address in ("file:///etc/passwd", "ftp://host/a", "https:///a", "https://host:x/a"):
         with pytest.raises(BareEarthError):
             checked(address)
+
+
+class Store:
+    """A file system as fsspec has them, which may give fewer bytes or change its objects."""
+
+    def __init__(self, fault):
+        self.fault, self.etags = fault, iter(range(100))
+
+    def info(self, path, refresh):
+        if self.fault == "missing":
+            raise FileNotFoundError(path)
+        return {"size": len(DATA), "ETag": next(self.etags) if self.fault == "changed" else 1}
+
+    def cat_file(self, path, start, end):
+        if self.fault == "denied":
+            raise PermissionError(path)
+        return DATA[start : end - 100 if self.fault == "short" else end]
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        ("missing", "s3://bucket/a does not exist"),
+        ("denied", "You may not read s3://bucket/a"),
+        ("changed", "has changed while it was downloaded"),
+        ("short", "after 6 attempts"),
+        ("", None),
+    ],
+)
+def test_objects_of_stores_are_checked_as_well(tmp_path, monkeypatch, fault, words):
+    fsspec = pytest.importorskip("fsspec")
+    store = Store(fault)
+    monkeypatch.setattr(fsspec, "filesystem", lambda scheme: store)
+    if words is None:
+        assert fetched("s3://bucket/a", tmp_path / "parts")[0] == wanted()
+        return
+    with pytest.raises(BareEarthError, match=words):
+        fetched("s3://bucket/a", tmp_path / "parts")
+
+
+def test_a_store_without_fsspec_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "fsspec", None)
+    with pytest.raises(BareEarthError, match="pip install fsspec s3fs"):
+        fetched("s3://bucket/a", tmp_path / "parts")

@@ -1,0 +1,305 @@
+"""Parts of remote EPT data sets and of lists: the same points, or one sentence."""
+
+import io
+import json
+
+import laspy
+import numpy as np
+import pytest
+from copcs import many_nodes
+from remote_server import serving
+from runs import said
+
+import bare_earth
+from bare_earth import BareEarthError
+from bare_earth.algorithms.las.crs_records import read_crs
+from bare_earth.algorithms.las.opening import open_las
+from bare_earth.algorithms.remote import transfers
+
+WKT = (
+    'PROJCS["ETRS89 / UTM zone 32N",GEOGCS["ETRS89",DATUM["ETRS89",SPHEROID["GRS 1980",6378137,'
+    '298.257222101]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION['
+    '"Transverse_Mercator"],PARAMETER["central_meridian",9],UNIT["metre",1],'
+    'AUTHORITY["EPSG","25832"]]'
+)
+MERCATOR = WKT.replace("ETRS89 / UTM zone 32N", "WGS 84 / Pseudo-Mercator").replace(
+    "Transverse_Mercator", "Mercator_1SP"
+)
+BOX = (500_020.0, 5_600_010.0, 500_060.0, 5_600_055.0)
+
+
+@pytest.fixture
+def server():
+    with serving() as running:
+        yield running
+
+
+@pytest.fixture(autouse=True)
+def no_pauses(monkeypatch):
+    monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
+
+
+def tile_of(points, point_format, offset):
+    header = laspy.LasHeader(
+        version="1.4" if point_format > 5 else "1.2", point_format=point_format
+    )
+    header.scales, header.offsets = [0.01] * 3, offset
+    header.add_extra_dim(laspy.ExtraBytesParams("OriginId", "u4"))
+    tile = laspy.LasData(header)
+    tile.x, tile.y, tile.z = points[:, :3].T
+    tile.classification, tile.OriginId = points[:, 3].astype(np.uint8), points[:, 4].astype("u4")
+    tile.gps_time, tile.return_number = points[:, 4] * 0.5, np.full(len(points), 1)
+    tile.number_of_returns = np.full(len(points), 1)
+    file = io.BytesIO()
+    tile.write(file, do_compress=True)
+    return file.getvalue()
+
+
+def add_ept(server, name="set", point_format=1, srs=None, pages=True):
+    """Put a data set of 3,000 points in 1 + 4 + 16 tiles on the server; return all points."""
+    random, cube = np.random.default_rng(3), (500_000, 5_600_000, 0, 500_100, 5_600_100, 100)
+    points = np.column_stack((random.random((3000, 3)) * 100, random.integers(1, 7, 3000)))
+    corner = np.array([500_000, 5_600_000, 0, 0])
+    points = np.column_stack((np.round(points, 2) + corner, np.arange(3000)))
+    depths, hierarchy, branches = np.arange(3000) % 3, {}, {}
+    for depth in range(3):
+        side = 100 / 2**depth
+        cells = np.minimum((points[:, :3] - cube[:3]) // side, 2**depth - 1).astype(int)
+        cells[:, 2] = 0
+        some = points[depths == depth]
+        for cell in np.unique(cells[depths == depth], axis=0):
+            inside = some[(cells[depths == depth] == cell).all(axis=1)]
+            key = "-".join(map(str, (depth, *cell)))
+            # Offsets of tiles are theirs, not those of the description.
+            offset = [500_000 + depth, 5_600_000, 0]
+            server.add(f"{name}/ept-data/{key}.laz", tile_of(inside, point_format, offset))
+            if depth == 2 and pages:
+                above = "-".join(map(str, (1, *(cell // 2))))
+                branches.setdefault(above, {})[key] = len(inside)
+            else:
+                hierarchy[key] = len(inside)
+    for key, below in branches.items():
+        below[key], hierarchy[key] = hierarchy[key], -1
+        server.add(f"{name}/ept-hierarchy/{key}.json", json.dumps(below).encode())
+    server.add(f"{name}/ept-hierarchy/0-0-0-0.json", json.dumps(hierarchy).encode())
+    srs = {"wkt": WKT} if srs is None else srs
+    about = {"bounds": cube, "boundsConforming": cube, "dataType": "laszip", "span": 16, "srs": srs}
+    return points, server.add(f"{name}/ept.json", json.dumps(about).encode())
+
+
+def table_of(path):
+    cloud = laspy.read(path)
+    columns = cloud.x, cloud.y, cloud.z, cloud.classification, cloud.OriginId
+    found = np.column_stack([np.asarray(column, dtype=float) for column in columns])
+    assert np.array_equal(np.asarray(cloud.gps_time), found[:, 4] * 0.5)
+    return found[np.argsort(found[:, 4])]
+
+
+def clip(points, box=BOX):
+    x, y = points[:, :2].T
+    return points[(x >= box[0]) & (x <= box[2]) & (y >= box[1]) & (y <= box[3])]
+
+
+@pytest.mark.parametrize("name", ["part.laz", "part.copc.laz"])
+@pytest.mark.parametrize("point_format", [1, 6])
+def test_a_part_has_the_same_points_as_a_clip(server, tmp_path, name, point_format):
+    points, address = add_ept(server, point_format=point_format)
+    done = bare_earth.fetch(f"{address}?sig=SECRET", tmp_path / name, extent=BOX)
+    found = table_of(tmp_path / name)
+    assert np.allclose(found, clip(points), atol=1e-6) and done.point_count == len(found)
+    layout = open_las(tmp_path / name)
+    assert read_crs(layout).epsg == 25832 and layout.minor_version == 4
+    assert layout.point_format == (point_format if name == "part.laz" else 6)
+    # Each tile once, each file of the hierarchy once, with the query of the description.
+    asked = [path for path, *_ in server.asked]
+    assert len(asked) == len(set(asked)) and {query for *_, query in server.asked} == {"sig=SECRET"}
+    tiles = [path for path in asked if "ept-data" in path]
+    assert len(tiles) == 1 + 4 + 9 and done.request_count == len(asked)
+    needed = sum(len(server.files[path]) for path in tiles)
+    other = sum(len(server.files[path]) for path in set(asked) - set(tiles))
+    assert server.sent - other <= 1.05 * needed
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+def test_a_resolution_takes_the_upper_levels(server, tmp_path):
+    address = add_ept(server)[1]
+    for resolution, levels in ((100 / 16, 1), (100 / 32, 2), (0.5, 3)):
+        done = bare_earth.fetch(address, tmp_path / "part.laz", resolution=resolution)
+        assert done.point_count == 1000 * levels
+
+
+def test_a_missing_tile_stops_or_is_counted(server, tmp_path):
+    address = add_ept(server)[1]
+    gone = server.files.pop("set/ept-data/2-1-1-0.laz")
+    count = laspy.read(io.BytesIO(gone)).header.point_count
+    with pytest.raises(BareEarthError, match=r"does not exist.*--skip-missing"):
+        bare_earth.fetch(address, tmp_path / "part.laz")
+    kept = list((tmp_path / "part.laz.parts" / "0").glob("[0-9]*.laz"))
+    assert kept
+    asked = len(server.asked)
+    code, _, errors = said("fetch", address, tmp_path / "part.laz", "--skip-missing")
+    assert code == 0 and f"1 tiles of set with {count:,} points are missing" in errors
+    assert len(table_of(tmp_path / "part.laz")) == 3000 - count
+    # What was there was not asked for again.
+    again = [path for path, *_ in server.asked[asked:] if "ept-data" in path]
+    assert 1 <= len(again) <= 1 + 4 + 16 - len(kept)
+    assert [path.name for path in tmp_path.iterdir()] == ["part.laz"]
+
+
+@pytest.mark.parametrize("fault", ["cut", "short", "503", "gzip", "old"])
+@pytest.mark.parametrize("every", [1, 3])
+def test_bad_answers_give_the_same_points_or_one_sentence(server, tmp_path, fault, every):
+    points, address = add_ept(server)
+    server.fault = lambda number, path: fault if number % every == every - 1 else ""
+    try:
+        bare_earth.fetch(address, tmp_path / "part.laz", extent=BOX)
+    except BareEarthError as error:
+        assert str(error).endswith(".") and not (tmp_path / "part.laz").exists()
+        server.fault = lambda number, path: ""
+        bare_earth.fetch(address, tmp_path / "part.laz", extent=BOX)
+    assert np.allclose(table_of(tmp_path / "part.laz"), clip(points), atol=1e-6)
+
+
+def test_web_mercator_is_kept_with_a_warning(server, tmp_path):
+    points, address = add_ept(server, srs={"wkt": MERCATOR})
+    code, _, errors = said("fetch", address, tmp_path / "part.laz")
+    assert code == 0 and "Mercator projection" in errors and "Reproject it first" in errors
+    assert np.allclose(table_of(tmp_path / "part.laz"), points, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"dataType": "binary"}, "only laszip can be read"),
+        ({"span": 0}, "cube has no size"),
+        ({"bounds": [1]}, "cube has no size"),
+        ({"bounds": None}, "description cannot be read"),
+        ({"boundsConforming": [1]}, "extent cannot be read"),
+    ],
+)
+def test_a_damaged_description_is_refused(server, tmp_path, change, words):
+    address = add_ept(server)[1]
+    about = {**json.loads(server.files["set/ept.json"]), **change}
+    server.files["set/ept.json"] = json.dumps(about).encode()
+    with pytest.raises(BareEarthError, match=words):
+        bare_earth.fetch(address, tmp_path / "part.laz")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("text", ["{", "[]", '{"0-0-0-0": "a"}', '{"a": 1}', '{"1-9-0-0": 5}'])
+def test_a_damaged_hierarchy_is_refused(server, tmp_path, text):
+    address = add_ept(server)[1]
+    server.files["set/ept-hierarchy/0-0-0-0.json"] = text.encode()
+    with pytest.raises(BareEarthError, match=r"no EPT data set that can be read|no point cloud"):
+        bare_earth.fetch(address, tmp_path / "part.laz")
+
+
+def test_a_tile_that_is_no_cloud_is_refused(server, tmp_path):
+    address = add_ept(server)[1]
+    name = "set/ept-data/0-0-0-0.laz"
+    server.files[name] = server.files[name][:-300]
+    with pytest.raises(BareEarthError, match="damaged or cut off"):
+        bare_earth.fetch(address, tmp_path / "part.laz")
+    assert not (tmp_path / "part.laz").exists()
+
+
+# Lists
+
+
+def item_of(href, name="a", **properties):
+    return {
+        "type": "Feature",
+        "stac_version": "1.0.0",
+        "id": name,
+        "properties": properties,
+        "assets": {"data": {"href": href, "roles": ["data"]}},
+        "links": [],
+    }
+
+
+def text_of(*items):
+    return json.dumps({"type": "FeatureCollection", "features": items}).encode()
+
+
+@pytest.fixture
+def copc(server, tmp_path_factory):
+    content = many_nodes(tmp_path_factory.mktemp("copc"))
+    server.add("clouds/a.copc.laz", content)
+    server.add("clouds/b.copc.laz", content)
+    return content
+
+
+@pytest.fixture
+def tiles(server, copc):
+    return server.add(
+        "all.vpc", text_of(item_of("clouds/a.copc.laz"), item_of("clouds/b.copc.laz"))
+    )
+
+
+def test_each_cloud_of_a_list_becomes_a_file(tiles, tmp_path):
+    with pytest.raises(BareEarthError, match="Name a new folder"):
+        bare_earth.fetch(tiles, tmp_path / "all.laz")
+    done = bare_earth.fetch(tiles, tmp_path / "all")
+    assert sorted(path.name for path in (tmp_path / "all").iterdir()) == [
+        "a.copc.laz",
+        "b.copc.laz",
+    ]
+    assert done.file_count == 2 and done.point_count == 8000
+    assert [path.name for path in tmp_path.iterdir()] == ["all"]
+    with pytest.raises(BareEarthError, match="exists already"):
+        bare_earth.fetch(tiles, tmp_path / "all")
+
+
+def test_clouds_outside_of_the_area_are_not_asked_for(server, copc, tmp_path):
+    far = item_of("clouds/b.copc.laz", **{"proj:bbox": [0, 0, 0, 1, 1, 1], "proj:epsg": 25832})
+    address = server.add("all.vpc", text_of(item_of("clouds/a.copc.laz"), far))
+    box = (400_000, 5_000_000, 400_050, 5_000_050)
+    bare_earth.fetch(address, tmp_path / "part.laz", extent=box)
+    assert {path for path, *_ in server.asked} == {"all.vpc", "clouds/a.copc.laz"}
+
+
+def test_items_and_collections_of_stac_are_followed(server, copc, tmp_path):
+    points, _ = add_ept(server)
+    item = item_of("../set/ept.json")
+    server.add("stac/item.json", json.dumps(item).encode())
+    links = [{"rel": "item", "href": "./item.json"}, {"rel": "self", "href": "http://nowhere/"}]
+    collection = {"type": "Collection", "links": links}
+    address = server.add("stac/collection.json", json.dumps(collection).encode())
+    done = bare_earth.fetch(address, tmp_path / "part.laz")
+    assert done.point_count == len(points)
+
+
+def test_other_servers_are_followed_only_if_the_user_says_so(server, copc, tmp_path):
+    href = server.address("clouds/a.copc.laz", "localhost")
+    address = server.add("all.vpc", text_of(item_of(href)))
+    local = tmp_path / "local.vpc"
+    local.write_bytes(text_of(item_of(server.address("clouds/a.copc.laz"))))
+    for given, host in ((address, "localhost"), (local, "127.0.0.1")):
+        with pytest.raises(BareEarthError, match=f"other servers: {host}.*--follow"):
+            bare_earth.fetch(given, tmp_path / "part.laz")
+        assert {path for path, *_ in server.asked} <= {"all.vpc"}
+    for given in (address, local):
+        assert bare_earth.fetch(given, tmp_path / "part.laz", follow=True).point_count == 4000
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (text_of(item_of("file:///etc/passwd.copc.laz")), "cannot be fetched"),
+        (text_of(item_of("a.txt")), "lists no COPC"),
+        (text_of(), "lists no COPC"),
+        (b"<html></html>", "neither a point cloud nor a list"),
+        (b"[]", "neither a point cloud nor a list"),
+        (json.dumps({"type": "Feature", "assets": [1]}).encode(), "lists no COPC"),
+    ],
+)
+def test_a_list_without_remote_clouds_is_refused(server, tmp_path, content, words):
+    with pytest.raises(BareEarthError, match=words):
+        bare_earth.fetch(server.add("all.json", content), tmp_path / "part.laz")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_list_on_this_computer_may_name_its_files(copc, tmp_path):
+    (tmp_path / "a.copc.laz").write_bytes(copc)
+    (tmp_path / "all.vpc").write_bytes(text_of(item_of("./a.copc.laz")))
+    assert bare_earth.fetch(tmp_path / "all.vpc", tmp_path / "part.laz").point_count == 4000
