@@ -40,12 +40,16 @@ class HighGroups:
         """
         cells = Cells.over(points, max(self.reach, _SPACINGS * spacing(points)))
         found = np.zeros(points.count, dtype=bool)
-        left = np.arange(points.count)
+        left, near = np.arange(points.count), np.ones(cells.shape, dtype=bool)
         for _ in range(_MOST_ROUNDS):
             hanging = left[self._hanging(cells, cells.index[left], points.z[left])]
+            hanging = hanging[near.ravel()[cells.index[hanging]]]
             if not len(hanging):
                 break
             found[hanging] = True
+            # Only in and next to the cells of these others can hang now.
+            near = within_square(np.maximum, cells.holding(hanging), 1)
+            left = cells.points_in(within_square(np.maximum, near, 1))
             left = left[~found[left]]
         which = np.flatnonzero(found)
         found[which] = self._are_small(points.take(which))
