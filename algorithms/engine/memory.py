@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 import time
@@ -16,14 +17,15 @@ from ..core.threads import available_cpus
 GIGABYTE = 1 << 30
 _UNKNOWN = 4 * GIGABYTE
 _SHARE = 0.5
-# Freed memory is given back after so many seconds if memory is short.
-_SECONDS = 0.3
+# Freed memory is given back after so many seconds if a process takes more than this share of what
+# it may use, and so many bytes for its libraries.
+_SECONDS, _NEARLY, _LIBRARIES = 0.3, 0.7, 200_000_000
 _MEMINFO = Path("/proc/meminfo")
 _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 _CGROUP = Path("/sys/fs/cgroup")
-# Options of `mallopt` in malloc.h: one heap, in which arrays up to 128 MB lie, and of which as much
-# may stay free at the end. The system need not make their pages again and again.
-_HEAP = (-8, 1), (-3, 1 << 27), (-1, 1 << 27)
+# Options of `mallopt` in malloc.h: one heap, in which arrays up to 256 MB lie, and of which at most
+# 1 GB stays free at its end: the system need not make their pages again and again.
+_HEAP = (-8, 1), (-3, 1 << 28), (-1, 1 << 30)
 
 
 @dataclass(frozen=True)
@@ -109,21 +111,23 @@ def give_back() -> None:
 
 
 class GivingBack(PassingOn):
-    """Passes on progress, and now and then gives freed memory back to the system and calls `also`,
-    which gives up other memory.
+    """Passes on progress, and now and then, if this process nears the `most` bytes that may be
+    used, gives freed memory back to the system and calls `also`, which gives up other memory.
     """
 
-    def __init__(self, whole: Progress, also: Callable[[], None] | None = None) -> None:
+    def __init__(self, whole: Progress, most: int, also: Callable[[], None] | None = None) -> None:
         super().__init__(whole)
-        self._also, self._given = also, time.monotonic()
+        self._most, self._also, self._given = most, also, time.monotonic()
 
     def report(self, fraction: float) -> None:
         """Pass on how much is done."""
         super().report(fraction)
         if time.monotonic() - self._given > _SECONDS:
-            give_back()
-            if self._also is not None:
-                self._also()
+            # Memory that stays is used again, and its pages need not be made anew.
+            if (_own("VmRSS") or math.inf) > _LIBRARIES + _NEARLY * self._most:
+                give_back()
+                if self._also is not None:
+                    self._also()
             self._given = time.monotonic()
 
 
