@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from ..survey.vector_files import FORMATS
 from ..tools.check.reading import FORMATS as POINT_FORMATS
+from ..tools.rasters.constraints import INPUTS
 
 REQUIRED = inspect.Parameter.empty
 _PATH, _LITERAL = "str | PathLike[str]", "Literal[{}]"
@@ -113,30 +114,8 @@ TARGET = (
         " widened to whole cells, which stay where they are; all points are used",
     ),
 )
-CONSTRAINTS = (
-    Argument.of(
-        "breaklines",
-        "lines",
-        "lines that no triangle of the terrain crosses; z is in the unit of heights of the points,"
-        " and a line without z gets the height of the nearest ground point on each side"
-        f" ({FORMATS})",
-    ),
-    Argument.of(
-        "water",
-        "polygons",
-        f"polygons of water; each is flattened to one level ({FORMATS})",
-    ),
-    Argument.of(
-        "rivers",
-        "lines",
-        f"lines along which the level of the water polygons falls ({FORMATS})",
-    ),
-    Argument.of(
-        "no_ground",
-        "polygons",
-        "polygons in which the terrain uses no ground points, such as bridges and roofs"
-        f" ({FORMATS})",
-    ),
+CONSTRAINTS = tuple(
+    Argument.of(given.name, given.kind, given.help.format(formats=FORMATS)) for given in INPUTS
 )
 # Constraints of functions that find the water themselves where it is automatic.
 WITH_AUTOMATIC_WATER = tuple(

@@ -39,7 +39,8 @@ class Input:
     # "extent": a rectangle in the CRS of the points (a `Box`);
     # "checkpoints": a layer or a table of points (`Checkpoints`);
     # "words": several words (a tuple of text);
-    # of a `MapTool` only: "constraints", "corrections" and "target" (the grid of the rasters).
+    # of a `MapTool` only: "constraints" (polygons and "lines"), "corrections" and "target" (the
+    # grid of the rasters).
     kind: str
     # Makes the value of the field of a step from polygons, or from a raster and the progress.
     of: Callable[..., Any] = lambda value, *progress: value

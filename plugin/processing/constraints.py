@@ -11,46 +11,21 @@ from qgis.core import (
 )
 
 from ...algorithms.core.progress import Progress
-from ...algorithms.tools.rasters.constraints import Constraints
+from ...algorithms.tools.rasters.constraints import INPUTS, Constraints
 from .. import compat
 from .inputs import CloudCrs, layer_shapes
 
-# Name, label, kind of the layer and help of each field.
-_FIELDS = {
-    "BREAKLINES": (
-        "Breaklines",
-        compat.LINES,
-        "Lines that no triangle of the terrain crosses: edges of walls, dykes and terraces. A line"
-        " with z has this height. Without z, each side of the line has the height of the nearest"
-        " ground point on that side.",
-    ),
-    "WATER": (
-        "Water",
-        compat.POLYGONS,
-        "Polygons of water. Each is flattened to one level, that of the ground along its border.",
-    ),
-    "RIVERS": (
-        "Rivers",
-        compat.LINES,
-        "Lines along which the level of the water polygons falls. They may be drawn in either"
-        " direction.",
-    ),
-    "NO_GROUND": (
-        "No ground here",
-        compat.POLYGONS,
-        "Polygons in which the terrain uses no ground points, such as bridges and roofs. The"
-        " classes of the points do not change.",
-    ),
-}
+_KINDS = {"lines": compat.LINES, "polygons": compat.POLYGONS}
 
 
 def add_constraints(algorithm: QgsProcessingAlgorithm) -> None:
     """Add the fields of the layers to a dialog, as advanced parameters."""
-    for name, (label, kind, text) in _FIELDS.items():
-        field = QgsProcessingParameterFeatureSource(name, label, [kind], None, True)
-        field.setHelp(text)
+    for given in INPUTS:
+        field = QgsProcessingParameterFeatureSource(
+            given.field_name, given.label, [_KINDS[given.kind]], None, True
+        )
         field.setFlags(field.flags() | compat.ADVANCED)
-        algorithm.addParameter(field)
+        algorithm.addParameter(field, given.field_help)
 
 
 def constraints_of(
@@ -64,10 +39,11 @@ def constraints_of(
     layers in the command line.
     """
     shapes: dict[str, Any] = {}
-    for name, (label, kind, _) in _FIELDS.items():
+    for given in INPUTS:
+        name, kind = given.field_name, _KINDS[given.kind]
         if not compat.is_empty(parameters.get(name)):
-            found = layer_shapes(algorithm, parameters, name, label, context, crs, kind)
-            shapes[name.lower()] = tuple(corners for corners, _ in found)
+            found = layer_shapes(algorithm, parameters, name, given.label, context, crs, kind)
+            shapes[given.name] = tuple(corners for corners, _ in found)
     if shapes:
         names = [name.replace("_", "-") for name in shapes]
         progress.info(
