@@ -9,10 +9,10 @@ from qgis.PyQt.QtGui import QIcon
 
 from .. import __version__
 from ..algorithms.survey.feature_files import FORMATS
+from .processing.compositions import CompositionAlgorithm
 from .processing.maps import map_algorithms
 from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
-from .processing.point_cloud_to_terrain import PointCloudToTerrainAlgorithm
 from .processing.tools import tool_algorithms
 
 ICON = Path(__file__).parent / "icons" / "bare_earth.svg"
@@ -52,7 +52,7 @@ class BareEarthProvider(QgsProcessingProvider):
     def loadAlgorithms(self) -> None:
         """Add an instance of each algorithm, and the models of the plugin."""
         self._models = shipped_models()
-        own = [PointCloudToTerrainAlgorithm(), *map_algorithms(), *tool_algorithms()]
+        own = [CompositionAlgorithm(), *map_algorithms(), *tool_algorithms()]
         for algorithm in [*own, *self._models]:
             self.addAlgorithm(algorithm)
 

@@ -31,7 +31,8 @@ class Input:
     name: str  # of the argument of the work, or the field of the step, and of the option
     # One of these; in brackets, what a tool gets:
     # "cloud": a point cloud file (a path); "clouds": files of a survey (paths), in a dialog a file
-    # or a list of files; "files": the same, in a dialog several files or a folder;
+    # or a list of files; "files": the same, in a dialog several files or a folder; "survey": the
+    # same, in a dialog a file or a folder;
     # "address": of a remote file, or a path (text);
     # "raster": a file with a band of heights (its path, or another name that GDAL knows);
     # "crs": the CRS of the points, if the user states it (text);
@@ -109,6 +110,7 @@ class Output:
     files: Callable[[Path, Sequence[ParameterSet]], dict[str, Path]] | None = None
     # Names and labels of these rasters that models in QGIS can use.
     layers: Mapping[str, str] = field(default_factory=dict)
+    page: str = ""  # the label of the page in a folder, which models can use
 
     @property
     def field_name(self) -> str:
@@ -274,6 +276,14 @@ class Composition(Tool):
     default: str = ""  # of it, in the function
     chosen_help: str = ""
     outputs: tuple[Output, ...] = ()
+    # In the dialog, which can also make single outputs.
+    dialog_inputs: tuple[Input, ...] = ()
+    dialog_outputs: Callable[[], tuple[Output, ...]] = tuple
+
+    @property
+    def all_inputs(self) -> tuple[Input, ...]:
+        """The inputs in the order of the dialog."""
+        return self.dialog_inputs
 
     @property
     def all_outputs(self) -> tuple[Output, ...]:

@@ -17,10 +17,7 @@ from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area, Polygon
 from ...algorithms.tools.ground.output import Output
 from .. import compat
-from .constraints import add_constraints, constraints_of
-from .corrections import add_corrections, corrections_of
 from .inputs import CloudCrs, box_of, layer_polygons
-from .raster_target import add_raster_target, raster_target_of
 
 # Name, label and help of the fields of an area.
 _AREA_FIELDS = {
@@ -36,21 +33,20 @@ _AREA_FIELDS = {
         " Empty: all points.",
     ),
 }
-# Their help in algorithms that make nothing outside of the area.
-MAPPED = {
-    "EXTENT": "Only points in this rectangle are mapped and written. Points nearby help to judge."
-    " Empty: all points.",
-    "BOUNDARY": "Only points in these polygons are mapped and written; with an extent, only points"
-    " in both. Points nearby help to judge. Empty: all points.",
-}
-
-
-# Their help in algorithms that only make rasters.
-OF_RASTERS = {
-    "EXTENT": "The rasters end at this rectangle. Points outside still help along its border."
-    " Empty: the rasters cover all points.",
-    "BOUNDARY": "The rasters have data only in these polygons; with an extent, only in both. Points"
-    " outside still help along the border. Empty: the rasters cover all points.",
+# Their help in other algorithms, by the beginning of that of their options.
+HELPS = {
+    "deliver only": {
+        "EXTENT": "Only points in this rectangle are mapped and written. Points nearby help to"
+        " judge. Empty: all points.",
+        "BOUNDARY": "Only points in these polygons are mapped and written; with an extent, only"
+        " points in both. Points nearby help to judge. Empty: all points.",
+    },
+    "make the rasters only in": {
+        "EXTENT": "The rasters end at this rectangle. Points outside still help along its border."
+        " Empty: the rasters cover all points.",
+        "BOUNDARY": "The rasters have data only in these polygons; with an extent, only in both."
+        " Points outside still help along the border. Empty: the rasters cover all points.",
+    },
 }
 
 
@@ -102,48 +98,17 @@ def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) 
             values.check_area(is_given)
 
 
-def area_options(area: Area | None, progress: Progress, is_all: bool = False) -> list[str]:
-    """Return the options of the command line for an area, with `is_all` as for `add_limits`; tell
-    the user how to add a boundary.
-    """
-    if area is None:
-        return []
-    options = ["--area-only"] if is_all else []
-    if area.polygons:
+def area_options(area: Area | None, progress: Progress) -> dict[str, Any]:
+    """Return the options of the command line for an area; tell the user how to add a boundary."""
+    if area is not None and area.polygons:
         progress.info(
             "In the command line the boundary is missing: save it in the CRS of the points"
             " as boundary.geojson, and add --boundary boundary.geojson."
         )
-    return [*options, *(["--extent", *map(repr, area.box)] if area.box else [])]
+    return {"extent": tuple(map(repr, area.box)) if area is not None and area.box else ()}
 
 
-def given_options(crs: str | None, raster_target: RasterTarget, **others: Any) -> dict[str, Any]:
-    """Return options of the command line; takes what `limits_of` returns."""
-    extent = raster_target.extent and tuple(map(repr, raster_target.extent))
-    like = raster_target.like and str(raster_target.like)
-    return {"crs": crs, "like": like, "raster-extent": extent}
-
-
-def add_limits(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of corrections, constraints and rasters to a dialog."""
-    add_corrections(algorithm)
-    add_constraints(algorithm)
-    add_raster_target(algorithm)
-
-
-def limits_of(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
-    context: QgsProcessingContext,
-    crs: CloudCrs,
-    progress: Progress,
-) -> dict[str, Any]:
-    """Return CRS, area, corrections, constraints and grid, by their names in the requests."""
-    given = parameters, context, crs
-    return {
-        "crs": crs.stated,
-        "raster_target": raster_target_of(algorithm, *given),
-        "area": area_of(algorithm, *given),
-        "corrections": corrections_of(algorithm, *given, progress),
-        "constraints": constraints_of(algorithm, *given, progress),
-    }
+def target_options(target: RasterTarget) -> dict[str, Any]:
+    """Return the options of the command line for the grid of rasters."""
+    extent = target.extent and tuple(map(repr, target.extent))
+    return {"like": target.like and str(target.like), "raster-extent": extent}

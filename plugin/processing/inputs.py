@@ -41,7 +41,6 @@ from .. import compat
 from ..i18n import mark, tr
 from ..styles.loaded import filter_of, has_edits
 from .feedback import Refusal
-from .stated_crs import add_crs as add_crs
 from .stated_crs import crs_of_text
 
 # As a name, so that the widget is imported only in dialogs, not in qgis_process.
@@ -134,7 +133,6 @@ def add_survey(algorithm: QgsProcessingAlgorithm) -> None:
     """Add fields for a point cloud, or a folder of them, to a dialog."""
     algorithm.addParameter(SurveyInput("INPUT", "Point cloud", None, True), _SURVEY_HELP)
     _add_folder(algorithm)
-    add_crs(algorithm)
 
 
 def _add_folder(algorithm: QgsProcessingAlgorithm) -> None:

@@ -10,8 +10,6 @@ from qgis.core import (
     QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingOutputLayerDefinition,
-    QgsProcessingParameterRasterDestination,
-    QgsProcessingParameterVectorDestination,
     QgsProperty,
 )
 
@@ -20,7 +18,6 @@ from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from ...algorithms.rasters.virtual import virtual_of
 from ...algorithms.survey.files import Inputs
 from ...algorithms.tools.rasters.parameters import RasterOutput
-from ...algorithms.tools.rasters.rows import RASTERS, RasterFiles
 from .. import compat
 
 NOTHING_STAYS = "Cancelled; nothing was written."
@@ -30,59 +27,6 @@ TILES_STAY = "Cancelled. The finished tiles stay, and a later run can continue w
 def after_cancel(inputs: Inputs) -> str:
     """Return the message in the log after a cancel, for one file or for many."""
     return TILES_STAY if inputs.is_survey else NOTHING_STAYS
-
-
-def add_rasters(
-    algorithm: QgsProcessingAlgorithm,
-    names: Iterable[str],
-    default: Iterable[str] = ("dtm", "hillshade"),
-) -> None:
-    """Add optional fields for rasters; `default` names those that are made by default."""
-    for name in names:
-        row, is_default = RASTERS[name], name in default
-        field = QgsProcessingParameterRasterDestination(
-            name.upper(), row.label, None, True, is_default
-        )
-        algorithm.addParameter(field, row.help)
-
-
-def usual_rasters(*reliefs: str) -> list[str]:
-    """Return the names of all rasters, but only of some that *Relief of a terrain model* makes."""
-    return [name for name, row in RASTERS.items() if not row.is_relief or name in reliefs]
-
-
-def add_cloud(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the optional field of an output point cloud."""
-    field = compat.point_cloud_output("OUTPUT", "Classified point cloud", point_cloud_formats())
-    field.setFlags(field.flags() | compat.OPTIONAL)
-    algorithm.addParameter(field, "The same points with their new classes.")
-
-
-def add_contours(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the field of contour lines."""
-    field = QgsProcessingParameterVectorDestination(
-        "CONTOURS", "Contour lines", optional=True, createByDefault=False
-    )
-    algorithm.addParameter(
-        field,
-        "Lines of equal height of the terrain model, with the field ELEV. They are smoothed, so"
-        " that they do not show noise. Every fifth line has its height as a label.",
-    )
-
-
-def raster_paths(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
-    context: QgsProcessingContext,
-) -> dict[str, str]:
-    """Return the paths of the wanted rasters and contour lines, by the names of their fields."""
-    paths = {}
-    for name in (*map(str.upper, RASTERS), "CONTOURS"):
-        if algorithm.parameterDefinition(name) is not None:
-            path = algorithm.parameterAsOutputLayer(parameters, name, context)
-            if path:
-                paths[name] = path
-    return paths
 
 
 def given_path(value: Any, context: QgsProcessingContext) -> Path | None:
@@ -130,11 +74,6 @@ def shown_rasters(
             layers[found[name]] = layers.pop(path)
     context.setLayersToLoadOnCompletion(layers)
     return found
-
-
-def raster_files(paths: dict[str, str]) -> RasterFiles:
-    """Return the rasters of `raster_paths` that the classifier makes."""
-    return RasterFiles(**{name: paths.get(name.upper()) for name in RASTERS})
 
 
 def point_cloud_formats() -> list[str]:

@@ -19,7 +19,7 @@ from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.tools.declaration import Input, ToFind
 from .. import compat
 from ..i18n import mark
-from .area import OF_RASTERS, add_area, area_of, area_options, given_options
+from .area import HELPS, add_area, area_of, area_options, target_options
 from .base import BareEarthAlgorithm
 from .checkpoints import add_checkpoints, checkpoints_of
 from .constraints import add_constraints, constraints_of
@@ -31,6 +31,7 @@ from .inputs import (
     PointCloudInput,
     SurveyInput,
     add_clouds,
+    add_survey,
     box_of,
     clouds_of,
     layer_polygons,
@@ -38,6 +39,7 @@ from .inputs import (
     names_of,
     raster_of,
     source_path,
+    survey_of,
 )
 from .raster_target import add_raster_target, raster_target_of
 from .stated_crs import add_crs
@@ -82,10 +84,11 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         _GROUPS[declared.kind](algorithm)
         return
     if declared.kind == "area":
-        # Below the parameters, it only says where rasters end.
-        helps = OF_RASTERS if declared.is_last else {}
         advanced = ("EXTENT", "BOUNDARY") if declared.advanced else ("BOUNDARY",)
-        add_area(algorithm, advanced, helps)
+        add_area(algorithm, advanced, HELPS.get(declared.help, {}))
+        return
+    if declared.kind == "checkpoints":
+        add_checkpoints(algorithm, declared.advanced)
         return
     makers: dict[str, Callable[[], QgsProcessingParameterDefinition]] = {
         "cloud": lambda: PointCloudInput(name, label),
@@ -121,16 +124,21 @@ def _files(request: Request, declared: Input) -> Given:
     return Given(paths, {}, tuple(map(str, paths)), tuple(paths), names_of(paths))
 
 
+def _survey(request: Request, declared: Input) -> Given:
+    paths = survey_of(request.algorithm, request.parameters, request.context)
+    return Given(paths, {}, tuple(map(str, paths)), tuple(paths), names_of(paths))
+
+
 def _area(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, progress = request
     area = area_of(algorithm, parameters, context, _crs_of(request))
-    return Given(area, {"extent": tuple(area_options(area, progress)[1:])})
+    return Given(area, area_options(area, progress))
 
 
 def _target(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, _ = request
     target = raster_target_of(algorithm, parameters, context, _crs_of(request))
-    return Given(target, given_options(None, target))
+    return Given(target, target_options(target))
 
 
 def _corrections(request: Request, declared: Input) -> Given:
@@ -207,10 +215,11 @@ def _polygons(request: Request, declared: Input) -> Given:
 _READERS: dict[str, Callable[[Request, Input], Given]] = {
     "cloud": _cloud, "clouds": _cloud, "raster": _raster, "crs": _crs, "extent": _extent,
     "words": _words, "checkpoints": _checkpoints, "polygons": _polygons, "files": _files,
+    "survey": _survey,
     "area": _area, "target": _target, "corrections": _corrections, "constraints": _constraints,
 }  # fmt: skip
 # Inputs with fields of their own.
 _GROUPS: dict[str, Callable[[BareEarthAlgorithm], None]] = {
-    "crs": add_crs, "checkpoints": add_checkpoints, "files": add_clouds,
+    "crs": add_crs, "files": add_clouds, "survey": add_survey,
     "target": add_raster_target, "corrections": add_corrections, "constraints": add_constraints,
 }  # fmt: skip

@@ -7,6 +7,7 @@ from typing import Any
 
 from qgis.core import (
     QgsProcessingContext,
+    QgsProcessingOutputHtml,
     QgsProcessingOutputRasterLayer,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterFileDestination,
@@ -35,7 +36,7 @@ from .outputs import after_cancel, do_not_load, point_cloud_formats
 from .tool_inputs import Given, Request, add_input, given
 
 # Inputs of these kinds, which name the run, are found first; these are read when the work begins.
-_FILES, _LATE = ("cloud", "clouds", "files", "raster"), ("checkpoints", "polygons")
+_FILES, _LATE = ("cloud", "clouds", "files", "survey", "raster"), ("checkpoints", "polygons")
 # Titles of the layers of classes, by what a tool for points shows.
 _TITLES = {"classes": layers.CLASSES, "key points": mark("key points")}
 # Of the numbers of many files; all others are added up.
@@ -90,6 +91,8 @@ class ToolAlgorithm(BareEarthAlgorithm):
             self.addParameter(field, output.field_help)
             for name, label in output.layers.items():
                 self.addOutput(QgsProcessingOutputRasterLayer(name.upper(), label))
+            if output.page:
+                self.addOutput(QgsProcessingOutputHtml("PAGE", output.page))
         self.add_numbers(dict(self._tool.numbers))
 
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
@@ -183,14 +186,16 @@ class ToolAlgorithm(BareEarthAlgorithm):
 
     def _options(self, paths: dict[str, str]) -> dict[str, Any]:
         """Return the options of the command for inputs and outputs."""
+        own = {output.option: paths[output.name] for output in self._outputs if not output.is_main}
+        return {**self._options_of_inputs(), **own}
+
+    def _options_of_inputs(self) -> dict[str, Any]:
+        """Return the options of the command for inputs."""
         options: dict[str, Any] = {}
         for declared in self._inputs:
             # Several inputs have an option for the CRS, which one of them gives.
-            found = self._given[declared.name].options
+            found = self._given[declared.name].options if declared.name in self._given else {}
             options.update((option, value) for option, value in found.items() if value)
-        options.update(
-            (output.option, paths[output.name]) for output in self._outputs if not output.is_main
-        )
         return options
 
 
@@ -320,7 +325,9 @@ def _field_of(output: Output) -> QgsProcessingParameterDefinition:
     name, label = output.field_name, output.label
     optional, by_default = output.optional and not output.is_main, output.by_default
     if output.kind == "cloud":
-        return compat.point_cloud_output(name, label, point_cloud_formats())
+        field = compat.point_cloud_output(name, label, point_cloud_formats())
+        field.setFlags(field.flags() | compat.OPTIONAL if optional else field.flags())
+        return field
     if output.kind == "raster":
         return QgsProcessingParameterRasterDestination(name, label, None, optional, by_default)
     if output.kind == "folder":

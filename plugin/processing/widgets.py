@@ -35,7 +35,7 @@ from .. import compat
 from ..i18n import tr
 from ..styles.loaded import file_of
 from .choices import LABELS, ChoiceParameter, value_of, values_of
-from .delivery import DELIVERY, FOLDER
+from .compositions import DELIVERY, FOLDER
 
 _STATE = Qt.ItemDataRole.CheckStateRole
 # A box with choices is at least so many letters wide.

@@ -1,0 +1,219 @@
+"""From a point cloud to all maps of its terrain in one step: a delivery, or single outputs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Iterator, Sequence
+
+from qgis.core import QgsProcessingContext
+
+from ...algorithms.core.parameters import ParameterSet
+from ...algorithms.delivery.deliveries import DELIVERIES
+from ...algorithms.delivery.folder import DeliveryFolder
+from ...algorithms.delivery.parameters import NO_DELIVERY, DeliveryChoice, DeliveryTerrain
+from ...algorithms.delivery.tool import OF_DELIVERIES, TOOL
+from ...algorithms.engine.memory import Resources
+from ...algorithms.engine.options import TileOutput
+from ...algorithms.survey.kept_classes import GROUND
+from ...algorithms.survey.selection import Selection
+from ...algorithms.tools.contours import Contours
+from ...algorithms.tools.declaration import Composition
+from ...algorithms.tools.ground.method import TileMethod
+from ...algorithms.tools.rasters.parameters import MapTerrain, SurfaceModel, TerrainModel
+from .. import compat
+from ..i18n import mark
+from ..styles import layers
+from .base import command_line
+from .classified import show_classified
+from .feedback import FeedbackProgress, Refusal
+from .outputs import after_cancel, do_not_load, given_path, point_cloud_formats
+from .tool_inputs import Request, given
+from .tools import ToolAlgorithm
+
+DELIVERY, FOLDER = TOOL.chosen.upper(), "DELIVERY_FOLDER"
+# Cell size of rasters that are not a delivery, in metres.
+_USUAL_CELL = 1.0
+
+
+class CompositionAlgorithm(ToolAlgorithm):
+    """Tools that work one after another."""
+
+    _tool: Composition
+
+    def __init__(self, tool: Composition = TOOL) -> None:
+        super().__init__(tool)
+        self._inputs, self._outputs = list(tool.all_inputs), list(tool.dialog_outputs())
+
+    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Find the input files."""
+        super().find_inputs(parameters, context)
+        self.cancelled = after_cancel(self.inputs)
+        name = self._delivery(parameters, context)
+        self.run_name = DELIVERIES[name].label if name else mark("terrain")
+
+    def _delivery(self, parameters: dict[str, Any], context: QgsProcessingContext) -> str:
+        """Return the name of the delivery; empty for the user's own choice of outputs."""
+        name = DeliveryChoice.among(self.chosen(parameters, context)).delivery
+        return "" if name in (None, NO_DELIVERY) else name
+
+    def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+        """Check the values, and refuse a delivery without a folder, or into an unsuitable one."""
+        super().check(parameters, context)
+        if self._delivery(parameters, context):
+            if compat.is_empty(parameters.get(FOLDER)):
+                raise Refusal(mark("Choose a folder for the delivery."))
+            path = given_path(parameters.get(FOLDER), context)
+            if path is not None:
+                DeliveryFolder(path).check(self.inputs)
+
+    def makes_page(self, parameters: dict[str, Any], context: QgsProcessingContext) -> bool:
+        """Return whether a delivery is chosen, which has a page."""
+        return bool(self._delivery(parameters, context))
+
+    def compute(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> dict[str, Any]:
+        """Make a delivery, or the wanted outputs."""
+        request = Request(self, parameters, context, progress)
+        self._tell_of_ignored(request)
+        if name := self._delivery(parameters, context):
+            return self._deliver(name, request, progress)
+        return self._make_own(request, progress)
+
+    def _tell_of_ignored(self, request: Request) -> None:
+        """Warn of values that a delivery, or a run without one, does not use."""
+        _, parameters, context, progress = request
+        if self._delivery(parameters, context):
+            outputs = (field.name() for field in self.destinationParameterDefinitions())
+            names = [
+                name
+                for name in outputs
+                if name != FOLDER and given_path(parameters.get(name), context) is not None
+            ]
+            why = "a delivery names its outputs itself, in its folder"
+        else:
+            names = [
+                declared.name.upper()
+                for values in self.chosen(parameters, context)
+                if isinstance(values, OF_DELIVERIES)
+                for declared in values.declarations()
+                if getattr(values, declared.name) != declared.default
+            ]
+            fields = "CHECKPOINTS", FOLDER
+            names += [name for name in fields if not compat.is_empty(parameters.get(name))]
+            why = "only deliveries use them, and none is chosen"
+        if names:
+            progress.warning(f"Not used: {', '.join(names)}; {why}.")
+
+    def _deliver(self, name: str, request: Request, progress: FeedbackProgress) -> dict[str, Any]:
+        """Make a delivery, and let QGIS load its layers."""
+        _, parameters, context, _ = request
+        chosen = self.chosen(parameters, context)
+        sets = [values for values in chosen if not isinstance(values, DeliveryChoice)]
+        sets.append(TileOutput(format=point_cloud_formats()[0], overview=True))
+        folder = self.parameterAsString(parameters, FOLDER, context)
+        self._given["checkpoints"] = given(request, self._inputs[-1])
+        words = [name, *map(str, self.inputs), folder]
+        progress.command(command_line("deliver", words, sets, self._options_of_inputs()))
+        inputs = {name: found.value for name, found in self._given.items()}
+        done = self._tool.work(self.inputs, folder, name, sets, inputs, progress)
+        progress.share(done.ground_count, done.point_count, bool(inputs["area"]))
+        progress.info("\n".join(f"{title}: {value}" for title, value in done.accuracy()))
+        self._show_layers(done, DELIVERIES[name].pictures[0], context)
+        if not done.cloud.endswith(".vpc") and compat.can_load(done.cloud):
+            compat.load_point_cloud(done.cloud, context)
+        shown = done.cloud, done.class_counts, chosen, done.cell_size
+        self._show_cloud(*shown, context, progress)
+        return {
+            FOLDER: folder, "PAGE": done.page,
+            "POINT_COUNT": done.point_count, "GROUND_COUNT": done.ground_count,
+        }  # fmt: skip
+
+    def _show_cloud(
+        self,
+        cloud: str,
+        counts: dict[int, int],
+        chosen: Sequence[ParameterSet],
+        cell_size: float,
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> None:
+        """Show the classes of the points, below which the terrain must be visible."""
+        self.class_counts, ground = counts, Selection.among(chosen).to_class
+        cells = cell_size, MapTerrain.among(chosen).dtm_cell_unit == "crs"
+        below = layers.BELOW_TERRAIN
+        show_classified(self, cloud, counts, ground, cells, context, progress, below)
+
+    def _show_layers(self, done: Any, first: str, context: QgsProcessingContext) -> None:
+        """Let QGIS load rasters, lines and polygons; `first` is visible at first."""
+        looks = {"water": layers.WATER, "breaklines": layers.BREAKLINES}
+        if done.interval is not None:
+            looks["contours"] = layers.contours(done.interval)
+        if done.check is not None:
+            looks["checkpoints"] = layers.residuals(done.check.scale)
+        for name, path in done.layers.items():
+            if name in looks:
+                compat.load_vector(path, context)
+            else:
+                compat.load_raster(path, context)
+            look = looks.get(name) or layers.raster_looks()[name.upper()]
+            self.show(path, layers.first(look) if name == first else look)
+
+    def _make_own(self, request: Request, progress: FeedbackProgress) -> dict[str, Any]:
+        """Make the outputs that the user chose, and set the looks of their layers."""
+        from ...algorithms.delivery.maps import make_maps
+
+        _, parameters, context, _ = request
+        chosen = [
+            values.with_cells(_USUAL_CELL) if isinstance(values, DeliveryTerrain) else values
+            for values in self.chosen(parameters, context)
+            if not isinstance(values, (DeliveryChoice, *OF_DELIVERIES))
+        ]
+        cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
+        paths = {
+            output.name: self._path(request, output)
+            for output in self._outputs
+            if output.kind in ("raster", "features")
+        }
+        results: dict[str, Any] = {name.upper(): path for name, path in paths.items() if path}
+        wanted = {name: Path(path) for name, path in {"cloud": cloud, **paths}.items() if path}
+        given = {name: found.value for name, found in self._given.items()}
+        done = make_maps(self.inputs, wanted, chosen, given, progress)
+        written = str(cloud and done.cloud)
+        for line in self._commands(written, results, chosen):
+            progress.command(line)
+        progress.share(done.ground_count, done.point_count, bool(given["area"]))
+        if done.contour_interval is not None:
+            self.show(paths["contours"], layers.contours(done.contour_interval))
+        if cloud:
+            results["OUTPUT"] = written
+            do_not_load(context, {cloud} - {written})
+            size = MapTerrain.among(chosen).dtm_cell_size
+            self._show_cloud(written, done.class_counts, chosen, size, context, progress)
+        return {**results, "POINT_COUNT": done.point_count, "GROUND_COUNT": done.ground_count}
+
+    def _commands(
+        self, cloud: str, layers: dict[str, str], chosen: Sequence[ParameterSet]
+    ) -> Iterator[str]:
+        """Yield the commands for a classified cloud, empty if none is kept, and for its rasters and
+        contour lines, by the names of their fields.
+        """
+        of_type: dict[type, Any] = {type(values): values for values in chosen}
+        cloud = cloud or "classified.laz"
+        # For many files, the folder of their virtual point cloud.
+        target = str(Path(cloud).parent) if cloud.endswith(".vpc") else cloud
+        options = self._options_of_inputs()
+        finding = [of_type[kind] for kind in (TileMethod, Selection, Resources)]
+        words = [*map(str, self.inputs), target, *["--area-only"] * bool(self._given["area"].value)]
+        of_points = {name: options.get(name) for name in ("crs", "extent")}
+        yield command_line("classify", words, finding, of_points)
+        if layers:
+            ground = of_type[Selection].to_class
+            classes = {"ground-classes": "" if ground == GROUND else str(ground)}
+            # The command has other defaults.
+            model = TerrainModel(**vars(of_type[MapTerrain]))
+            drawing = [model, *(of_type[kind] for kind in (SurfaceModel, Contours, Resources))]
+            yield command_line("terrain", [cloud], drawing, {**classes, **options, **layers})
