@@ -12,7 +12,6 @@ from ..las.cloud import survey_frame
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
-from ..survey.outputs import check_outputs
 from ..survey.shapes import Place
 from .file_points import FilePoints, TileResult, copies_all_else
 from .options import RunOptions
@@ -35,13 +34,11 @@ def work_on_file(
     nothing else changed; all outputs or none.
     """
     las, resources = open_las(source, options.stated), options.resources.now()
-    own = [output for step in steps for output in step.outputs(is_survey=False)]
-    check_outputs([("cloud", target), *own] if target else own, [las.path])
     place = Place(str(las.path), read_crs(las), las.outer_box if las.states_extent else None)
     steps = [step.placed(place, progress) for step in steps]
     import_early(*(name for step in steps for name in step.imports))
     for_points = [step for step in steps if isinstance(step, PointStep)]
-    beside = target or own[0][1]
+    beside = target or next(path for step in steps for _, path in step.outputs(is_survey=False))
     needs_records = bool(for_points) and not copies_all_else(las, beside, for_points)
     before = progress.part(0.0, _BEFORE_WRITING) if target else progress
     reading, working = before.shares(_READING, sum(step.weight for step in steps))

@@ -6,7 +6,7 @@ import contextlib
 import dataclasses
 import inspect
 from pathlib import Path
-from typing import Any, Mapping, Sequence
+from typing import Any, Iterator, Mapping, Sequence
 
 from ..core.files import Outputs, new_folder, temporary_folder
 from ..core.parameters import ParameterSet
@@ -54,9 +54,9 @@ def _run_on_points(
 ) -> Any:
     """Let the steps of a tool work, and then the tools that draw further outputs of theirs."""
     points = Inputs(inputs["input"])
-    given, progress = _with_found(tool, {**inputs, "input": points}, outputs, sets, progress)
+    check_outputs(_kinds(tool, points, outputs), points)
+    given, progress = _with_found(tool, {**inputs, "input": points}, sets, progress)
     drawn = [one for one in tool.all_outputs if one.drawn_by and one.name in outputs]
-    check_outputs([(one.kind, outputs[one.name]) for one in drawn], points)
     working, *drawing = progress.shares(9.0, *(1.0 for _ in drawn)) if drawn else [progress]
     with contextlib.ExitStack() as folders:
         own = dict(outputs)
@@ -77,20 +77,29 @@ def _run_on_points(
     return done
 
 
+def _kinds(tool: Tool, points: Inputs, outputs: Mapping[str, Path]) -> Iterator[tuple[str, Path]]:
+    """Yield the kinds and paths of the outputs, but for those in a folder that the run makes."""
+    kinds = {one.name: one.kind for one in tool.all_outputs}
+    kinds.update(output="cloud", vpc="list")
+    folder = outputs.get("output") if points.is_survey else None
+    for name, path in outputs.items():
+        if name == "vpc" and not points.is_survey:
+            continue  # one file has no list
+        if folder is None or path.parent != folder or folder.exists():
+            yield kinds[name], path
+
+
 def _with_found(
     tool: Tool,
     inputs: dict[str, Any],
-    outputs: Mapping[str, Path],
     sets: Sequence[ParameterSet],
     progress: Progress,
 ) -> tuple[dict[str, Any], Progress]:
     """Return the inputs with those that are found first, and what is left of the progress."""
+    # To find them can take minutes.
     for declared in tool.inputs:
         value = inputs.get(declared.name)
         if isinstance(value, ToFind) and declared.found is not None:
-            # To find them can take minutes.
-            wanted = [one for one in tool.all_outputs if one.name in outputs]
-            check_outputs([(one.kind, outputs[one.name]) for one in wanted], inputs["input"])
             ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
             found = declared.found(inputs["input"], ground, inputs.get("crs"), part)
             if value.given is not None:
