@@ -27,7 +27,7 @@ from .base import command_line
 from .classified import show_classified
 from .feedback import FeedbackProgress, Refusal
 from .outputs import after_cancel, do_not_load, given_path, point_cloud_formats
-from .tool_inputs import Request, given
+from .tool_inputs import Request
 from .tools import ToolAlgorithm
 
 DELIVERY, FOLDER = TOOL.chosen.upper(), "DELIVERY_FOLDER"
@@ -115,7 +115,7 @@ class CompositionAlgorithm(ToolAlgorithm):
         sets = [values for values in chosen if not isinstance(values, DeliveryChoice)]
         sets.append(TileOutput(format=point_cloud_formats()[0], overview=True))
         folder = self.parameterAsString(parameters, FOLDER, context)
-        self._given["checkpoints"] = given(request, self._inputs[-1])
+        self._find_late(request)
         words = [name, *map(str, self.inputs), folder]
         progress.command(command_line("deliver", words, sets, self._options_of_inputs()))
         inputs = {name: found.value for name, found in self._given.items()}

@@ -133,14 +133,18 @@ class ToolAlgorithm(BareEarthAlgorithm):
     ) -> dict[str, Any]:
         """Find what else is given, tell the command, and work."""
         request = Request(self, parameters, context, progress)
-        for declared in self._inputs:
-            if declared.kind in _LATE:
-                self._given[declared.name] = given(request, declared)
+        self._find_late(request)
         inputs = {name: found.value for name, found in self._given.items()}
         outputs = {output.name: self._path(request, output) for output in self._outputs}
         chosen = self.chosen(parameters, context)
         progress.command(self._command(outputs, chosen))
         return self.work(inputs, outputs, chosen, context, progress)
+
+    def _find_late(self, request: Request) -> None:
+        """Find what else is given, which can take long."""
+        for declared in self._inputs:
+            if declared.kind in _LATE:
+                self._given[declared.name] = given(request, declared)
 
     def _path(self, request: Request, output: Output) -> str:
         """Return the path of an output; empty if it is not wanted."""

@@ -9,11 +9,13 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+import toy_delivery
 from conftest import Heard
 from independent_water import compare, corners_in_flat_water
 from scipy.spatial import cKDTree
 from surveys import classes_of, finished, heights_of, write_points
 
+import bare_earth
 from bare_earth import BareEarthError, Cancelled, Progress, classify, deliver, terrain
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import FinishedFilesStay, OutputInUse
@@ -621,6 +623,30 @@ def test_the_command_delivers_and_prints_the_figures(scene, tmp_path, capsys):
     assert told["cell_size"] == 2.0 and told["check"] is None and told["quality"]["points"]
     assert set(told["layers"]) == {"dtm", "dsm", "hillshade", "contours"}
     assert all(os.path.exists(path) for path in told["layers"].values())
+
+
+@pytest.fixture
+def toy(monkeypatch):
+    yield toy_delivery.add_toy(monkeypatch)
+    toy_delivery.forget()
+
+
+def test_a_new_delivery_is_one_row(toy, scene, tmp_path, capsys):
+    # It is in the command and its help, and in the function and its documentation.
+    words = [toy_delivery.NAME, str(scene[1]), str(tmp_path / "out"), "--hold-out-share", "none"]
+    assert main(["deliver", *words]) == 0
+    expected = {"index.html", "delivery.json", "quality.html", "dtm.tif", "contours.gpkg"}
+    assert files_of(tmp_path / "out") == expected
+    assert 31 in classes_of(tmp_path / "out" / "points" / "whole.laz")
+    assert f"<title>{toy.label}: whole.laz" in (tmp_path / "out" / "index.html").read_text("utf-8")
+    capsys.readouterr()
+    assert main(["deliver", "--help"]) == 0
+    assert f"{toy_delivery.NAME}: {toy.about}" in " ".join(capsys.readouterr().out.split())
+    assert f'"{toy_delivery.NAME}"' in bare_earth.deliver.__doc__
+    summary = bare_earth.deliver(
+        scene[1], tmp_path / "again", delivery=toy_delivery.NAME, hold_out_share=None
+    )
+    assert summary.cell_size == 2.0 and set(summary.layers) == {"dtm", "contours"}
 
 
 def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):

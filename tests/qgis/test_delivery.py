@@ -9,6 +9,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+import toy_delivery
 from osgeo import gdal
 from qgis.core import (
     QgsProcessingException,
@@ -50,6 +51,18 @@ def test_the_dialog_offers_all_deliveries(registry):
     algorithm = registry.createAlgorithmById(ALL_IN_ONE)
     field = algorithm.parameterDefinition("DELIVERY")
     assert field.options() == ["own", *DELIVERIES] and field.defaultValue() == "own"
+
+
+def test_a_new_delivery_is_one_row(monkeypatch, registry, deliver):
+    toy = toy_delivery.add_toy(monkeypatch)
+    algorithm = registry.createAlgorithmById(ALL_IN_ONE)
+    assert toy_delivery.NAME in algorithm.parameterDefinition("DELIVERY").options()
+    assert f"{toy_delivery.NAME}" in algorithm.shortHelpString()
+    _, root, _ = deliver(toy_delivery.NAME, HOLD_OUT_SHARE=None)
+    (group,) = root.findGroups()
+    assert group.name() == f"scene: {toy.label}"
+    assert {"Terrain model", "Contour lines"} <= set(shown(root))
+    toy_delivery.forget()
 
 
 def test_the_folder_of_a_delivery_is_below_it_and_single_outputs_are_hidden(registry):
