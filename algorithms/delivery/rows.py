@@ -20,7 +20,7 @@ from ..engine.workers import Workers
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..report.units import Units
 from ..survey.feature_files import feature_writer
-from ..survey.files import Inputs, Survey, open_survey
+from ..survey.files import Inputs, open_survey
 from ..survey.ground_classes import GroundClasses
 from ..survey.overview import overview_of
 from ..survey.selection import Selection
@@ -49,8 +49,7 @@ class DeliveryJob(Job):
     def __init__(
         self,
         content: Delivery,
-        sources: Inputs,
-        survey: Survey,  # of these
+        sources: Inputs,  # opened
         sets: Sequence[ParameterSet],
         inputs: Mapping[str, Any],  # of the user
         summary: DeliverySummary,
@@ -59,7 +58,8 @@ class DeliveryJob(Job):
         unpacked: Path,  # a folder for records that are decompressed
         workers: Workers | None,  # for many files
     ) -> None:
-        self.content, self.survey, self.is_survey = content, survey, sources.is_survey
+        self.content, self.is_survey = content, sources.is_survey
+        self.survey = open_survey(sources)  # of the raw files
         self.working, self.folder, self.unpacked = working, folder, unpacked
         self.files: list[Path] = []  # of points, at their places
         self.waiting: list[Path] = []  # take the places of `files` at the end

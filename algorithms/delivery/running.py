@@ -17,7 +17,7 @@ from ..core.version import __version__
 from ..crs.stated import stated_wkt
 from ..engine.options import TileInput
 from ..engine.workers import Workers
-from ..survey.files import Inputs, Sources, Survey, open_survey
+from ..survey.files import Inputs, Sources, open_survey
 from ..tools import POINT_TOOLS
 from .deliveries import DELIVERIES
 from .folder import PAGE, DeliveryFolder
@@ -42,7 +42,7 @@ def deliver(
         )
     files, place, messages = Inputs(sources), DeliveryFolder(Path(folder)), _Messages(progress)
     place.check(files)
-    survey = _opened(files, sets, inputs, messages)
+    files = _opened(files, sets, inputs, messages)
     if files.is_survey:
         place.begin(delivery)
     # On the disk of the folder, so that outputs can be moved there.
@@ -56,7 +56,7 @@ def deliver(
         )
         made = DeliveryFolder(working), place, unpacked
         content = DELIVERIES[delivery]
-        job = DeliveryJob(content, files, survey, sets, inputs, summary, *made, workers)
+        job = DeliveryJob(content, files, sets, inputs, summary, *made, workers)
         summary.seconds = job.seconds
         try:
             job.work(rows_of(content), messages.part(0.01, 0.97))
@@ -122,14 +122,14 @@ class _Messages(PassingOn):
 
 def _opened(
     files: Inputs, sets: Sequence[ParameterSet], inputs: Mapping[str, Any], progress: Progress
-) -> Survey:
-    """Open the files, and refuse now what would fail after hours."""
+) -> Inputs:
+    """Return the files with what they hold; refuse now what would fail after hours."""
     stated, reading = stated_wkt(inputs["crs"]), progress.part(0.0, 0.01)
     recursive = any(isinstance(values, TileInput) and values.recursive for values in sets)
     survey = open_survey(files, recursive, reading, stated)
     if inputs["checkpoints"] is not None:
         inputs["checkpoints"].located(survey.place, progress)
-    return survey
+    return files.holding(survey)
 
 
 @contextlib.contextmanager

@@ -217,5 +217,9 @@ class _SurveyRun:
 
 def _unpacking(folder: Path, survey: Survey, workers: Workers, is_whole: bool) -> Unpacking | None:
     """Return where files wait uncompressed: on this computer, if there is room."""
-    fits = workers.are_local and has_room(folder, survey.count)
-    return Unpacking(folder, is_whole) if fits else None
+    if not workers.are_local:
+        return None
+    unpacked = survey.tiles[0].unpacked
+    if unpacked is not None and isinstance(unpacked.file, Path):  # they do already
+        return Unpacking(unpacked.file.parent, is_whole=True)
+    return Unpacking(folder, is_whole) if has_room(folder, survey.count) else None
