@@ -15,9 +15,10 @@ import bare_earth
 from bare_earth import arrays
 from bare_earth.algorithms.library import array_names
 from bare_earth.algorithms.library.arrays import FUNCTIONS
+from benchmarks.data import FOLDER
 
 ROOT = Path(__file__).parents[2]
-REAL = "house_slope.laz", "conifer_1.laz", "nrw_rural.laz", "yard_photogrammetry.laz"
+REAL = "house_slope.laz", "ign_pf8.las", "yard_photogrammetry.laz"
 
 
 def classes_of(path):
@@ -243,6 +244,15 @@ def test_mypy_accepts_a_script(tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
     (line,) = (line for line in done.stdout.splitlines() if ": error: " in line)
     assert line.startswith("script.py:11") and 'Unexpected keyword argument "metod"' in line
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "path", sorted((FOLDER / "real").glob("*.la[sz]")), ids=lambda path: path.name
+)
+def test_all_real_tiles_get_the_labels_of_the_file(path, tmp_path):
+    if path.name not in REAL:
+        test_real_tiles_get_the_labels_of_the_file(path.name, tmp_path)
 
 
 @pytest.mark.parametrize("name", REAL)

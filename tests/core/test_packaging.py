@@ -78,6 +78,20 @@ def test_the_packages_that_qgis_lacks_agree(metadata):
     assert not asked & {"numpy", "scipy", "gdal", "GDAL"}
 
 
+def test_the_recipe_for_conda_asks_for_what_pip_asks_for(metadata):
+    recipe = (ROOT / "conda" / "recipe.yaml").read_text(encoding="utf-8")
+    asked = set(re.findall(r"^    - ([a-z-]+ >=[\d.]+)$", recipe.split("  run:")[1], re.M))
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    listed = re.search(r"^dependencies = \[(.*?)\]", text, re.S | re.M).group(1)
+    of_pip = {f"{name} {least}" for name, least in re.findall(r'"(\w+)(>=[\d.]+)"', listed)}
+    assert {one.replace("lazrs-python", "lazrs") for one in asked} == of_pip
+    assert f'version: "{metadata["version"]}"' in recipe
+    assert f'python_min: "{re.search(r"requires-python = .>=([0-9.]+)", text).group(1)}"' in recipe
+    assert re.search(r"setuptools ?>=(\d+)", recipe).group(1) == re.search(
+        r"setuptools>=(\d+)", text
+    ).group(1)
+
+
 def test_pip_gets_every_package_of_the_classifier():
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     listed = set(re.findall(r'"([\w.]+)"', re.search(r"packages = \[(.*?)\]", text, re.S).group(1)))
@@ -97,7 +111,7 @@ def test_pip_gets_every_list_of_words_of_the_classifier():
         assert f'"{folder}" = ["{path.name}"]' in text
 
 
-def test_the_zip_holds_one_folder_with_what_qgis_needs(names):
+def test_the_zip_holds_one_folder_with_what_qgis_needs(names, package):
     assert {name.split("/")[0] for name in names} == {"bare_earth"}
     needed = (
         "__init__.py metadata.txt LICENSE README.md requirements.txt plugin/plugin.py"
@@ -109,6 +123,8 @@ def test_the_zip_holds_one_folder_with_what_qgis_needs(names):
     )
     for name in needed.split():
         assert f"bare_earth/{name}" in names, name
+    # The site takes no larger one.
+    assert package[0].stat().st_size < 25_000_000
     # The installer of QGIS takes the name of the plugin from the first.
     assert names[0] == "bare_earth/"
 
