@@ -1484,9 +1484,11 @@ def fetch(
         points); with an extent only what lies in both.
     resolution : float, optional
         Distance between points. If it is larger than that of the cloud, only the upper levels
-        of its octree are downloaded, whose points are about so far apart. None: all points.
+        of its octree are downloaded, whose points are about so far apart. From 0.001 to 10000
+        m. None: all points.
     limit : float, default 2.0 GB
-        A download of more is refused before it begins. The error says how large it is.
+        A download of more is refused before it begins. The error says how large it is. From 0
+        to 100000 GB.
     skip_missing : bool, default False
         Go on if tiles of an EPT data set are missing on the server. A warning counts them.
     follow : bool, default False

@@ -10,22 +10,33 @@ from qgis.core import QgsBlockingNetworkRequest, QgsFeedback
 from qgis.PyQt.QtCore import Qt, QUrl
 from qgis.PyQt.QtNetwork import QNetworkRequest
 
+from ..algorithms.remote.addresses import host_of
 from ..algorithms.remote.answers import REDIRECTS, Unfinished
 from ..algorithms.remote.connections import Check, WebReader
+from ..algorithms.remote.transfers import use
 
 # Milliseconds without a byte after which a request is given up. The timeout of QGIS ends no
 # request of a thread of Python.
 _TIMEOUT = 30_000
 # Seconds that requests get to end, and between two looks at them.
 _PATIENCE, _BEAT = 0.5, 0.02
+# The ids of the authentication configurations of layers, by hosts.
+_LOGINS: dict[str, str] = {}
+
+
+def use_for(address: str, login: str) -> None:
+    """Let the manager of QGIS read from the web, with a login for the host of an address."""
+    use(QgisReader)
+    _LOGINS.pop(host_of(address), None)
+    if login:
+        _LOGINS[host_of(address)] = login
 
 
 class QgisReader(WebReader):
     """Reads by requests that block their thread, which must not be the main one."""
 
-    def __init__(self, login: str = "") -> None:
+    def __init__(self) -> None:
         super().__init__()
-        self._login = login  # the id of an authentication configuration of QGIS
         self._running: dict[QgsBlockingNetworkRequest, QgsFeedback] = {}
 
     def close(self) -> None:
@@ -48,8 +59,9 @@ class QgisReader(WebReader):
         """Return the bytes of an answer that passes a check, or where a redirect leads."""
         request, feedback = _request(place, headers), QgsFeedback()
         blocking = QgsBlockingNetworkRequest()
-        if self._login and is_named:
-            blocking.setAuthCfg(self._login)
+        login = _LOGINS.get(host_of(place))
+        if login and is_named:
+            blocking.setAuthCfg(login)
         sizes: list[int] = []  # of an answer that is too long
 
         def look(received: int, size: int) -> None:

@@ -71,6 +71,13 @@ class _Pace:
 
 # Of this process: two runs in QGIS share the limit of a host.
 _PACE = _Pace()
+# Makes what reads from the web. QGIS puts its own here.
+_READERS: list[Callable[[], Reader]] = [HttpReader]
+
+
+def use(reader: Callable[[], Reader]) -> None:
+    """Let all further transfers of this process read from the web by another reader."""
+    _READERS[:] = [reader]
 
 
 class _Latest(PassingOn):
@@ -86,9 +93,9 @@ class _Latest(PassingOn):
 class Transfers:
     """Requests of a run, which end with the block."""
 
-    def __init__(self, progress: Progress, web: Reader | None = None) -> None:
+    def __init__(self, progress: Progress) -> None:
         self.progress = _Latest(progress)
-        self._web, self._stores = web or HttpReader(), StoreReader()
+        self._web, self._stores = _READERS[0](), StoreReader()
         self._stopped = threading.Event()
         self._threads: list[threading.Thread] = []
 

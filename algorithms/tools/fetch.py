@@ -23,6 +23,7 @@ class Download(ParameterSet):
         label="Resolution",
         unit="m",
         minimum=0.001,
+        maximum=10_000.0,
         empty="all points",
         help="Distance between points. If it is larger than that of the cloud, only the upper"
         " levels of its octree are downloaded, whose points are about so far apart.",
@@ -32,6 +33,7 @@ class Download(ParameterSet):
         label="Limit",
         unit="GB",
         minimum=0.0,
+        maximum=100_000.0,
         help="A download of more is refused before it begins. The error says how large it is.",
     )
     skip_missing: bool = parameter(
@@ -74,6 +76,7 @@ TOOL = FileTool(
             help="the address (https, s3, gs or az) of a COPC file, of the ept.json of an EPT data"
             " set, of a virtual point cloud (.vpc), or of a STAC item or collection with such"
             " files; or the path of one",
+            label="Remote point cloud",
             named="ADDRESS",
         ),
         Input(
@@ -81,6 +84,7 @@ TOOL = FileTool(
             "area",
             help="download only points in",
             more="; without an area all points",
+            label="Area",
             optional=True,
         ),
     ),
@@ -90,6 +94,8 @@ TOOL = FileTool(
             "points",
             help="the file to write (.copc.laz or .laz), or a new folder, without an ending, with a"
             " file for each point cloud of a list",
+            label="Downloaded point cloud",
+            field_help="The points, with all of their dimensions, as .copc.laz or .laz.",
             is_main=True,
         ),
     ),
@@ -97,8 +103,14 @@ TOOL = FileTool(
     command_about="Downloads the points of a remote point cloud that lie in an area, and nothing"
     " else: only the parts of the file that are needed, as they are, with all of their dimensions."
     " If it is stopped, the same command goes on where it was.",
+    identifier="fetch",
     title="Download part of a remote point cloud",
     summary="Downloads the points of a remote point cloud that lie in an area.",
+    about="Downloads the points of a remote point cloud (COPC, EPT, or the one in a virtual point"
+    " cloud or STAC item that has points there) that lie in an extent or a boundary: only the parts"
+    " that are needed, as they are, with all of their dimensions. The log tells how much that is"
+    " before it begins. If it is stopped, the same run goes on where it was.",
+    numbers=(("POINT_COUNT", "Points"),),
     page="fetch",
     words=(CLOUD, "download,remote,url,web,http,copc,clip,cloud storage"),
 )

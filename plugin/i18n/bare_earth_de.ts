@@ -48,6 +48,10 @@
         <translation>Eine Lieferung lässt kleinere Gewässer weg. Leer: 8.000 m² bei einer Vermessung, 1.000 m² bei einem Hochwassermodell.</translation>
     </message>
     <message>
+        <source>A download of more is refused before it begins. The error says how large it is.</source>
+        <translation>Ein größerer Download wird abgelehnt, bevor er beginnt. Die Fehlermeldung nennt seine Größe.</translation>
+    </message>
+    <message>
         <source>A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a name it is classified.vpc in their folder.</source>
         <translation>Ein Verzeichnis der klassifizierten Dateien, das QGIS 3.32 und neuer als einen Layer zeigt. Ohne Namen heißt es classified.vpc und kommt in deren Ordner.</translation>
     </message>
@@ -70,6 +74,10 @@
     <message>
         <source>A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a folder.</source>
         <translation>Ein Punktwolken-Layer oder eine Datei .las, .laz oder .copc.laz; auch eine virtuelle Punktwolke (.vpc) oder ein Ordner.</translation>
+    </message>
+    <message>
+        <source>A point cloud layer, or the address (https://...) of a COPC file, of the ept.json of an EPT data set, of a virtual point cloud or of a STAC item. Only what lies in the extent is downloaded.</source>
+        <translation>Ein Punktwolkenlayer oder die Adresse (https://...) einer COPC-Datei, der ept.json eines EPT-Datensatzes, einer virtuellen Punktwolke oder eines STAC-Items. Nur was in der Ausdehnung liegt, wird heruntergeladen.</translation>
     </message>
     <message>
         <source>A point is not ground if it stands above a neighbour at a steeper slope than this. In all presets but Whitebox, the slope of the terrain around the point is added to it. Empty: from the preset, 15 deg in most, 45 deg in Whitebox.</source>
@@ -606,6 +614,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Richtung, aus der das Licht kommt, von Norden aus im Uhrzeigersinn. Vier Lichter haben ihre eigenen Richtungen.</translation>
     </message>
     <message>
+        <source>Distance between points. If it is larger than that of the cloud, only the upper levels of its octree are downloaded, whose points are about so far apart.</source>
+        <translation>Abstand der Punkte. Ist er größer als der der Punktwolke, werden nur die oberen Stufen ihres Octrees heruntergeladen, deren Punkte etwa so weit auseinander liegen.</translation>
+    </message>
+    <message>
         <source>Distance of voids</source>
         <translation>Abstand für Lücken</translation>
     </message>
@@ -620,6 +632,22 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
     <message>
         <source>Doubtful</source>
         <translation>Zweifelhaft</translation>
+    </message>
+    <message>
+        <source>Download part of a remote point cloud</source>
+        <translation>Teil einer entfernten Punktwolke herunterladen</translation>
+    </message>
+    <message>
+        <source>Downloaded point cloud</source>
+        <translation>Heruntergeladene Punktwolke</translation>
+    </message>
+    <message>
+        <source>Downloads the points of a remote point cloud (COPC, EPT, or the one in a virtual point cloud or STAC item that has points there) that lie in an extent or a boundary: only the parts that are needed, as they are, with all of their dimensions. The log tells how much that is before it begins. If it is stopped, the same run goes on where it was.</source>
+        <translation>Lädt die Punkte einer entfernten Punktwolke herunter (COPC, EPT oder die eine in einer virtuellen Punktwolke oder einem STAC-Item, die dort Punkte hat), die in einer Ausdehnung oder einer Grenze liegen: nur die Teile, die nötig sind, unverändert und mit allen Dimensionen. Das Protokoll nennt die Größe, bevor es beginnt. Wird der Lauf abgebrochen, macht derselbe Lauf dort weiter, wo er war.</translation>
+    </message>
+    <message>
+        <source>Downloads the points of a remote point cloud that lie in an area.</source>
+        <translation>Lädt die Punkte einer entfernten Punktwolke herunter, die in einem Gebiet liegen.</translation>
     </message>
     <message>
         <source>Drone site</source>
@@ -810,6 +838,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Ordner der Raster</translation>
     </message>
     <message>
+        <source>Follow lists to other servers</source>
+        <translation>Listen zu anderen Servern folgen</translation>
+    </message>
+    <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
         <translation>Für die Linien wird jede Höhe mit ihrer Umgebung bis etwa zu dieser Entfernung gemittelt, damit sie kein Rauschen zeigen. Das Geländemodell ändert sich nicht. 0: wie das Geländemodell ist.</translation>
     </message>
@@ -850,12 +882,20 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>lazrs holen</translation>
     </message>
     <message>
+        <source>Give an extent or a boundary, not both, for an address.</source>
+        <translation>Geben Sie für eine Adresse eine Ausdehnung oder eine Grenze an, nicht beides.</translation>
+    </message>
+    <message>
         <source>Given</source>
         <translation>Vorgegeben</translation>
     </message>
     <message>
         <source>Gives class 9 to ground points in water, and class 20 to those beside its shore.</source>
         <translation>Gibt Bodenpunkten im Wasser die Klasse 9 und denen neben dem Ufer die Klasse 20.</translation>
+    </message>
+    <message>
+        <source>Go on if tiles of an EPT data set are missing on the server. A warning counts them.</source>
+        <translation>Weitermachen, wenn Kacheln eines EPT-Datensatzes auf dem Server fehlen. Eine Warnung zählt sie.</translation>
     </message>
     <message>
         <source>Grid minimum</source>
@@ -1222,6 +1262,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Wahrscheinlich</translation>
     </message>
     <message>
+        <source>Limit</source>
+        <translation>Grenze</translation>
+    </message>
+    <message>
         <source>Line of the profile</source>
         <translation>Linie des Profils</translation>
     </message>
@@ -1462,12 +1506,20 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Nur Punkte in diesen Polygonen werden klassifiziert, und Raster enden an ihnen; gibt es eine Ausdehnung, gilt nur, was in beiden liegt. Punkte außerhalb behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
+        <source>Only points in these polygons are downloaded; with an extent, only points in both. Empty: all points.</source>
+        <translation>Nur Punkte in diesen Polygonen werden heruntergeladen, mit einer Ausdehnung nur Punkte in beiden. Leer: alle Punkte.</translation>
+    </message>
+    <message>
         <source>Only points in these polygons are mapped and written; with an extent, only points in both. Points nearby help to judge. Empty: all points.</source>
         <translation>Nur Punkte in diesen Polygonen werden kartiert und geschrieben; gibt es eine Ausdehnung, nur Punkte in beiden. Punkte in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
     </message>
     <message>
         <source>Only points in this rectangle are classified, and rasters end at it. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
         <translation>Nur Punkte in diesem Rechteck werden klassifiziert, und Raster enden an ihm. Punkte außerhalb behalten ihre Klasse, doch die in der Nähe helfen beim Urteil. Leer: alle Punkte.</translation>
+    </message>
+    <message>
+        <source>Only points in this rectangle are downloaded. Empty: all points.</source>
+        <translation>Nur Punkte in diesem Rechteck werden heruntergeladen. Leer: alle Punkte.</translation>
     </message>
     <message>
         <source>Only points in this rectangle are mapped and written. Points nearby help to judge. Empty: all points.</source>
@@ -1738,6 +1790,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Klassen merken</translation>
     </message>
     <message>
+        <source>Remote point cloud</source>
+        <translation>Entfernte Punktwolke</translation>
+    </message>
+    <message>
         <source>Remove</source>
         <translation>Entfernen</translation>
     </message>
@@ -1760,6 +1816,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Report</source>
         <translation>Bericht</translation>
+    </message>
+    <message>
+        <source>Resolution</source>
+        <translation>Auflösung</translation>
     </message>
     <message>
         <source>Returns</source>
@@ -1888,6 +1948,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller cells follow finer terrain if they hold at least one point, but have more rims at low plants. Empty: from the preset, or larger if points are too sparse for it.</source>
         <translation>Seite der quadratischen Zellen, deren tiefste Punkte verglichen werden. Kleinere Zellen folgen feinerem Gelände, wenn sie mindestens einen Punkt enthalten, haben aber mehr Ränder an niedrigen Pflanzen. Leer: aus der Voreinstellung, oder größer, wenn die Punkte dafür zu dünn liegen.</translation>
+    </message>
+    <message>
+        <source>Skip missing tiles</source>
+        <translation>Fehlende Kacheln auslassen</translation>
     </message>
     <message>
         <source>Sky-view factor</source>
@@ -2218,6 +2282,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Die Punktwolke, die geprüft wird. Ihre Klasse 2 gilt als Boden, alle anderen Klassen nicht.</translation>
     </message>
     <message>
+        <source>The points, with all of their dimensions, as .copc.laz or .laz.</source>
+        <translation>Die Punkte mit allen Dimensionen, als .copc.laz oder .laz.</translation>
+    </message>
+    <message>
         <source>The probability, 0 to 1, that the terrain model is right: low under dense trees, across gaps and at breaks.</source>
         <translation>Die Wahrscheinlichkeit, 0 bis 1, dass das Geländemodell stimmt: gering unter dichten Bäumen, über Lücken und an Kanten.</translation>
     </message>
@@ -2466,6 +2534,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Wo sie sich unterscheiden</translation>
     </message>
     <message>
+        <source>Whether a virtual point cloud or a STAC item may name files on servers that you did not name. Without it, they are named and nothing is downloaded.</source>
+        <translation>Ob eine virtuelle Punktwolke oder ein STAC-Item Dateien auf Servern nennen darf, die Sie nicht genannt haben. Sonst werden sie genannt, und nichts wird heruntergeladen.</translation>
+    </message>
+    <message>
         <source>Whitebox (one scale, 2 m, 45 deg, 1 m)</source>
         <translation>Whitebox (ein Maßstab, 2 m, 45 Grad, 1 m)</translation>
     </message>
@@ -2560,6 +2632,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>densification</source>
         <translation>Verdichtung</translation>
+    </message>
+    <message>
+        <source>download,remote,url,web,http,copc,clip,cloud storage</source>
+        <translation>herunterladen,entfernt,url,web,http,copc,ausschneiden,cloud-speicher</translation>
     </message>
     <message>
         <source>finer cells off surface</source>

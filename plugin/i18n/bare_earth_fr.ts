@@ -48,6 +48,10 @@
         <translation>Une livraison omet les eaux plus petites. Vide : 8 000 m² pour un levé, 1 000 m² pour un modèle d'inondation.</translation>
     </message>
     <message>
+        <source>A download of more is refused before it begins. The error says how large it is.</source>
+        <translation>Un téléchargement plus grand est refusé avant de commencer. Le message d’erreur indique sa taille.</translation>
+    </message>
+    <message>
         <source>A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a name it is classified.vpc in their folder.</source>
         <translation>Une liste des fichiers classés, que QGIS 3.32 et plus récent affiche comme une seule couche. Sans nom, c'est classified.vpc dans leur dossier.</translation>
     </message>
@@ -70,6 +74,10 @@
     <message>
         <source>A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a folder.</source>
         <translation>Une couche de nuage de points, ou un fichier .las, .laz ou .copc.laz ; aussi un nuage de points virtuel (.vpc) ou un dossier.</translation>
+    </message>
+    <message>
+        <source>A point cloud layer, or the address (https://...) of a COPC file, of the ept.json of an EPT data set, of a virtual point cloud or of a STAC item. Only what lies in the extent is downloaded.</source>
+        <translation>Une couche de nuage de points, ou l’adresse (https://...) d’un fichier COPC, du ept.json d’un jeu EPT, d’un nuage de points virtuel ou d’un élément STAC. Seul ce qui se trouve dans l’emprise est téléchargé.</translation>
     </message>
     <message>
         <source>A point is not ground if it stands above a neighbour at a steeper slope than this. In all presets but Whitebox, the slope of the terrain around the point is added to it. Empty: from the preset, 15 deg in most, 45 deg in Whitebox.</source>
@@ -606,6 +614,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Direction d'où vient la lumière, dans le sens horaire depuis le nord. Quatre lumières ont leurs propres directions.</translation>
     </message>
     <message>
+        <source>Distance between points. If it is larger than that of the cloud, only the upper levels of its octree are downloaded, whose points are about so far apart.</source>
+        <translation>Distance entre les points. Si elle est plus grande que celle du nuage, seuls les niveaux supérieurs de son octree sont téléchargés, dont les points sont à peu près à cette distance.</translation>
+    </message>
+    <message>
         <source>Distance of voids</source>
         <translation>Distance des vides</translation>
     </message>
@@ -620,6 +632,22 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
     <message>
         <source>Doubtful</source>
         <translation>Douteux</translation>
+    </message>
+    <message>
+        <source>Download part of a remote point cloud</source>
+        <translation>Télécharger une partie d’un nuage de points distant</translation>
+    </message>
+    <message>
+        <source>Downloaded point cloud</source>
+        <translation>Nuage de points téléchargé</translation>
+    </message>
+    <message>
+        <source>Downloads the points of a remote point cloud (COPC, EPT, or the one in a virtual point cloud or STAC item that has points there) that lie in an extent or a boundary: only the parts that are needed, as they are, with all of their dimensions. The log tells how much that is before it begins. If it is stopped, the same run goes on where it was.</source>
+        <translation>Télécharge les points d’un nuage de points distant (COPC, EPT, ou celui d’un nuage virtuel ou d’un élément STAC qui a des points à cet endroit) qui se trouvent dans une emprise ou une limite : seulement les parties qui sont nécessaires, telles quelles, avec toutes leurs dimensions. Le journal indique la taille avant de commencer. Si l’exécution est interrompue, la même exécution reprend là où elle en était.</translation>
+    </message>
+    <message>
+        <source>Downloads the points of a remote point cloud that lie in an area.</source>
+        <translation>Télécharge les points d’un nuage de points distant qui se trouvent dans une zone.</translation>
     </message>
     <message>
         <source>Drone site</source>
@@ -810,6 +838,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Dossier des rasters</translation>
     </message>
     <message>
+        <source>Follow lists to other servers</source>
+        <translation>Suivre les listes vers d’autres serveurs</translation>
+    </message>
+    <message>
         <source>For the lines, each height is averaged with its surroundings up to about this distance, so that they do not show noise. The terrain model does not change. 0: as the terrain model is.</source>
         <translation>Pour les lignes, chaque altitude est moyennée avec son voisinage jusqu'à environ cette distance, afin qu'elles ne montrent pas de bruit. Le modèle de terrain ne change pas. 0 : comme le modèle de terrain.</translation>
     </message>
@@ -850,12 +882,20 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Obtenir lazrs</translation>
     </message>
     <message>
+        <source>Give an extent or a boundary, not both, for an address.</source>
+        <translation>Pour une adresse, indiquez une emprise ou une limite, pas les deux.</translation>
+    </message>
+    <message>
         <source>Given</source>
         <translation>Fournie</translation>
     </message>
     <message>
         <source>Gives class 9 to ground points in water, and class 20 to those beside its shore.</source>
         <translation>Donne la classe 9 aux points de sol dans l'eau, et la classe 20 à ceux qui longent la rive.</translation>
+    </message>
+    <message>
+        <source>Go on if tiles of an EPT data set are missing on the server. A warning counts them.</source>
+        <translation>Continuer si des tuiles d’un jeu EPT manquent sur le serveur. Un avertissement les compte.</translation>
     </message>
     <message>
         <source>Grid minimum</source>
@@ -1222,6 +1262,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Probable</translation>
     </message>
     <message>
+        <source>Limit</source>
+        <translation>Maximum</translation>
+    </message>
+    <message>
         <source>Line of the profile</source>
         <translation>Ligne du profil</translation>
     </message>
@@ -1462,12 +1506,20 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Seuls les points dans ces polygones sont classés, et les rasters s'y arrêtent ; avec une emprise, seul compte ce qui est dans les deux. Les points à l'extérieur gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
+        <source>Only points in these polygons are downloaded; with an extent, only points in both. Empty: all points.</source>
+        <translation>Seuls les points dans ces polygones sont téléchargés ; avec une emprise, seulement les points dans les deux. Vide : tous les points.</translation>
+    </message>
+    <message>
         <source>Only points in these polygons are mapped and written; with an extent, only points in both. Points nearby help to judge. Empty: all points.</source>
         <translation>Seuls les points dans ces polygones sont cartographiés et écrits ; avec une emprise, seuls les points dans les deux. Les points proches aident à juger. Vide : tous les points.</translation>
     </message>
     <message>
         <source>Only points in this rectangle are classified, and rasters end at it. Points outside keep their class, but those nearby help to judge. Empty: all points.</source>
         <translation>Seuls les points dans ce rectangle sont classés, et les rasters s'y arrêtent. Les points à l'extérieur gardent leur classe, mais ceux qui sont proches aident à juger. Vide : tous les points.</translation>
+    </message>
+    <message>
+        <source>Only points in this rectangle are downloaded. Empty: all points.</source>
+        <translation>Seuls les points dans ce rectangle sont téléchargés. Vide : tous les points.</translation>
     </message>
     <message>
         <source>Only points in this rectangle are mapped and written. Points nearby help to judge. Empty: all points.</source>
@@ -1738,6 +1790,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Mémoriser les classes</translation>
     </message>
     <message>
+        <source>Remote point cloud</source>
+        <translation>Nuage de points distant</translation>
+    </message>
+    <message>
         <source>Remove</source>
         <translation>Supprimer</translation>
     </message>
@@ -1760,6 +1816,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Report</source>
         <translation>Rapport</translation>
+    </message>
+    <message>
+        <source>Resolution</source>
+        <translation>Résolution</translation>
     </message>
     <message>
         <source>Returns</source>
@@ -1888,6 +1948,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Side of the square cells whose lowest points are compared. Smaller cells follow finer terrain if they hold at least one point, but have more rims at low plants. Empty: from the preset, or larger if points are too sparse for it.</source>
         <translation>Côté des cellules carrées dont les points les plus bas sont comparés. Des cellules plus petites suivent un terrain plus fin si elles contiennent au moins un point, mais ont plus de bords aux plantes basses. Vide : d'après le préréglage, ou plus grandes si les points sont trop épars pour cela.</translation>
+    </message>
+    <message>
+        <source>Skip missing tiles</source>
+        <translation>Ignorer les tuiles manquantes</translation>
     </message>
     <message>
         <source>Sky-view factor</source>
@@ -2218,6 +2282,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Le nuage de points à vérifier. Sa classe 2 compte comme sol, toutes les autres classes non.</translation>
     </message>
     <message>
+        <source>The points, with all of their dimensions, as .copc.laz or .laz.</source>
+        <translation>Les points avec toutes leurs dimensions, en .copc.laz ou .laz.</translation>
+    </message>
+    <message>
         <source>The probability, 0 to 1, that the terrain model is right: low under dense trees, across gaps and at breaks.</source>
         <translation>La probabilité, de 0 à 1, que le modèle de terrain soit juste : faible sous des arbres denses, au-dessus des vides et aux ruptures.</translation>
     </message>
@@ -2466,6 +2534,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Où elles diffèrent</translation>
     </message>
     <message>
+        <source>Whether a virtual point cloud or a STAC item may name files on servers that you did not name. Without it, they are named and nothing is downloaded.</source>
+        <translation>Si un nuage de points virtuel ou un élément STAC peut nommer des fichiers sur des serveurs que vous n’avez pas nommés. Sinon, ils sont nommés et rien n’est téléchargé.</translation>
+    </message>
+    <message>
         <source>Whitebox (one scale, 2 m, 45 deg, 1 m)</source>
         <translation>Whitebox (une échelle, 2 m, 45 degrés, 1 m)</translation>
     </message>
@@ -2560,6 +2632,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>densification</source>
         <translation>densification</translation>
+    </message>
+    <message>
+        <source>download,remote,url,web,http,copc,clip,cloud storage</source>
+        <translation>télécharger,distant,url,web,http,copc,découper,stockage cloud</translation>
     </message>
     <message>
         <source>finer cells off surface</source>

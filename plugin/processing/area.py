@@ -15,9 +15,12 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
 from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area, Polygon
+from ...algorithms.survey.shapes import Shapes
 from ...algorithms.tools.ground.output import Output
 from .. import compat
-from .inputs import CloudCrs, box_of, layer_polygons
+from ..i18n import mark
+from .feedback import Refusal
+from .inputs import CloudCrs, box_of, layer_polygons, rings_of
 
 # Name, label and help of the fields of an area.
 _AREA_FIELDS = {
@@ -47,6 +50,11 @@ HELPS = {
         "BOUNDARY": "The rasters have data only in these polygons; with an extent, only in both."
         " Points outside still help along the border. Empty: the rasters cover all points.",
     },
+    "download only points in": {
+        "EXTENT": "Only points in this rectangle are downloaded. Empty: all points.",
+        "BOUNDARY": "Only points in these polygons are downloaded; with an extent, only points in"
+        " both. Empty: all points.",
+    },
 }
 
 
@@ -54,8 +62,11 @@ def add_area(
     algorithm: QgsProcessingAlgorithm,
     advanced: Sequence[str] = ("BOUNDARY",),
     helps: Mapping[str, str] = {},
+    shown: str | None = None,
 ) -> None:
-    """Add the fields of an area to a dialog, some, by name, advanced or with other helps."""
+    """Add the fields of an area to a dialog, some, by name, advanced or with other helps; a new
+    dialog shows an extent, which is no default of models and scripts.
+    """
     extent, boundary = (label for label, _ in _AREA_FIELDS.values())
     fields = (
         QgsProcessingParameterExtent("EXTENT", extent, None, True),
@@ -64,6 +75,8 @@ def add_area(
     for field in fields:
         if field.name() in advanced:
             field.setFlags(field.flags() | compat.ADVANCED)
+        if shown is not None and field.name() == "EXTENT":
+            field.setGuiDefaultValueOverride(shown)
         text = helps.get(field.name(), _AREA_FIELDS[field.name()][1])
         algorithm.addParameter(field, text)
 
@@ -88,6 +101,38 @@ def area_of(
         label = _AREA_FIELDS["BOUNDARY"][0]
         polygons = layer_polygons(algorithm, parameters, "BOUNDARY", label, context, crs)
     return Area(box, polygons)
+
+
+def area_in_own_crs(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    progress: Progress,
+) -> Area | None:
+    """Return the area in the fields of `add_area` with its own CRS, for points of unknown CRS."""
+    given = [name for name in _AREA_FIELDS if not compat.is_empty(parameters.get(name))]
+    if not given:
+        return None
+    if len(given) > 1:
+        raise Refusal(mark("Give an extent or a boundary, not both, for an address."))
+    if "EXTENT" in given:
+        crs = algorithm.parameterAsExtentCrs(parameters, "EXTENT", context)
+        if not crs.isValid():
+            box = algorithm.parameterAsExtent(parameters, "EXTENT", context)
+            return Area((box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum()))
+        shape = algorithm.parameterAsExtentGeometry(parameters, "EXTENT", context, crs)
+        polygons: Sequence[Polygon] = [rings_of(shape.constGet())]
+    else:
+        source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
+        crs = CloudCrs(stated=source.sourceCrs().toWkt() if source is not None else None)
+        label = _AREA_FIELDS["BOUNDARY"][0]
+        polygons = layer_polygons(algorithm, parameters, "BOUNDARY", label, context, crs)
+        crs = crs.value
+    progress.info(
+        "In the command line the area is missing: save it as boundary.geojson, and add --boundary"
+        " boundary.geojson."
+    )
+    return Area(None, Shapes(polygons, crs.toWkt(compat.WKT), "The area"))
 
 
 def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) -> None:

@@ -55,8 +55,10 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     cancelled = NOTHING_STAYS  # message in the log after a cancel
     shown: tuple[str, ...] | None = None  # parameters that are not advanced; None: as declared
     stated: str | None = None  # the CRS that the user states; set before `prepare`
+    layer_crs: str | None = None  # of a remote layer; set by `find_inputs`
     unused: tuple[str, ...] = ()  # parameters without a field, since no output depends on them
     inputs = Inputs((), is_survey=False)  # files and folders; set by `find_inputs`
+    reads_addresses = False  # whether its input is a remote point cloud
     _has_page = False
 
     def __init__(self) -> None:
@@ -156,7 +158,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def crs_of(self, *sources: Path, recursive: bool = False) -> CloudCrs:
         """Return the CRS of point clouds, or the one that the user states instead."""
-        return CloudCrs(*sources, recursive=recursive, stated=self.stated)
+        stated = self.stated or self.layer_crs
+        return CloudCrs(*sources, recursive=recursive, stated=stated)
 
     def show(self, path: str, look: layers.Look) -> None:
         """Set the look of an output layer; rasters with a row do not need this."""

@@ -316,7 +316,8 @@ def layer_polygons(*field: Any) -> tuple[Polygon, ...]:
     return tuple(rings for rings, _ in layer_shapes(*field, may_be_empty=False))
 
 
-def _rings_of(polygon: QgsPolygon) -> Polygon:
+def rings_of(polygon: QgsPolygon) -> Polygon:
+    """Return the rings of a polygon, float64 (n, 2) each."""
     rings = [polygon.exteriorRing(), *map(polygon.interiorRing, range(polygon.numInteriorRings()))]
     return tuple(_line_of(ring)[:, :2] for ring in rings if ring is not None)
 
@@ -329,7 +330,7 @@ def _line_of(line: QgsCurve) -> np.ndarray:
 # The class of a geometry of a kind, what returns its corners, and what a layer without any is told.
 _KINDS = {
     compat.POLYGONS: (
-        QgsCurvePolygon, _rings_of,
+        QgsCurvePolygon, rings_of,
         mark('The layer "{}" holds no polygon. Choose one that does.'),
     ),
     compat.LINES: (

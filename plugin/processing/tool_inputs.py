@@ -16,10 +16,11 @@ from qgis.core import (
 )
 
 from ...algorithms.core.progress import SILENT, Progress
+from ...algorithms.remote.addresses import shown
 from ...algorithms.tools.declaration import Input, ToFind
 from .. import compat
 from ..i18n import mark
-from .area import HELPS, add_area, area_of, area_options, target_options
+from .area import HELPS, add_area, area_in_own_crs, area_of, area_options, target_options
 from .base import BareEarthAlgorithm
 from .checkpoints import add_checkpoints, checkpoints_of
 from .constraints import add_constraints, constraints_of
@@ -42,6 +43,7 @@ from .inputs import (
     survey_of,
 )
 from .raster_target import add_raster_target, raster_target_of
+from .remote import ADDRESS_HELP, RemoteInput, extent_of_map, remote_of
 from .stated_crs import add_crs
 
 # What is said of rasters that are no files, by the names of their inputs.
@@ -85,7 +87,8 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         return
     if declared.kind == "area":
         advanced = ("EXTENT", "BOUNDARY") if declared.advanced else ("BOUNDARY",)
-        add_area(algorithm, advanced, HELPS.get(declared.help, {}))
+        shown_box = extent_of_map() if algorithm.reads_addresses else None
+        add_area(algorithm, advanced, HELPS.get(declared.help, {}), shown_box)
         return
     if declared.kind == "checkpoints":
         add_checkpoints(algorithm, declared.advanced)
@@ -93,6 +96,7 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
     makers: dict[str, Callable[[], QgsProcessingParameterDefinition]] = {
         "cloud": lambda: PointCloudInput(name, label),
         "clouds": lambda: SurveyInput(name, label),
+        "address": lambda: RemoteInput(name, label),
         "raster": lambda: QgsProcessingParameterRasterLayer(name, label, None, declared.optional),
         "extent": lambda: QgsProcessingParameterExtent(name, label, None, True),
         "words": lambda: QgsProcessingParameterString(name, label, None, False, True),
@@ -100,7 +104,7 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
             name, label, [compat.POLYGONS], None, True
         ),
     }
-    helps = {"cloud": CLOUD_HELP, "clouds": ANY_CLOUD_HELP}
+    helps = {"cloud": CLOUD_HELP, "clouds": ANY_CLOUD_HELP, "address": ADDRESS_HELP}
     field = makers[declared.kind]()
     if declared.advanced:
         field.setFlags(field.flags() | compat.ADVANCED)
@@ -119,6 +123,13 @@ def _cloud(request: Request, declared: Input) -> Given:
     return Given(value, {}, (str(path),), (path,), name_of(path))
 
 
+def _address(request: Request, declared: Input) -> Given:
+    algorithm, parameters, context, _ = request
+    remote = remote_of(algorithm, parameters, declared.field_name, context)
+    algorithm.layer_crs = remote.crs
+    return Given(remote.address, {}, (shown(remote.address),), (), remote.name)
+
+
 def _files(request: Request, declared: Input) -> Given:
     paths = clouds_of(request.algorithm, request.parameters, request.context)
     return Given(paths, {}, tuple(map(str, paths)), tuple(paths), names_of(paths))
@@ -131,6 +142,8 @@ def _survey(request: Request, declared: Input) -> Given:
 
 def _area(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, progress = request
+    if algorithm.reads_addresses and algorithm.layer_crs is None:
+        return Given(area_in_own_crs(algorithm, parameters, context, progress))
     area = area_of(algorithm, parameters, context, _crs_of(request))
     return Given(area, area_options(area, progress))
 
@@ -213,10 +226,10 @@ def _polygons(request: Request, declared: Input) -> Given:
 
 
 _READERS: dict[str, Callable[[Request, Input], Given]] = {
-    "cloud": _cloud, "clouds": _cloud, "raster": _raster, "crs": _crs, "extent": _extent,
-    "words": _words, "checkpoints": _checkpoints, "polygons": _polygons, "files": _files,
-    "survey": _survey,
-    "area": _area, "target": _target, "corrections": _corrections, "constraints": _constraints,
+    "cloud": _cloud, "clouds": _cloud, "address": _address, "raster": _raster, "crs": _crs,
+    "extent": _extent, "words": _words, "checkpoints": _checkpoints, "polygons": _polygons,
+    "files": _files, "survey": _survey, "area": _area, "target": _target,
+    "corrections": _corrections, "constraints": _constraints,
 }  # fmt: skip
 # Inputs with fields of their own.
 _GROUPS: dict[str, Callable[[BareEarthAlgorithm], None]] = {

@@ -36,7 +36,10 @@ from .outputs import after_cancel, do_not_load, point_cloud_formats
 from .tool_inputs import Given, Request, add_input, given
 
 # Inputs of these kinds, which name the run, are found first; these are read when the work begins.
-_FILES, _LATE = ("cloud", "clouds", "files", "survey", "raster"), ("checkpoints", "polygons")
+_FILES = ("cloud", "clouds", "files", "survey", "raster", "address")
+_LATE = ("checkpoints", "polygons")
+# Outputs of these kinds are files of points.
+_POINTS = ("cloud", "points")
 # Titles of the layers of classes, by what a tool for points shows.
 _TITLES = {"classes": layers.CLASSES, "key points": mark("key points")}
 # Of the numbers of many files; all others are added up.
@@ -55,6 +58,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         self._inputs = [declared for declared in tool.all_inputs if declared.label]
         self._outputs = [output for output in tool.all_outputs if output.label]
         self._given: dict[str, Given] = {}
+        self.reads_addresses = any(declared.kind == "address" for declared in self._inputs)
 
     def createInstance(self) -> ToolAlgorithm:
         """Return another instance."""
@@ -105,7 +109,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         }
         paths = [path for found in self._given.values() for path in found.paths]
         kind = next(declared.kind for declared in self._inputs if declared.kind in _FILES)
-        self.inputs = Inputs(paths, {"cloud": False, "files": True}.get(kind))
+        self.inputs = Inputs(paths, {"cloud": False, "address": False, "files": True}.get(kind))
         self.subject = next(found.name for found in self._given.values() if found.name)
 
     def prepare(
@@ -149,7 +153,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
     def _path(self, request: Request, output: Output) -> str:
         """Return the path of an output; empty if it is not wanted."""
         name, context = output.field_name, request.context
-        if output.kind == "cloud":
+        if output.kind in _POINTS:
             return self._cloud(request, name)
         is_layer = output.kind in ("raster", "features")
         path_of = self.parameterAsOutputLayer if is_layer else self.parameterAsFileOutput
@@ -328,7 +332,7 @@ def _field_of(output: Output) -> QgsProcessingParameterDefinition:
     """Return the field of an output."""
     name, label = output.field_name, output.label
     optional, by_default = output.optional and not output.is_main, output.by_default
-    if output.kind == "cloud":
+    if output.kind in _POINTS:
         field = compat.point_cloud_output(name, label, point_cloud_formats())
         field.setFlags(field.flags() | compat.OPTIONAL if optional else field.flags())
         return field

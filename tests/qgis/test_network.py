@@ -34,7 +34,7 @@ def readers(monkeypatch):
         made.append(network.QgisReader())
         return made[-1]
 
-    monkeypatch.setattr(transfers, "HttpReader", make)
+    monkeypatch.setattr(transfers, "_READERS", [make])
     return made
 
 
@@ -46,7 +46,7 @@ def test_a_password_goes_to_the_named_host_only(server, tmp_path, monkeypatch):
     config.setConfig("password", "SECRET")
     assert manager.storeAuthenticationConfig(config)
     login = config.id() or config[1].id()
-    monkeypatch.setattr(transfers, "HttpReader", lambda: network.QgisReader(login))
+    network.use_for(server.address("a"), login)
     server.add("b", DATA)
     target = f"to {server.address('b', 'localhost')}"
     server.fault = lambda number, path: target if path == "a" else ""

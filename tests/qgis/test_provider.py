@@ -136,6 +136,9 @@ PARAMETERS = {
         "ACCURACY_CLASS", "SURVEY_ERROR", "MAX_EDGE", "MIN_CONFIDENCE", "HOLD_OUT",
         "GROUND_CLASSES", "OVERLAP", "VEGETATED", "CONFIDENCE", "OUTPUT", "REPORT",
     ],
+    "bareearth:fetch": [
+        "ADDRESS", "EXTENT", "BOUNDARY", "RESOLUTION", "LIMIT", "SKIP_MISSING", "FOLLOW", "OUTPUT",
+    ],
     "bareearth:quality": [
         "INPUT", "CRS", "SPECIFICATION", "CELL_SIZE", "VOID_DISTANCE", "GROUND_CLASSES", "OVERLAP",
         "PAGE", "FOLDER",
@@ -214,6 +217,7 @@ OUTPUTS = {
         "CLASSIFIED_ONLY",
         "REFERENCE_ONLY",
     ],
+    "bareearth:fetch": ["OUTPUT", "POINT_COUNT"],
     "bareearth:check": [
         "OUTPUT",
         "REPORT",
@@ -506,7 +510,7 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
             holds = page if row in page else shared
             assert row in holds
             cells = holds.partition(row)[2].partition("\n")[0].split(" | ")[:-1]
-            unit = {"m": " m", "deg": "°"}.get(parameter.unit, "")
+            unit = {"m": " m", "deg": "°", "GB": " GB"}.get(parameter.unit, "")
             if isinstance(parameter.default, bool):
                 shown = "on" if parameter.default else "off"
             elif isinstance(parameter.default, float):
