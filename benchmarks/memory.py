@@ -46,7 +46,7 @@ class Use(NamedTuple):
     wall: float  # seconds
     cpu: float  # seconds
     memory: float  # largest sum of the proportional set sizes, in GB
-    largest: float  # largest resident memory of a single process (`wait4`), in GB
+    largest: float  # the same of a single process, in GB
     disk: float  # most that its files took at a time, outputs included, in GB
     processes: int  # most at a time
     problem: str = ""  # the end of what a run said that failed
@@ -79,7 +79,7 @@ def measure(command: Sequence[str], folder: Path) -> Use:
         wall,
         usage.ru_utime + usage.ru_stime,
         looking.memory / _GIGABYTE,
-        usage.ru_maxrss * 1024 / _GIGABYTE,
+        looking.largest / _GIGABYTE,
         looking.disk / _GIGABYTE,
         looking.processes,
         text.splitlines()[-1] if process.returncode else "",
@@ -91,7 +91,7 @@ class _Looking:
 
     def __init__(self, group: int, folder: Path) -> None:
         self._group, self._folder = group, folder
-        self.memory = self.disk = self.processes = 0  # the largest, in bytes
+        self.memory = self.largest = self.disk = self.processes = 0  # at most, in bytes
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._look, daemon=True)
         self._thread.start()
@@ -108,6 +108,7 @@ class _Looking:
             members = list(_members(self._group))
             sizes = [size for size in map(_shared_size, members) if size]
             self.memory = max(self.memory, sum(sizes))
+            self.largest = max(self.largest, *sizes, 0)
             self.processes = max(self.processes, len(sizes))
             if number % 10 == 0:
                 self.disk = max(self.disk, _on_disk(members, self._folder))
