@@ -19,7 +19,7 @@ _UNKNOWN = 4 * GIGABYTE
 _SHARE = 0.5
 # Freed memory is given back after so many seconds if a process takes more than this share of what
 # it may use, and so many bytes for its libraries.
-_SECONDS, _NEARLY, _LIBRARIES = 0.3, 0.7, 200_000_000
+_SECONDS, _NEARLY, _LIBRARIES = 0.3, 0.9, 200_000_000
 _MEMINFO = Path("/proc/meminfo")
 _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 _CGROUP = Path("/sys/fs/cgroup")
