@@ -5,7 +5,7 @@ They are declared as those for files are, and have the same names and parameters
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,13 +16,14 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.files import Outputs
 from ..core.parameters import ParameterSet, parameter_of
+from ..core.points import Frame
 from ..core.progress import Progress
 from ..core.threads import available_cpus, may_use
 from ..engine.file_points import FilePoints, TileResult
 from ..engine.memory import Resources
 from ..engine.one_file import FileRun
-from ..engine.step import Step, located
-from ..las.cloud import PointCloud, survey_frame
+from ..engine.step import Step
+from ..las.cloud import PointCloud
 from ..survey.files import Inputs
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.selection import Selection
@@ -37,6 +38,7 @@ from ..tools.key_points import KeyPointMark
 from ..tools.rasters.output import write_rasters
 from ..tools.rasters.parameters import SurfaceModel, TerrainModel
 from ..tools.rasters.rows import RASTERS
+from ..tools.rasters.step import MakeRasters
 from . import arguments, tool_commands
 from .arguments import REQUIRED, Argument, Kind
 from .functions import PACKAGE, Function
@@ -178,6 +180,19 @@ def _of_tool(
     )  # fmt: skip
 
 
+@dataclass(frozen=True)
+class _RastersInMemory(MakeRasters):
+    """Makes rasters without files."""
+
+    def finish(
+        self, result: Any, frame: Frame, outputs: Outputs, progress: Progress, tiles: Any = None
+    ) -> Any:
+        """Return the rasters by their names."""
+        collected = Collected()
+        write_rasters(result, frame, self, outputs, progress, write_cells=collected.add)
+        return collected.rasters
+
+
 def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
     """Return rasters by their names."""
     progress = progress_of(values.progress)
@@ -194,26 +209,15 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
         "area": area_of(values), "constraints": constraints_of(values),
         "raster_target": target_of(values),
     }  # fmt: skip
-    steps = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})
+    made: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]
+    step = _RastersInMemory(**{one.name: getattr(made, one.name) for one in fields(made)})
     cloud, resources = _cloud(values, sets, progress), Resources.among(sets).now()
-    with may_use(resources.thread_count), Outputs() as outputs:
+    with may_use(resources.thread_count):
         points = FilePoints(cloud, resources)
-        place = points.place
-        (step,) = located(steps, place, progress)
-        step, counts = step.placed(place, progress), step.counts()
-        (store,) = points.gathered([(step, counts)], points.parts(), progress.part(0.0, 0.1))
-        frame, collected = survey_frame(cloud.crs, step.origin), Collected()
-        step = step.seeing((part for _, part in points.parts()), frame, progress)
-        drawn = step.work(store, points.resources, progress.part(0.1, 0.8))
-        write_rasters(
-            [found for _, found in drawn],
-            frame,
-            step,
-            outputs,
-            progress.part(0.8, 1.0),
-            write_cells=collected.add,
-        )
-    return {name: collected.rasters[name] for name in names}
+        run = FileRun(points, [step.placed(points.place, progress)], progress)
+        run.work(progress)
+    (rasters,) = run.told
+    return {name: rasters[name] for name in names}
 
 
 def _of_terrain() -> Function:
