@@ -128,7 +128,7 @@ def _ending_of_features() -> str:
 def rows_of(content: Delivery) -> tuple[Row, ...]:
     """Return the rows of a delivery."""
     rasters = {name: name for name in content.rasters}
-    on_ground = {"roads": "roads", "constraints": "constraints", **_WITHIN}
+    on_ground = {name: name for name in ("roads", "constraints", "area", "raster_target")}
     quality = {"page": "quality", **({"folder": QUALITY} if content.quality else {})}
     checked = {"report": "accuracy", "table": "checkpoints", "residuals": "checkpoints"}
     return (
@@ -148,9 +148,6 @@ def rows_of(content: Delivery) -> tuple[Row, ...]:
         Row("accuracy", "check", 1.5, ("check",), {"checkpoints": "checkpoints", "dtm": "dtm"},
             checked, "check"),
     )  # fmt: skip
-
-
-_WITHIN = {"area": "area", "raster_target": "raster_target"}
 
 
 def _classify(job: DeliveryJob, row: Row, progress: Progress) -> None:
@@ -242,13 +239,13 @@ def _write_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
     if they have any.
     """
     target, survey = job.known["raster_target"], open_survey(job.opened(progress)[0])
-    own = job.own.located(survey.place, progress)
-    rasters = MakeRasters(model=job.set_of(TerrainModel), target=target)
-    cell = rasters.placed(survey.place).cell / VERTICES_A_SIDE
-    clouds = parts_of(survey.tiles, progress.part(0.0, 0.9))
-    water = given_water(own, clouds, survey.crs, job.set_of(GroundClasses), cell)
-    if job.found:
-        water = replace(job.found, breaklines=water.breaklines)
+    own, water = job.own.located(survey.place, progress), job.found
+    if own.water or own.breaklines or not water:
+        rasters = MakeRasters(model=job.set_of(TerrainModel), target=target)
+        cell = rasters.placed(survey.place).cell / VERTICES_A_SIDE
+        clouds = parts_of(survey.tiles, progress.part(0.0, 0.9))
+        given = given_water(own, clouds, survey.crs, job.set_of(GroundClasses), cell)
+        water = replace(water, breaklines=given.breaklines) if water else given
     # Polygons without ground near them have no heights for lines.
     polygons = job.place("features", "water") if water.bodies else None
     lines = job.place("features", "breaklines") if any(True for _ in water.lines()) else None

@@ -80,26 +80,25 @@ class Job:
                 took = self.seconds.get(row.title, 0.0) + time.perf_counter() - begun
                 self.seconds[row.title] = round(took, 2)
 
-    def run(self, row: Row, progress: Progress, vpc: Path | None = None, **outputs: Path) -> Any:
+    def run(self, row: Row, progress: Progress, **outputs: Path) -> Any:
         """Let the tool of a row work, with further outputs that are given here."""
-        tool = any_tool(row.tool)
+        tool, paths = any_tool(row.tool), dict(outputs)
         inputs = {name: self.known.get(value) for name, value in row.inputs.items()}
-        paths = {**outputs, "vpc": vpc}
         for output in tool.all_outputs:
             if output.name in row.outputs and inputs.get(output.needs, True) is not None:
-                paths[output.name] = self.place(output.kind, row.outputs[output.name])
-        only_reads = isinstance(tool, FileTool) or not getattr(tool, "classifies", True)
-        given: dict[str, Any] = {}
-        for one in tool.all_inputs:
-            if one.kind == "clouds" and only_reads:
-                given[one.name], progress = self.opened(progress)
-            elif one.kind in ("clouds", "crs"):
-                given[one.name] = self.sources if one.kind == "clouds" else self.known["crs"]
-        for one in tool.inputs:
-            if one.name in inputs:
-                given[one.name] = one.of(inputs[one.name])
-        given.update((name, value) for name, value in inputs.items() if name not in given)
-        return run(tool, given, paths, self.sets_of(tool), progress, self.workers)
+                path = self.place(output.kind, row.outputs[output.name])
+                paths.update({output.name: path} if path else {})
+        for declared in tool.inputs:
+            if declared.name in inputs:
+                inputs[declared.name] = declared.of(inputs[declared.name])
+        for declared in tool.all_inputs:
+            if declared.kind == "crs":
+                inputs[declared.name] = self.known["crs"]
+            elif declared.kind == "clouds" and "output" in outputs:
+                inputs[declared.name] = self.sources
+            elif declared.kind == "clouds":
+                inputs[declared.name], progress = self.opened(progress)
+        return run(tool, inputs, paths, self.sets_of(tool), progress, self.workers)
 
     def sets_of(self, tool: Tool) -> list[ParameterSet]:
         """Return the parameters of a tool."""
