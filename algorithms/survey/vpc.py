@@ -17,7 +17,6 @@ import re
 from pathlib import Path
 from typing import Any, Iterable, NamedTuple
 from urllib.parse import unquote, urlsplit
-from urllib.request import url2pathname
 
 import numpy as np
 
@@ -186,6 +185,8 @@ def _href(assets: dict[str, dict[str, Any]]) -> str:
 
 def _path_of(href: str, folder: Path) -> Path:
     if href.lower().startswith("file:"):
+        from urllib.request import url2pathname  # it loads all of HTTP, for few who need it
+
         parts = urlsplit(href)
         host = f"//{parts.netloc}" if parts.netloc not in ("", "localhost") else ""
         return Path(url2pathname(host + parts.path))
