@@ -7,6 +7,8 @@ not depend on the files or on their order, so there are no seams.
 
 from __future__ import annotations
 
+import math
+import mmap
 import shutil
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -68,7 +70,9 @@ class Store:
     def array(self, name: str, shape: tuple[int, ...], kind: str) -> np.ndarray:
         """Return an array of zeros."""
         if self._folder is None:
-            return np.zeros(shape, dtype=kind)
+            # In arrays of NumPy, a cell would take a page of 2 MB.
+            size = max(math.prod(shape) * np.dtype(kind).itemsize, 1)
+            return np.ndarray(shape, dtype=kind, buffer=mmap.mmap(-1, size))
         return np.memmap(self._folder / f"{name}.cells", dtype=kind, mode="w+", shape=shape)
 
 
