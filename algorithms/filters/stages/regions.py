@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...grids.cells import are_inside
 from ...grids.morphology import within_square
 from ..pipeline import Rule
 from ..state import GridState
@@ -306,14 +307,18 @@ class LowBanks(Rule):
         number.ravel()[regions.cells] = regions.number + 1
         filled, reach = regions.filled, max(round(self.width / regions.size / 2.0), 1)
         closed = within_square(np.minimum, within_square(np.maximum, filled, reach), reach)
-        into, border = np.zeros((2, len(regions.area) + 1))
-        for ahead, behind in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
-            for here, there in ((ahead, behind), (behind, ahead)):
-                beside = (number[here] > 0) & (number[here] != number[there])
-                of, drop = number[here][beside], (filled[here] - filled[there])[beside]
-                # Of the gap to the other, the closing fills all but a share of the drop.
-                is_gap = (number[there][beside] == 0) & (drop > 0.0)
-                is_gap &= closed[there][beside] >= filled[here][beside] - self.beyond * drop
-                border += np.bincount(of, minlength=len(border))
-                into += np.bincount(of, is_gap, len(border))
-        return (into > self.most_in_row * border)[1:]
+        into, border = np.zeros((2, len(regions.area)))
+        row, column = np.divmod(regions.cells, regions.shape[1])
+        for up, right in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            inside = are_inside(row + up, column + right, regions.shape)
+            here, own = regions.cells[inside], regions.number[inside]
+            there = here + up * regions.shape[1] + right
+            beside = number.take(there) != own + 1
+            here, there, own = here[beside], there[beside], own[beside]
+            drop = filled.take(here) - filled.take(there)
+            # Of the gap to the other, the closing fills all but a share of the drop.
+            is_gap = (number.take(there) == 0) & (drop > 0.0)
+            is_gap &= closed.take(there) >= filled.take(here) - self.beyond * drop
+            border += np.bincount(own, minlength=len(border))
+            into += np.bincount(own, is_gap, len(border))
+        return into > self.most_in_row * border
