@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .cells import numbered
 from .tin import opposite_areas
 
 # x and y of a missing vertex.
@@ -69,6 +70,16 @@ def enclosing_triangles(
         leaving = leaving_corner(a, b, picked(x, worst), picked(y, worst))
         triangle[leaving, np.arange(len(left))] = worst
     return corners, found, sure
+
+
+def listed(first: np.ndarray, count: np.ndarray) -> np.ndarray:
+    """Return the numbers in runs (rows, q) in one column for each query, filled up with -1."""
+    total = count.sum(axis=0)
+    first, count = first.T.ravel(), count.T.ravel()
+    listed = np.full((max(total.max(), 1), len(total)), -1)
+    column = np.repeat(np.arange(len(total)), total)
+    listed[numbered(total), column] = np.repeat(first, count) + numbered(count)
+    return listed
 
 
 def picked(values: np.ndarray, which: np.ndarray) -> np.ndarray:

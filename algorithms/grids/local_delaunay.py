@@ -7,12 +7,12 @@ from typing import Iterator, NamedTuple
 import numpy as np
 
 from ..core.threads import parts_of
-from .cells import numbered
 from .delaunay_walk import (
     NOWHERE,
     enclosing_triangles,
     heights_of_four,
     interpolated,
+    listed,
     longest_edge,
     picked,
 )
@@ -136,7 +136,7 @@ class LocalDelaunay:
             vertices = self._lattice.take(self._start(queries, half) + cells[:, None])
             quarters = _quarters(width) if self._are_corners else None
         else:
-            vertices = _listed(*self._runs(queries, width))
+            vertices = listed(*self._runs(queries, width))
         x, y = self._x.take(vertices) - queries.x, self._y.take(vertices) - queries.y
         if width == 2:
             in_turn, z = [0, 1, 3, 2], self._z.take(vertices)
@@ -158,16 +158,6 @@ class LocalDelaunay:
         start = self._start(queries, width // 2) + np.arange(width)[:, None] * self._columns
         first = self._before.take(start)
         return first, self._before.take(start + width) - first
-
-
-def _listed(first: np.ndarray, count: np.ndarray) -> np.ndarray:
-    """Return the numbers in runs (rows, q) in one column for each query, filled up with -1."""
-    total = count.sum(axis=0)
-    first, count = first.T.ravel(), count.T.ravel()
-    listed = np.full((max(total.max(), 1), len(total)), -1)
-    column = np.repeat(np.arange(len(total)), total)
-    listed[numbered(total), column] = np.repeat(first, count) + numbered(count)
-    return listed
 
 
 def _quarters(width: int) -> list[np.ndarray]:

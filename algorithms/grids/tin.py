@@ -87,22 +87,6 @@ class Tin:
                 height[part] = np.where(total > 0.0, weighted / total, corners.mean(axis=1))
         return height
 
-    def lost(self, triangles: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return which triangles (q,), rows of `triangles`, disappear when vertices (n,), at least
-        one, are added: one lies in their circumcircle or on it, bool (q,).
-        """
-        from scipy.spatial import cKDTree
-
-        corners = self.triangles[triangles]
-        cx, cy = self._x[corners], self._y[corners]
-        ux, uy, vx, vy = (axis[:, k] - axis[:, 0] for k in (1, 2) for axis in (cx, cy))
-        u, v = ux**2 + uy**2, vx**2 + vy**2
-        double_area = 2.0 * np.maximum(ux * vy - uy * vx, 1e-12)
-        to_centre = np.column_stack((vy * u - uy * v, ux * v - vx * u)) / double_area[:, None]
-        centre = np.column_stack((cx[:, 0], cy[:, 0])) + to_centre
-        new = cKDTree(np.column_stack((x - self._origin[0], y - self._origin[1])))
-        return new.query(centre)[0] <= np.hypot(*to_centre.T) * (1.0 + 1e-9) + 1e-6
-
     def _near(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return a vertex near each query: in the same strip of x, next in y."""
         strip = np.searchsorted(self._strip_edges, x, side="right")
@@ -152,6 +136,24 @@ def opposite_areas(
     # All three are >= 0 inside a triangle; over their sum they are the barycentric weights.
     (ax, bx, cx), (ay, by, cy) = x, y
     return bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
+
+
+def lost_triangles(
+    x: np.ndarray, y: np.ndarray, new_x: np.ndarray, new_y: np.ndarray
+) -> np.ndarray:
+    """Return which Delaunay triangles, with corners (q, 3), disappear when vertices (n,), at least
+    one, are added: one lies in their circumcircle or on it, bool (q,).
+    """
+    from scipy.spatial import cKDTree
+
+    ux, uy, vx, vy = (axis[:, k] - axis[:, 0] for k in (1, 2) for axis in (x, y))
+    u, v = ux**2 + uy**2, vx**2 + vy**2
+    area = ux * vy - uy * vx
+    area = np.copysign(np.maximum(np.abs(area), 1e-12), area)
+    to_centre = np.column_stack((vy * u - uy * v, ux * v - vx * u)) / (2.0 * area[:, None])
+    centre = np.column_stack((x[:, 0], y[:, 0])) + to_centre
+    new = cKDTree(np.column_stack((new_x, new_y)))
+    return new.query(centre)[0] <= np.hypot(*to_centre.T) * (1.0 + 1e-9) + 1e-6
 
 
 def lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
-from bare_earth.algorithms.grids.tin import Tin
+from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.grids.cells import Cells
+from bare_earth.algorithms.grids.tin import Tin, lost_triangles
+from bare_earth.algorithms.grids.triangles_round import CellVertices
 
 
 def _scatter(count=2000, seed=1, size=100.0):
@@ -102,4 +105,23 @@ def test_the_triangles_lost_to_new_vertices_are_those_that_a_new_triangulation_d
     left = set(corners(more))
     expected = [three not in left for three in corners(tin)]
     assert 15 < sum(expected) < 200
-    assert tin.lost(np.arange(len(tin.triangles)), new_x, new_y).tolist() == expected
+    assert (
+        lost_triangles(tin.x[tin.triangles], tin.y[tin.triangles], new_x, new_y).tolist()
+        == expected
+    )
+
+
+def test_triangles_from_the_vertices_near_places_are_those_of_a_triangulation():
+    random = np.random.default_rng(1)
+    points = Points(*np.round(random.uniform(0.0, 120.0, (2, 5000)), 2), random.random(5000))
+    cells = Cells.over(points, 1.5)
+    vertices = np.flatnonzero((random.random(5000) < 0.4) & (np.abs(points.x - 60.0) > 8.0))
+    places = random.uniform(0.0, 120.0, (2, 1500))
+    found = CellVertices(points, vertices, cells).triangles(*places)
+    tin = Tin(*points.take(vertices))
+    triangle = tin.locate(*places)
+    expected = np.sort(vertices[tin.source[tin.triangles[triangle]]], axis=1)
+    sure = found[:, 0] >= 0
+    assert 0.6 < sure.mean() < 0.95
+    assert (triangle[sure] >= 0).all()
+    assert np.array_equal(found[sure], expected[sure])

@@ -12,16 +12,17 @@ import dataclasses
 import itertools
 import math
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import ClassVar, Iterator, NamedTuple
 
 import numpy as np
 
 from ...core.points import Points
 from ...core.progress import Progress
-from ...grids.cells import Cells, first_of_each
+from ...grids.cells import Cells
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
-from ...grids.tin import Tin
+from ...grids.tin import Tin, lost_triangles
+from ...grids.triangles_round import WIDEST, CellVertices
 from ..pipeline import PointRule, Stage
 from ..state import State
 
@@ -119,12 +120,39 @@ class _Survey(NamedTuple):
     ring: Points
     reach: int
 
-    def tin_round(self, vertices: np.ndarray, waiting: np.ndarray) -> Tin:
-        """Return the TIN of the vertices that may bound triangles in which candidates lie."""
-        holding = map(self.cells.holding, (vertices, waiting))
-        needed = _bounding(*holding, self.reach).ravel()
-        bounding = self.points.take(vertices[needed[self.cells.index[vertices]]])
-        return Tin(*bounding.and_also(self.ring))
+    def triangles(self, vertices: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return the corners of the triangles of vertices that hold places, intp (q, 3), ascending:
+        indices of points, after the last one those of the ring; -1 outside of all.
+        """
+        row, column = (
+            np.clip(np.floor(places / self.cells.size).astype(np.intp) - first, 0, count - 1)
+            for places, first, count in zip((y, x), self.cells.first, self.cells.shape)
+        )
+        asked = np.zeros(self.cells.shape, dtype=bool)
+        asked[row, column] = True
+        near = within_square(np.maximum, asked, WIDEST).ravel()
+        near = vertices[near[self.cells.index[vertices]]]
+        corners = CellVertices(self.points, near, self.cells).triangles(x, y)
+        left = np.flatnonzero(corners[:, 0] < 0)
+        if len(left):
+            asked[:] = False
+            asked[row[left], column[left]] = True
+            needed = _bounding(self.cells.holding(vertices), asked, self.reach).ravel()
+            bounding = vertices[needed[self.cells.index[vertices]]]
+            tin = Tin(*self.points.take(bounding).and_also(self.ring))
+            names = np.append(bounding, self.points.count + np.arange(self.ring.count))
+            triangle = tin.locate(x[left], y[left])
+            left, triangle = left[triangle >= 0], triangle[triangle >= 0]
+            corners[left] = np.sort(names[tin.source[tin.triangles[triangle]]], axis=1)
+        return corners
+
+    def places(self, corners: np.ndarray) -> Iterator[np.ndarray]:
+        """Yield x, y and z of corners."""
+        of_ring = corners >= self.points.count
+        for values, ring in zip(self.points, self.ring):
+            found = values.take(np.where(of_ring, 0, corners))
+            found[of_ring] = ring[corners[of_ring] - self.points.count]
+            yield found
 
 
 def _counts_round(mask: np.ndarray) -> np.ndarray:
@@ -175,17 +203,18 @@ def _joined(
     """Return the indices of the candidates that join the first vertices, round by round."""
     vertices = first
     for round_ in range(_MOST_ROUNDS):
-        tin = survey.tin_round(vertices, waiting)
-        progress(1.0 - 0.5 ** (round_ + 0.5))  # each round has less to do than the one before
-        triangle = tin.locate(survey.points.x[waiting], survey.points.y[waiting])
-        waiting, triangle = waiting[triangle >= 0], triangle[triangle >= 0]
         candidates = survey.points.take(waiting)
-        new, mirrored = _round(tin, triangle, candidates, rules)
-        vertices = np.concatenate((vertices, waiting[new]))
+        corners = survey.triangles(vertices, candidates.x, candidates.y)
+        progress(1.0 - 0.5 ** (round_ + 0.5))  # each round has less to do than the one before
+        inside = corners[:, 0] >= 0
+        waiting, corners, candidates = waiting[inside], corners[inside], candidates.take(inside)
+        new, mirrored = _round(survey, vertices, corners, candidates, rules)
         if not len(new):
             break
+        vertices = np.concatenate((vertices, waiting[new]))
         # The others lie in the same triangle as before, which did not take them.
-        changed = mirrored | tin.lost(triangle, candidates.x[new], candidates.y[new])
+        x, y, _ = survey.places(corners)
+        changed = mirrored | lost_triangles(x, y, candidates.x[new], candidates.y[new])
         changed[new] = False
         waiting = waiting[changed]
         progress(1.0 - 0.5 ** (round_ + 1.0))
@@ -209,13 +238,19 @@ def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarr
 
 
 def _round(
-    tin: Tin, triangle: np.ndarray, points: Points, rules: Densification
+    survey: _Survey,
+    vertices: np.ndarray,
+    corners: np.ndarray,
+    points: Points,
+    rules: Densification,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return which candidates to add, at most one in each triangle, and which were tested in
     another triangle, because their own is too steep.
     """
-    distance, angle, longest, mirrored = _distance_and_angle(tin, triangle, points, rules)
-    allowed = np.full(len(triangle), math.radians(rules.iteration_angle))
+    distance, angle, longest, mirrored = _distance_and_angle(
+        survey, vertices, corners, points, rules
+    )
+    allowed = np.full(len(corners), math.radians(rules.iteration_angle))
     if rules.reduce_angle_edge:
         allowed *= np.minimum(longest / rules.reduce_angle_edge, 1.0)
     fits = (distance <= rules.noise_distance) | (
@@ -224,30 +259,39 @@ def _round(
     if rules.stop_edge:
         fits &= longest >= rules.stop_edge
     fitting = np.flatnonzero(fits)
-    keys = distance[fitting], points.x[fitting], points.y[fitting]
-    return fitting[first_of_each(triangle[fitting], len(tin.triangles), *keys)], mirrored
+    order = np.lexsort(
+        (points.y[fitting], points.x[fitting], distance[fitting], *corners[fitting].T)
+    )
+    fitting = fitting[order]
+    first = np.ones(len(fitting), dtype=bool)
+    first[1:] = (np.diff(corners[fitting], axis=0) != 0).any(axis=1)
+    return fitting[first], mirrored
 
 
 def _distance_and_angle(
-    tin: Tin, triangle: np.ndarray, points: Points, rules: Densification
+    survey: _Survey,
+    vertices: np.ndarray,
+    corners: np.ndarray,
+    points: Points,
+    rules: Densification,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return distance to the facet, largest angle at its corners (rad), its longest edge, and whose
     mirror image was tested.
     """
-    corners = tin.triangles[triangle]
-    x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
+    x, y, z = survey.places(corners)
     normal, longest = _facets(x, y, z)
     steep = np.arctan(np.hypot(normal[0], normal[1])) > math.radians(rules.max_terrain_angle)
     px, py, pz = points.x.copy(), points.y.copy(), points.z
     if steep.any():
         nearest = np.argmin((x - px[:, None]) ** 2 + (y - py[:, None]) ** 2, axis=1)
-        vertex = corners[np.arange(len(corners)), nearest]
-        px[steep] = 2 * tin.x[vertex[steep]] - px[steep]
-        py[steep] = 2 * tin.y[vertex[steep]] - py[steep]
-        beyond = tin.locate(px[steep], py[steep])
-        inside = np.flatnonzero(steep)[beyond >= 0]
-        corners[inside] = tin.triangles[beyond[beyond >= 0]]
-        x, y, z = tin.x[corners], tin.y[corners], tin.z[corners]
+        which = np.flatnonzero(steep)
+        px[which] = 2 * x[which, nearest[which]] - px[which]
+        py[which] = 2 * y[which, nearest[which]] - py[which]
+        beyond = survey.triangles(vertices, px[which], py[which])
+        inside = beyond[:, 0] >= 0
+        corners = corners.copy()
+        corners[which[inside]] = beyond[inside]
+        x, y, z = survey.places(corners)
         normal, _ = _facets(x, y, z)
     height = pz - (z[:, 0] + normal[0] * (px - x[:, 0]) + normal[1] * (py - y[:, 0]))
     distance = np.abs(height) / np.sqrt(1.0 + normal[0] ** 2 + normal[1] ** 2)
@@ -264,7 +308,8 @@ def _facets(
     """Return the gradient of each facet, in x and y, and its longest edge in the plane."""
     ux, uy, uz = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0], z[:, 1] - z[:, 0]
     vx, vy, vz = x[:, 2] - x[:, 0], y[:, 2] - y[:, 0], z[:, 2] - z[:, 0]
-    area = np.maximum(ux * vy - uy * vx, 1e-12)
+    area = ux * vy - uy * vx
+    area = np.copysign(np.maximum(np.abs(area), 1e-12), area)
     gradient = (uz * vy - uy * vz) / area, (ux * vz - uz * vx) / area
     edges = ux**2 + uy**2, vx**2 + vy**2, (vx - ux) ** 2 + (vy - uy) ** 2
     return gradient, np.sqrt(np.maximum.reduce(edges))

@@ -1,0 +1,95 @@
+"""The Delaunay triangle round places, from the vertices in the cells near each of them."""
+
+from __future__ import annotations
+
+from typing import Iterator
+
+import numpy as np
+
+from ..core.points import Points
+from ..core.progress import SILENT
+from ..core.threads import over_parts
+from .cells import Cells
+from .delaunay_walk import NOWHERE, enclosing_triangles, listed, picked
+
+# Cells to each side of a place in which its triangle is searched, one after the other.
+_WINDOWS = (2, 4, 8)
+WIDEST = _WINDOWS[-1]
+# Places that are looked at by one thread, vertices near them that are looked at together, and the
+# least number that can surround a place.
+_PLACES_A_PART, _TOGETHER, _LEAST = 1 << 14, 1 << 17, 3
+
+
+class CellVertices:
+    """Vertices, given by their indices in points, by the cells without a shift that hold them."""
+
+    # A triangulation of them all takes ten times as long where few places are asked for.
+
+    def __init__(self, points: Points, vertices: np.ndarray, cells: Cells) -> None:
+        cell = cells.index[vertices]
+        x, y, z = points.take(vertices)
+        order = np.lexsort((z, y, x, cell))
+        cell, x, y, self._vertex = cell[order], x[order], y[order], vertices[order]
+        # Of several at one place, the lowest.
+        first = np.ones(len(order), dtype=bool)
+        first[1:] = (np.diff(x) != 0.0) | (np.diff(y) != 0.0)
+        cell, self._vertex = cell[first], self._vertex[first]
+        # At the end what stands for a missing vertex.
+        self._x, self._y = (np.append(axis[first], NOWHERE) for axis in (x, y))
+        self._before = np.zeros(cells.rows * cells.columns + 1, dtype=np.intp)
+        np.cumsum(np.bincount(cell, minlength=cells.rows * cells.columns), out=self._before[1:])
+        self._cells = cells
+
+    def triangles(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return the corners of the triangle round each place, intp (q, 3), in ascending order;
+        -1 where vertices farther away, or beyond the cells, may matter.
+        """
+        corners = np.full((len(x), 3), -1, dtype=np.intp)
+        row, column = (
+            np.floor(places / self._cells.size).astype(np.intp) - first
+            for places, first in zip((y, x), self._cells.first)
+        )
+        rows, columns = self._cells.shape
+
+        def search(part: slice) -> None:
+            for reach in _WINDOWS:
+                inside = (row[part] >= reach) & (row[part] < rows - reach)
+                inside &= (column[part] >= reach) & (column[part] < columns - reach)
+                left = np.flatnonzero(inside & (corners[part, 0] < 0)) + part.start
+                for which, vertices in self._near(left, row, column, reach):
+                    corners[which] = self._found(x[which], y[which], vertices, reach)
+
+        over_parts(search, len(x), _PLACES_A_PART, SILENT)
+        return corners
+
+    def _near(
+        self, which: np.ndarray, row: np.ndarray, column: np.ndarray, reach: int
+    ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield places, some at a time, with the vertices within so many cells, (k, q)."""
+        width, lines = 2 * reach + 1, np.arange(-reach, reach + 1)[:, None]
+        start = (row[which] + lines) * self._cells.columns + column[which] - reach
+        first = self._before.take(start)
+        count = self._before.take(start + width) - first
+        total = count.sum(axis=0)
+        order = np.argsort(total, kind="stable")
+        order = order[np.searchsorted(total[order], _LEAST) :]
+        while len(order):
+            # Places are sorted by their vertices: none of the part has more than the last.
+            most = total[order[: _TOGETHER // int(total[order[0]])]][-1]
+            part, order = np.split(order, [max(_TOGETHER // int(most), 1)])
+            yield which[part], listed(first[:, part], count[:, part])
+
+    def _found(self, x: np.ndarray, y: np.ndarray, vertices: np.ndarray, reach: int) -> np.ndarray:
+        """Return the corners round places from vertices (k, q) within so many cells, (q, 3)."""
+        size = self._cells.size
+        from_west, from_south = (places - np.floor(places / size) * size for places in (x, y))
+        more = reach * size
+        window = np.stack(
+            (more + from_west, more + from_south, more + size - from_west, more + size - from_south)
+        )
+        beside_x, beside_y = self._x.take(vertices) - x, self._y.take(vertices) - y
+        triangle, found, sure = enclosing_triangles(beside_x, beside_y, window)
+        corners = self._vertex[picked(vertices, triangle)].T
+        corners = np.sort(corners, axis=1)
+        corners[~(found & sure)] = -1
+        return corners
