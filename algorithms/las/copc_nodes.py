@@ -23,6 +23,7 @@ from ..core.points import Box
 from .copc import HIERARCHY_ENTRY
 from .gps_times import are_impossible
 from .lasfile import COPC_INFO, LasFile
+from .laszip import Compression
 from .records import named, needed, selection_of
 from .sources import damage_told, damaged, open_source
 
@@ -251,6 +252,10 @@ def _decompress(
 
     layout = hierarchy.layout
     counts, sizes, head = nodes["count"].tolist(), nodes["size"].tolist(), layout.chunk_head
+    compression = Compression.of(layout.laszip or b"")
+    table = list(zip(counts, sizes))
+    if compression is None or not compression.table_fits(table, sum(counts), sum(sizes)):
+        raise damaged(layout.path)
     for count, size, start in zip(counts, sizes, itertools.accumulate(sizes, initial=0)):
         is_sound = head.fits(compressed, size, start)
         if not is_sound or head.numbers(compressed, start)[0] != count:
@@ -260,7 +265,7 @@ def _decompress(
     records = np.zeros((sum(counts), layout.record_length), dtype=np.uint8)
     with damage_told(layout.path):
         lazrs.decompress_points_with_chunk_table(
-            compressed, layout.laszip, records.reshape(-1), list(zip(counts, sizes)), selection
+            compressed, layout.laszip, records.reshape(-1), table, selection
         )
     _check_places(hierarchy, nodes, named(layout, records))
     return records

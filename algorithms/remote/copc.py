@@ -36,17 +36,20 @@ from ..las.lasfile import (
     Evlr,
     Vlr,
 )
+from ..las.laszip import Compression
 from ..las.opening import read_layout
 from ..las.records import named
 from ..las.sources import FileState
 from ..survey.area import Area
-from ..survey.shapes import Place
+from ..survey.shapes import Outside, Place
 from .files import Range, RangeFile
 
 SUFFIX = ".copc.laz"
 # Of the info record: position of the place of the first page, and of the GPS times.
 _ROOT = 40
-_LARGEST = 1 << 20
+# Most bytes of a page that is asked for before it is known to be one, and of those of one depth.
+_LARGEST, _LARGEST_PAGES = 1 << 20, 1 << 28
+EVERYWHERE = (-math.inf, -math.inf, math.inf, math.inf)
 
 
 class CopcPart:
@@ -66,27 +69,34 @@ class CopcPart:
         file.seek(0)
         path = Path(file.name)
         self.layout = read_layout(path, self._bytes, FileState(file.size, 0, 0, 0))
-        if not self.layout.is_copc:
+        compression = Compression.of(self.layout.laszip or b"")
+        if not self.layout.is_copc or compression is None or compression.chunk_size:
             raise BareEarthError(
                 f"{file.name} is not COPC, so that no part of it can be found. Download all of it,"
                 " and give it as a file."
             )
-        self.crs, self.box = read_crs(self.layout, progress), self.layout.box
-        self.area = None if area is None else area.located(Place(file.name, self.crs), progress)
+        self.crs, self.box = read_crs(self.layout), self.layout.box
+        self.area = area_of(area, Place(file.name, self.crs, self.box), progress)
         self._hierarchy = read_hierarchy(self.layout)
-        self.nodes = np.zeros(0, dtype=HIERARCHY_ENTRY)
-        box = self.layout.outer_box if self.area is None else self.area.bounds
-        if self.area is None or self.area.may_touch(self.layout.outer_box):
-            self.nodes = find_nodes(
-                self._hierarchy,
-                box,
-                levels_of(self._hierarchy.spacing, resolution, self.crs, self.box),
-                self._bytes,
-                lambda pages: file.fetch(file.plan(pages), progress.quiet()),
-            )
+        # The extent in the header may be wrong: only the cube of the octree counts.
+        self.nodes = find_nodes(
+            self._hierarchy,
+            EVERYWHERE if self.area is None else self.area.bounds,
+            levels_of(self._hierarchy.spacing, resolution, self.crs, self.box),
+            self._bytes,
+            lambda pages: self._get_pages(pages, progress.quiet()),
+        )
         self._plan = file.plan(self._pieces()) if len(self.nodes) else file.plan([])
         self.size, self.request_count = self._plan.size, len(self._plan.requests)
         self.point_count = int(self.nodes["count"].sum(dtype=np.int64))
+
+    def _get_pages(self, pages: list[Range], progress: Progress) -> None:
+        plan = self.file.plan(pages)
+        if plan.size > _LARGEST_PAGES:
+            raise BareEarthError(
+                f"The octree of {self.name} is damaged: its pages would have {plan.size:,} bytes."
+            )
+        self.file.fetch(plan, progress)
 
     def fetch(self, progress: Progress) -> None:
         """Get what was planned."""
@@ -181,6 +191,14 @@ class CopcPart:
             for axis, name in enumerate("XY")
         )
         return self.area.contains(x, y)
+
+
+def area_of(area: Area | None, place: Place, progress: Progress = SILENT) -> Area | None:
+    """Return an area in the CRS of the points, also if all of it is elsewhere."""
+    try:
+        return None if area is None else area.located(place, progress)
+    except Outside:
+        return None if area is None else area.located(place._replace(box=None))
 
 
 def levels_of(spacing: float, resolution: float | None, crs: Crs, box: Box) -> int:

@@ -41,7 +41,7 @@ from ..survey.area import Area
 from ..survey.shapes import Place
 from .addresses import beside, is_address, name_of, shown
 from .answers import Missing
-from .copc import levels_of
+from .copc import EVERYWHERE, area_of, levels_of
 from .parts import Parts
 from .transfers import Transfers
 
@@ -78,14 +78,14 @@ class EptPart:
         about = self._description(text)
         self.box: Box = self._numbers(about.get("boundsConforming") or self._cube)
         self._wkt = _wkt_of(about.get("srs") or {})
-        self.crs = (crs_of_wkt(self._wkt, progress) if self._wkt else None) or Crs()
-        self.area = None if area is None else area.located(Place(self.name, self.crs), progress)
+        self.crs = (crs_of_wkt(self._wkt) if self._wkt else None) or Crs()
+        self.area = area_of(area, Place(self.name, self.crs, self.box), progress)
         self._parts = Parts(waiting, address)
         if is_address(address):
             self._parts.begin({"digest": hashlib.sha256(text).hexdigest()}, True)
         spacing = (self._cube[3] - self._cube[0]) / self._span
-        box = self.box if self.area is None else self.area.bounds
-        self._levels, self._near = levels_of(spacing, resolution, self.crs, box), box
+        self._levels = levels_of(spacing, resolution, self.crs, self.box)
+        self._near = EVERYWHERE if self.area is None else self.area.bounds
         self.tiles = self._find_tiles(progress)
         self.point_count, self.missing_count = sum(self.tiles.values()), 0
         missing = [key for key in self.tiles if not self._path(key).is_file()]

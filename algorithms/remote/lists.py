@@ -18,7 +18,6 @@ from typing import Any, Iterator, NamedTuple
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
-from ..core.progress import SILENT
 from ..crs.provider import library
 from ..crs.stated import stated_wkt
 from ..crs.system import Crs, crs_of_wkt
@@ -26,6 +25,7 @@ from ..las.sources import open_source
 from ..survey.area import Area
 from ..survey.shapes import Place, Shapes
 from .addresses import checked, ends_with, host_of, is_address, name_of, referred, shown
+from .copc import area_of
 from .ept import DESCRIPTION
 from .transfers import Transfers
 
@@ -50,10 +50,11 @@ class Cloud(NamedTuple):
             if self.crs is None or library() is None:
                 return True
             crs = crs_of_wkt(stated_wkt(self.crs) or "")
-        place = Place(name_of(self.address), crs or Crs())
         west, south, east, north = self.box
         # Lists round.
-        return area.located(place, SILENT).may_touch((west - 1, south - 1, east + 1, north + 1))
+        box = west - 1, south - 1, east + 1, north + 1
+        located = area_of(area, Place(name_of(self.address), crs or Crs(), box))
+        return located is None or located.may_touch(box)
 
 
 def clouds_of(address: str, transfers: Transfers, follows: bool) -> list[Cloud]:

@@ -181,7 +181,7 @@ class Transfers:
         """Tell what is done, which also notices a cancel, and what the user should know."""
         for reader in (self._web, self._stores):
             while reader.notes:
-                self.progress.info(reader.notes.pop(0))
+                self.progress.warning(reader.notes.pop(0))
         if progress is None:
             self.progress(self.progress.share)
         else:

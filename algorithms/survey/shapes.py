@@ -38,6 +38,10 @@ class Shapes(tuple):  # type: ignore[type-arg]
         return new
 
 
+class Outside(BareEarthError):
+    """Geometry and points do not touch."""
+
+
 class Geometry:
     """Base of what holds lines and polygons: an area, corrections, constraints."""
 
@@ -75,12 +79,12 @@ def located(
     return found
 
 
-def outside(what: str, bounds: Box, of: str, box: Box, near: float | None = None) -> BareEarthError:
+def outside(what: str, bounds: Box, of: str, box: Box, near: float | None = None) -> Outside:
     """Return the error for geometry (`what`) that lies outside of the points (`of` a file or
     files), or farther than `near` metres.
     """
     lies = "in" if near is None else f"within {near:g} m of"
-    return BareEarthError(
+    return Outside(
         f"No point of {of} lies {lies} {what} ({box_in_words(bounds)}): the points lie"
         f" in {box_in_words(box)}. Give {what} in the CRS of the points."
     )

@@ -161,7 +161,7 @@ def test_redirects_to_another_host_are_told_and_get_no_password(server, tmp_path
         f"to {server.address('b', 'localhost')}?sig=SECRET" if path == "a" else ""
     )
     assert fetched(address, tmp_path / "parts", notes)[0] == wanted()
-    assert notes.messages == [("info", "127.0.0.1 passes the request on to localhost.")]
+    assert notes.messages == [("warning", "127.0.0.1 passes the request on to localhost.")]
     by_path = {path: headers for path, _, headers, _ in server.asked}
     assert by_path["a"]["Authorization"].startswith("Basic ")
     assert "Authorization" not in by_path["b"]

@@ -13,10 +13,10 @@ from runs import said
 from surveys import write_classified
 
 import bare_earth
-from bare_earth import BareEarthError
+from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.records import read_records
-from bare_earth.algorithms.remote import transfers
+from bare_earth.algorithms.remote import copc, files, transfers
 
 BOX = (400_000.55, 5_000_000.05, 400_052.0, 5_000_000.65)
 
@@ -223,3 +223,58 @@ def test_damaged_bytes_are_never_points(server, tmp_path, content):
         assert abs(open_las(target).count - count) <= 150
         target.unlink()
     assert refused
+
+
+def test_the_extent_in_the_header_decides_nothing(server, tmp_path, content):
+    source, wrong = tmp_path / "whole.copc.laz", bytearray(content)
+    source.write_bytes(content)
+    low, high = open_las(source).minimum, open_las(source).maximum
+    struct.pack_into("<4d", wrong, 179, low[0] + 1, low[0], low[1] + 1, low[1])
+    address, target = server.add("whole.copc.laz", bytes(wrong)), tmp_path / "part.copc.laz"
+    bare_earth.fetch(address, target, extent=(low[0] + 2, low[1], high[0], high[1]))
+    found = clipped(source, (low[0] + 2, low[1], high[0], high[1]))
+    assert np.array_equal(in_order(points_of(target)[0]), found)
+    assert bare_earth.fetch(address, target).point_count == 4000
+    check_header(target)
+
+
+def test_a_page_that_would_be_huge_is_not_asked_for(server, tmp_path, content, monkeypatch):
+    monkeypatch.setattr(copc, "_LARGEST_PAGES", -1)
+    with pytest.raises(BareEarthError, match=r"is damaged: its pages would have [\d,]+ bytes"):
+        bare_earth.fetch(server.add("whole.copc.laz", content), tmp_path / "part.laz")
+
+
+class Cancelling(Progress):
+    """Cancels when so much is done."""
+
+    def __init__(self, share):
+        self.share, self.warnings = share, []
+
+    def report(self, fraction):
+        if fraction > self.share:
+            raise Cancelled
+
+    def warning(self, text):
+        self.warnings.append(text)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.2, 0.75])
+def test_a_cancel_leaves_no_file_and_the_next_run_goes_on(
+    server, tmp_path, content, share, monkeypatch
+):
+    monkeypatch.setattr(files, "_MOST", 20_000)
+    monkeypatch.setattr(files, "_FIRST", 4_000)
+    address, target = server.add("whole.copc.laz", content), tmp_path / "part.copc.laz"
+    progress, source = Cancelling(share), tmp_path / "whole.copc.laz"
+    with pytest.raises(Cancelled):
+        bare_earth.fetch(address, target, progress=progress)
+    assert not target.exists()
+    kept = [path for path in tmp_path.rglob("[0-9]*-*") if path.parent.name == "0"]
+    assert bool(progress.warnings) == bool(kept) == (share > 0)
+    assert not kept or "the same command goes on from there" in progress.warnings[-1]
+    size, before = sum(path.stat().st_size for path in kept), server.sent
+    bare_earth.fetch(address, target)
+    assert server.sent - before <= len(content) + 30_000 - size
+    source.write_bytes(content)
+    assert np.array_equal(points_of(target)[0], points_of(source)[0])
+    assert not (tmp_path / "part.copc.laz.parts").exists()
