@@ -38,7 +38,6 @@ class RangeFile(Protocol):
 
     name: str
     size: int
-    address: str
 
     def plan(self, pieces: Iterable[Range]) -> Plan:
         """Return the requests that give some pieces."""
@@ -129,7 +128,7 @@ class LocalFile(io.FileIO):
     def __init__(self, path: Path) -> None:
         open_source(path).close()  # which says what is wrong
         super().__init__(path, "rb")
-        self.address, self.name, self.size = str(path), path.name, path.stat().st_size
+        self.name, self.size = path.name, path.stat().st_size
 
     def plan(self, pieces: Iterable[Range]) -> Plan:
         """Return that no request is needed."""

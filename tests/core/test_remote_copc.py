@@ -278,3 +278,18 @@ def test_a_cancel_leaves_no_file_and_the_next_run_goes_on(
     source.write_bytes(content)
     assert np.array_equal(points_of(target)[0], points_of(source)[0])
     assert not (tmp_path / "part.copc.laz.parts").exists()
+
+
+def test_other_libraries_read_the_same_points(tmp_path, content):
+    copclib = pytest.importorskip("copclib")
+    pytest.importorskip("laszip")
+    source, target = tmp_path / "whole.copc.laz", tmp_path / "part.copc.laz"
+    source.write_bytes(content)
+    bare_earth.fetch(source, target, extent=BOX)
+    reader = copclib.FileReader(str(target))
+    assert reader.ValidateSpatialBounds() and len(reader.GetAllPoints()) == open_las(target).count
+    bare_earth.fetch(source, tmp_path / "part.laz", extent=BOX)
+    for path in (target, tmp_path / "part.laz"):
+        cloud = laspy.read(path, laz_backend=laspy.LazBackend.Laszip)
+        assert np.array_equal(in_order(np.array(cloud.points.array).view(np.uint8).reshape(
+            len(cloud.points), -1)), clipped(source))  # fmt: skip
