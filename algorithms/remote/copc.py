@@ -49,6 +49,8 @@ SUFFIX = ".copc.laz"
 _ROOT = 40
 # Most bytes of a page that is asked for before it is known to be one, and of those of one depth.
 _LARGEST, _LARGEST_PAGES = 1 << 20, 1 << 28
+# Metres in a degree of latitude.
+_DEGREE = 111_000.0
 EVERYWHERE = (-math.inf, -math.inf, math.inf, math.inf)
 
 
@@ -162,7 +164,7 @@ class CopcPart:
         for nodes, data, records in read_compressed(self._hierarchy, self.nodes, self._bytes):
             inside = self._inside(records)
             statistics.add(records if inside.all() else records[inside])
-            stops, ends = np.cumsum(nodes["count"]), np.cumsum(nodes["size"])
+            stops, ends = (np.cumsum(nodes[name], dtype=np.int64) for name in ("count", "size"))
             counts = np.add.reduceat(inside, stops - nodes["count"], dtype=np.int64)
             some = (counts > 0) & (counts < nodes["count"])
             parts = [
@@ -207,7 +209,8 @@ def levels_of(spacing: float, resolution: float | None, crs: Crs, box: Box) -> i
     """
     if not resolution or not spacing > 0:
         return 64
-    units = resolution / crs.horizontal_unit * length_scale(crs, box)
+    unit = _DEGREE if crs.is_geographic else crs.horizontal_unit
+    units = resolution / unit * length_scale(crs, box)
     return max(1, math.ceil(math.log2(spacing / units)) + 1)
 
 

@@ -197,7 +197,7 @@ class EptPart:
         return their number, 0 if none lies in the area.
         """
         with temporary_folder(target.parent) as folder:
-            plain = folder / f"{self.name}.las"
+            plain = folder / "points.las"
             with open(plain, "w+b") as file:
                 count = self._write_plain(file, progress.part(0.0, 0.4))
             if count:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
@@ -23,6 +24,7 @@ from .parts import remove_parts
 from .transfers import Transfers
 
 _GIGABYTE = 1e9
+_UNSAFE = re.compile(r"[^\w.,+() -]")  # in names of files
 
 
 @dataclass(frozen=True)
@@ -191,6 +193,8 @@ def _names(parts: list[Part]) -> list[str]:
         stem, number = part.name, 1
         for ending in (SUFFIX, ".laz"):
             stem = stem[: -len(ending)] if stem.lower().endswith(ending) else stem
+        # A list of somebody else must not say into which folder a file is written.
+        stem = _UNSAFE.sub("_", stem).strip(" .") or "points"
         while (new := f"{stem}{'' if number == 1 else f'-{number}'}{SUFFIX}") in names:
             number += 1
         names.append(new)

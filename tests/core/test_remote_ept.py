@@ -250,6 +250,18 @@ def test_each_cloud_of_a_list_becomes_a_file(tiles, tmp_path):
         bare_earth.fetch(tiles, tmp_path / "all")
 
 
+def test_a_list_does_not_say_where_files_are_written(server, copc, tmp_path):
+    names = ["clouds/a.copc.laz", "clouds/..%2F..%2Fevil.copc.laz", "clouds/..%5Ca.copc.laz"]
+    for name in names:
+        server.add(name, copc)
+    address = server.add("all.vpc", text_of(*map(item_of, names)))
+    (tmp_path / "in").mkdir()
+    bare_earth.fetch(address, tmp_path / "in" / "all")
+    written = {path.name for path in (tmp_path / "in" / "all").iterdir()}
+    assert written == {"a.copc.laz", "_.._evil.copc.laz", "_a.copc.laz"}
+    assert [path.name for path in tmp_path.iterdir()] == ["in"]
+
+
 def test_clouds_outside_of_the_area_are_not_asked_for(server, copc, tmp_path):
     far = item_of("clouds/b.copc.laz", **{"proj:bbox": [0, 0, 0, 1, 1, 1], "proj:epsg": 25832})
     address = server.add("all.vpc", text_of(item_of("clouds/a.copc.laz"), far))
