@@ -42,10 +42,12 @@ from ..survey.shapes import Place
 from .addresses import beside, is_address, name_of, shown
 from .answers import Missing
 from .copc import EVERYWHERE, area_of, levels_of
+from .ept_records import Schema
 from .parts import Parts
 from .transfers import Transfers
 
 DESCRIPTION = "ept.json"
+_ENDINGS = {"laszip": "laz", "binary": "bin", "zstandard": "zst"}
 Key = tuple[int, int, int, int]  # depth, x, y and z of a node
 _KEY = re.compile(r"(\d{1,2})-(\d{1,10})-(\d{1,10})-(\d{1,10})")
 _DEEPEST, _GPS_TIME_TYPE, _WKT = 30, 0x01, 0x10
@@ -105,11 +107,17 @@ class EptPart:
             raise self._no_ept("its description cannot be read") from error
         if not is_sound:
             raise self._no_ept("its cube has no size")
-        if self.kind != "laszip":
+        is_read_here = self.kind == "laszip" or is_address(self._address)
+        if self.kind not in _ENDINGS or not is_read_here:
             raise BareEarthError(
-                f"The tiles of {shown(self._address)} are {self.kind}; only laszip can be read"
-                " here. Fetch it with 'pdal translate'."
+                f"The tiles of {shown(self._address)} are {self.kind}, which cannot be read here."
+                " Use 'pdal translate'."
             )
+        if self.kind != "laszip":
+            try:
+                self._schema = Schema(about["schema"])
+            except (ValueError, TypeError, KeyError, AttributeError) as error:
+                raise self._no_ept("its schema cannot be read") from error
         return about
 
     def _numbers(self, bounds: Any) -> Box:
@@ -170,7 +178,7 @@ class EptPart:
         def get(key: Key) -> bool:
             most = self.tiles[key] * _MOST_A_POINT + (1 << 20)
             try:
-                data = self._whole(f"ept-data/{_name(key)}.laz", most)
+                data = self._whole(f"ept-data/{_name(key)}.{_ENDINGS[self.kind]}", most)
             except Missing as error:
                 if self._skips:
                     return False
@@ -178,7 +186,12 @@ class EptPart:
                     f"{error} If it is a tile that is missing in this data set, go on without it:"
                     " --skip-missing."
                 ) from error
-            self._parts.add_file(f"{_name(key)}.laz", data)
+            if self.kind != "laszip":
+                try:
+                    data = self._schema.las(data, self.kind == "zstandard", self.tiles[key])
+                except (ValueError, OverflowError) as error:
+                    raise self._no_ept(f"tile {_name(key)} is damaged") from error
+            self._parts.add_file(self._path(key).name, data)
             return True
 
         tasks = [partial(get, key) for key in self._waiting]
@@ -279,7 +292,7 @@ class EptPart:
     def _path(self, key: Key) -> Path:
         """Return where a tile is on this computer, once it was fetched."""
         if is_address(self._address):
-            return self._parts.path_of(f"{_name(key)}.laz")
+            return self._parts.path_of(f"{_name(key)}.{'laz' if self.kind == 'laszip' else 'las'}")
         return Path(beside(self._address, f"ept-data/{_name(key)}.laz"))
 
     def _no_ept(self, why: str) -> BareEarthError:

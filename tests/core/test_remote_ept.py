@@ -55,7 +55,33 @@ def tile_of(points, point_format, offset):
     return file.getvalue()
 
 
-def add_ept(server, name="set", point_format=1, srs=None, pages=True):
+SCHEMA = [
+    *({"name": axis, "type": "signed", "size": 4, "scale": 0.01, "offset": offset}
+      for axis, offset in zip("XYZ", (500_010, 5_600_000, 0))),
+    {"name": "Classification", "type": "unsigned", "size": 1},
+    {"name": "ReturnNumber", "type": "unsigned", "size": 1},
+    {"name": "ScanAngleRank", "type": "float", "size": 4},
+    {"name": "ClassFlags", "type": "unsigned", "size": 1},
+    {"name": "GpsTime", "type": "float", "size": 8},
+    {"name": "OriginId", "type": "unsigned", "size": 4},
+    {"name": "Red", "type": "unsigned", "size": 2},
+]  # fmt: skip
+
+
+def rows_of(points):
+    """Return points as rows of the schema."""
+    kinds = {"signed": "i", "unsigned": "u", "float": "f"}
+    names = [(each["name"], f"<{kinds[each['type']]}{each['size']}") for each in SCHEMA]
+    rows = np.zeros(len(points), dtype=names)
+    for axis, name in enumerate("XYZ"):
+        rows[name] = np.rint((points[:, axis] - SCHEMA[axis]["offset"]) / 0.01)
+    rows["Classification"], rows["OriginId"] = points[:, 3], points[:, 4]
+    rows["GpsTime"], rows["ReturnNumber"] = points[:, 4] * 0.5, 1
+    rows["ScanAngleRank"], rows["ClassFlags"], rows["Red"] = -12, 4, 300
+    return rows.tobytes()
+
+
+def add_ept(server, name="set", point_format=1, srs=None, pages=True, kind="laszip"):
     """Put a data set of 3,000 points in 1 + 4 + 16 tiles on the server; return all points."""
     random, cube = np.random.default_rng(3), (500_000, 5_600_000, 0, 500_100, 5_600_100, 100)
     points = np.column_stack((random.random((3000, 3)) * 100, random.integers(1, 7, 3000)))
@@ -72,7 +98,13 @@ def add_ept(server, name="set", point_format=1, srs=None, pages=True):
             key = "-".join(map(str, (depth, *cell)))
             # Offsets of tiles are theirs, not those of the description.
             offset = [500_000 + depth, 5_600_000, 0]
-            server.add(f"{name}/ept-data/{key}.laz", tile_of(inside, point_format, offset))
+            if kind == "laszip":
+                server.add(f"{name}/ept-data/{key}.laz", tile_of(inside, point_format, offset))
+            elif kind == "binary":
+                server.add(f"{name}/ept-data/{key}.bin", rows_of(inside))
+            else:
+                packed = pytest.importorskip("zstandard").compress(rows_of(inside))
+                server.add(f"{name}/ept-data/{key}.zst", packed)
             if depth == 2 and pages:
                 above = "-".join(map(str, (1, *(cell // 2))))
                 branches.setdefault(above, {})[key] = len(inside)
@@ -83,7 +115,8 @@ def add_ept(server, name="set", point_format=1, srs=None, pages=True):
         server.add(f"{name}/ept-hierarchy/{key}.json", json.dumps(below).encode())
     server.add(f"{name}/ept-hierarchy/0-0-0-0.json", json.dumps(hierarchy).encode())
     srs = {"wkt": WKT} if srs is None else srs
-    about = {"bounds": cube, "boundsConforming": cube, "dataType": "laszip", "span": 16, "srs": srs}
+    about = {"bounds": cube, "boundsConforming": cube, "dataType": kind, "span": 16, "srs": srs}
+    about["schema"] = SCHEMA
     return points, server.add(f"{name}/ept.json", json.dumps(about).encode())
 
 
@@ -119,6 +152,21 @@ def test_a_part_has_the_same_points_as_a_clip(server, tmp_path, name, point_form
     other = sum(len(server.files[path]) for path in set(asked) - set(tiles))
     assert server.sent - other <= 1.05 * needed
     assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+@pytest.mark.parametrize("kind", ["binary", "zstandard"])
+@pytest.mark.parametrize("name", ["part.laz", "part.copc.laz"])
+def test_tiles_of_plain_rows_are_read_by_the_schema(server, tmp_path, kind, name):
+    points, address = add_ept(server, kind=kind)
+    bare_earth.fetch(address, tmp_path / name, extent=BOX)
+    assert np.allclose(table_of(tmp_path / name), clip(points), atol=1e-6)
+    cloud = laspy.read(tmp_path / name)
+    assert cloud.point_format.id == 7 and np.all(cloud.withheld == 1) and np.all(cloud.overlap == 0)
+    assert set(cloud.red) == {300} and np.allclose(cloud.scan_angle * 0.006, -12)
+    tile = next(path for path in server.files if "ept-data" in path)
+    server.files[tile] = server.files[tile][:-5]
+    with pytest.raises(BareEarthError, match="tile 0-0-0-0 is damaged"):
+        bare_earth.fetch(address, tmp_path / "again.laz")
 
 
 def test_a_resolution_takes_the_upper_levels(server, tmp_path):
@@ -170,7 +218,9 @@ def test_web_mercator_is_kept_with_a_warning(server, tmp_path):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"dataType": "binary"}, "only laszip can be read"),
+        ({"dataType": "parquet"}, "cannot be read here"),
+        ({"dataType": "binary", "schema": [{"name": "X"}]}, "schema cannot be read"),
+        ({"dataType": "binary"}, "does not exist"),
         ({"span": 0}, "cube has no size"),
         ({"bounds": [1]}, "cube has no size"),
         ({"bounds": None}, "description cannot be read"),

@@ -1,0 +1,122 @@
+"""Tiles of EPT that are no LAZ files: rows of numbers, which the description explains.
+
+References
+----------
+Entwine Point Tile specification 1.1, "schema" and "dataType"; names of dimensions: PDAL
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import Any
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..las import header as fields
+from ..las.extrabytes import EXTRA_BYTES
+from ..las.lasfile import RECORD_LENGTHS, new_vlr
+from ..las.records import as_points
+
+_KINDS = {"unsigned": "u", "signed": "i", "float": "f", "floating": "f"}
+# Types of extra bytes in LAS, by kind and size.
+_TYPES = {
+    "u1": 1, "i1": 2, "u2": 3, "i2": 4, "u4": 5, "i4": 6, "u8": 7, "i8": 8, "f4": 9, "f8": 10,
+}  # fmt: skip
+_NAMES = {
+    "Intensity": "intensity", "ReturnNumber": "return_number",
+    "NumberOfReturns": "number_of_returns", "ScanDirectionFlag": "scan_direction_flag",
+    "EdgeOfFlightLine": "edge_of_flight_line", "Classification": "classification",
+    "UserData": "user_data", "PointSourceId": "point_source_id", "GpsTime": "gps_time",
+    "ScanChannel": "scanner_channel", "Synthetic": "synthetic", "KeyPoint": "key_point",
+    "Withheld": "withheld", "Overlap": "overlap", "Red": "red", "Green": "green", "Blue": "blue",
+    "Infrared": "nir",
+}  # fmt: skip
+_FLAGS = ("synthetic", "key_point", "withheld", "overlap")  # the bits of ClassFlags
+_ANGLE, _ANGLE_UNIT, _CLASS_FLAGS = "ScanAngleRank", 0.006, "ClassFlags"
+_OFFSETS = tuple("XYZ")
+
+
+class Schema:
+    """The dimensions of the points of a data set."""
+
+    def __init__(self, described: Any) -> None:
+        """Read the description; raise ValueError, TypeError or KeyError if it makes no sense."""
+        rows = [
+            (str(row["name"]), f"<{_KINDS[row['type']]}{int(row['size'])}") for row in described
+        ]
+        self._row = np.dtype(rows)
+        names, known = set(self._row.names or ()), {row["name"]: row for row in described}
+        if any(self._row[axis] != np.dtype("<i4") for axis in _OFFSETS):
+            raise ValueError("coordinates are no integers")
+        self._scale = [float(known[axis].get("scale", 1.0)) for axis in _OFFSETS]
+        self._offset = [float(known[axis].get("offset", 0.0)) for axis in _OFFSETS]
+        self._format = 8 if "Infrared" in names else 7 if "Red" in names else 6
+        usual = {*_OFFSETS, *_NAMES, _ANGLE, _CLASS_FLAGS}
+        self._extra = [name for name in self._row.names or () if name not in usual]
+        for name in self._extra:
+            _TYPES[self._row[name].str[1:]]
+
+    def las(self, data: bytes, is_packed: bool, count: int) -> bytes:
+        """Return the points of a tile as a LAS file without a CRS; ValueError if there are fewer or
+        more.
+        """
+        size = count * self._row.itemsize
+        data = _unpacked(data, size) if is_packed else data
+        if len(data) != size:
+            raise ValueError(f"{len(data):,} bytes, not {size:,}")
+        rows = np.frombuffer(data, dtype=self._row)
+        extra = [(name, self._row[name].itemsize) for name in self._extra]
+        length = RECORD_LENGTHS[self._format] + sum(bytes_of for _, bytes_of in extra)
+        records = np.zeros((count, length), dtype=np.uint8)
+        points = as_points(
+            self._format, [(f"extra {n}", s) for n, (_, s) in enumerate(extra)], records
+        )
+        for name in self._row.names or ():
+            if name in _OFFSETS or name in _NAMES:
+                points[_NAMES.get(name, name)] = rows[name]
+        if _ANGLE in (self._row.names or ()):
+            points["scan_angle"] = np.rint(rows[_ANGLE] / _ANGLE_UNIT).astype(np.int16)
+        for bit, name in enumerate(_FLAGS if _CLASS_FLAGS in (self._row.names or ()) else ()):
+            points[name] = rows[_CLASS_FLAGS] >> bit & 1
+        place = RECORD_LENGTHS[self._format]
+        for name, bytes_of in extra:
+            raw = np.ascontiguousarray(rows[name]).view(np.uint8).reshape(count, bytes_of)
+            records[:, place : place + bytes_of] = raw
+            place += bytes_of
+        return self._header(count, length) + records.tobytes()
+
+    def _header(self, count: int, length: int) -> bytes:
+        descriptors = b"".join(
+            struct.pack("<2xBB32s156x", _TYPES[self._row[name].str[1:]], 0, name.encode()[:32])
+            for name in self._extra
+        )
+        vlrs = [new_vlr(EXTRA_BYTES, descriptors, "Extra bytes")] if descriptors else []
+        header = bytearray(fields.HEADER_SIZES[4])
+        header[:4] = b"LASF"
+        fields.VERSION.put(header, 1, 4)
+        fields.HEADER_SIZE.put(header, len(header))
+        fields.POINTS_START.put(header, len(header) + sum(len(vlr.raw) for vlr in vlrs))
+        fields.VLR_COUNT.put(header, len(vlrs))
+        fields.POINT_FORMAT.put(header, self._format)
+        fields.RECORD_LENGTH.put(header, length)
+        fields.SCALE.put(header, *self._scale)
+        fields.OFFSET.put(header, *self._offset)
+        fields.COUNT.put(header, count)
+        return bytes(header) + b"".join(vlr.raw for vlr in vlrs)
+
+
+def _unpacked(data: bytes, size: int) -> bytes:
+    """Return the bytes of a tile that was compressed by Zstandard, of a size that is known."""
+    try:
+        import zstandard
+    except ImportError as error:
+        raise BareEarthError(
+            "The tiles are compressed by Zstandard: pip install zstandard, which reads them."
+        ) from error
+    try:
+        if zstandard.frame_content_size(data) not in (-1, size):  # it would take as much memory
+            raise ValueError("another size is stated")
+        return bytes(zstandard.ZstdDecompressor().decompress(data, max_output_size=size))
+    except zstandard.ZstdError as error:
+        raise ValueError(str(error)) from error
