@@ -4,12 +4,13 @@ passwords of the user.
 
 from __future__ import annotations
 
-import time
+import email.message
 
-from qgis.core import QgsBlockingNetworkRequest, QgsFeedback
-from qgis.PyQt.QtCore import Qt, QUrl
-from qgis.PyQt.QtNetwork import QNetworkRequest
+from qgis.core import QgsApplication, QgsNetworkAccessManager
+from qgis.PyQt.QtCore import QEventLoop, QMetaObject, Qt, QUrl
+from qgis.PyQt.QtNetwork import QNetworkReply, QNetworkRequest
 
+from ..algorithms.core.errors import BareEarthError
 from ..algorithms.remote.addresses import host_of
 from ..algorithms.remote.answers import REDIRECTS, Unfinished
 from ..algorithms.remote.connections import Check, WebReader
@@ -18,8 +19,6 @@ from ..algorithms.remote.transfers import use
 # Milliseconds without a byte after which a request is given up. The timeout of QGIS ends no
 # request of a thread of Python.
 _TIMEOUT = 30_000
-# Seconds that requests get to end, and between two looks at them.
-_PATIENCE, _BEAT = 0.5, 0.02
 # The ids of the authentication configurations of layers, by hosts.
 _LOGINS: dict[str, str] = {}
 
@@ -33,85 +32,81 @@ def use_for(address: str, login: str) -> None:
 
 
 class QgisReader(WebReader):
-    """Reads by requests that block their thread, which must not be the main one."""
+    """Reads in threads, none of which may be the main one, each with the manager of its own."""
+
+    # Not by QgsBlockingNetworkRequest: it follows redirects by itself, also to files and, with the
+    # password, to other hosts; a cancel can let it wait for ever.
 
     def __init__(self) -> None:
         super().__init__()
-        self._running: dict[QgsBlockingNetworkRequest, QgsFeedback] = {}
+        self._running: set[QEventLoop] = set()
 
     def close(self) -> None:
         """End all requests, also those of other threads."""
         with self._lock:
             self._closed = True
-            running = dict(self._running)
-        for feedback in running.values():
-            feedback.cancel()
-        end = time.monotonic() + _PATIENCE
-        while self._running and time.monotonic() < end:
-            time.sleep(_BEAT)
-        for blocking in list(self._running):
-            # It may have removed the reply before it heard of the end, and would wait for ever.
-            blocking.finished.emit()
+            for loop in self._running:
+                QMetaObject.invokeMethod(loop, "quit", Qt.ConnectionType.QueuedConnection)
 
     def _ask(
         self, place: str, headers: dict[str, str], check: Check, most: int, is_named: bool
     ) -> bytes | str:
         """Return the bytes of an answer that passes a check, or where a redirect leads."""
-        request, feedback = _request(place, headers), QgsFeedback()
-        blocking = QgsBlockingNetworkRequest()
-        login = _LOGINS.get(host_of(place))
+        request, login = _request(place, headers), _LOGINS.get(host_of(place))
         if login and is_named:
-            blocking.setAuthCfg(login)
-        sizes: list[int] = []  # of an answer that is too long
-
-        def look(received: int, size: int) -> None:
-            # A server that knows no ranges sends the whole file, which would fill the memory.
-            if max(received, size) > most:
-                sizes.append(size)
-                feedback.cancel()
-
-        blocking.downloadProgress.connect(look, Qt.ConnectionType.DirectConnection)
+            is_known, request = QgsApplication.authManager().updateNetworkRequest(request, login)
+            if not is_known:
+                raise BareEarthError(f"QGIS does not give the login of {host_of(place)}. Check it.")
+        loop = QEventLoop()
         with self._lock:
             if self._closed:
                 raise Unfinished("cancelled")
             self.requests += 1
-            self._running[blocking] = feedback
+            self._running.add(loop)
+        direct = Qt.ConnectionType.DirectConnection
+        reply = QgsNetworkAccessManager.instance(direct).get(request)
         try:
-            blocking.get(request, True, feedback)
+            reply.finished.connect(loop.quit)
+            # A server that knows no ranges sends the whole file, which would fill the memory.
+            reply.downloadProgress.connect(
+                lambda received, size: loop.quit() if max(received, size) > most else None
+            )
+            if not reply.isFinished():
+                loop.exec()
+            return self._answer(reply, check)
         finally:
             with self._lock:
-                del self._running[blocking]
-        if sizes:
-            check(200, {"Content-Length": str(sizes[0])})
-            raise Unfinished("it sends more bytes than it says")
-        return self._answer(blocking, check)
+                self._running.discard(loop)
+            reply.abort()
+            reply.deleteLater()
 
-    def _answer(self, blocking: QgsBlockingNetworkRequest, check: Check) -> bytes | str:
-        """Return what came of a request; its status of success means nothing."""
-        reply = blocking.reply()
+    def _answer(self, reply: QNetworkReply, check: Check) -> bytes | str:
+        """Return what came of a request; whether Qt names an error means nothing."""
         status = reply.attribute(QNetworkRequest.Attribute.HttpStatusCodeAttribute)
-        data = bytes(reply.content())
+        if self._closed or not status:
+            is_error = reply.error() != QNetworkReply.NetworkError.NoError
+            raise Unfinished(reply.errorString() if is_error else "it does not answer in time")
+        headers = email.message.Message()  # whose names may have any case
+        for name, value in reply.rawHeaderPairs():
+            headers[bytes(name).decode("latin-1")] = bytes(value).decode("latin-1")
+        if status in REDIRECTS:
+            return str(headers.get("Location", ""))
+        length, data = check(status, headers), bytes(reply.readAll())
         with self._lock:
             self.received += len(data)
-        if not status:
-            raise Unfinished(blocking.errorMessage() or "it does not answer in time")
-        headers = {
-            bytes(name).decode("latin-1").title(): bytes(reply.rawHeader(name)).decode("latin-1")
-            for name in reply.rawHeaderList()
-        }
-        if status in REDIRECTS:
-            return headers.get("Location", "")
-        length = check(status, {**headers, "ETag": headers.get("Etag", "")})
-        if length is not None and len(data) != length:
-            raise Unfinished(f"it sent {len(data):,} of {length:,} bytes")
+        if (length is not None and len(data) != length) or not reply.isFinished():
+            raise Unfinished(f"it sent {len(data):,} bytes in place of those that it states")
         return data
 
 
 def _request(place: str, headers: dict[str, str]) -> QNetworkRequest:
-    """Return a request that follows no redirect: QGIS would leave the range out, or read a file."""
-    request = QNetworkRequest(QUrl.fromEncoded(place.encode()))
-    attribute = QNetworkRequest.Attribute.RedirectPolicyAttribute
-    request.setAttribute(attribute, QNetworkRequest.RedirectPolicy.SameOriginRedirectPolicy)
+    """Return a request that follows no redirect, and is not kept."""
+    request, names = QNetworkRequest(QUrl.fromEncoded(place.encode())), QNetworkRequest.Attribute
+    manual = QNetworkRequest.RedirectPolicy.ManualRedirectPolicy
+    request.setAttribute(names.RedirectPolicyAttribute, manual)
+    network = QNetworkRequest.CacheLoadControl.AlwaysNetwork
+    request.setAttribute(names.CacheLoadControlAttribute, network)
+    request.setAttribute(names.CacheSaveControlAttribute, False)
     request.setTransferTimeout(_TIMEOUT)
     for name, value in headers.items():
         request.setRawHeader(name.encode(), value.encode())
