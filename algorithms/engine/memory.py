@@ -19,13 +19,13 @@ _UNKNOWN = 4 * GIGABYTE
 _SHARE = 0.5
 # Freed memory is given back after so many seconds if a process takes more than this share of what
 # it may use, and so many bytes for its libraries.
-_SECONDS, _NEARLY, _LIBRARIES = 0.3, 0.9, 200_000_000
+_SECONDS, _NEARLY, _LIBRARIES = 0.3, 0.7, 200_000_000
 _MEMINFO = Path("/proc/meminfo")
 _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 _CGROUP = Path("/sys/fs/cgroup")
-# Options of `mallopt` in malloc.h: one heap, in which arrays up to 256 MB lie, and of which at most
-# 1 GB stays free at its end: the system need not make their pages again and again.
-_HEAP = (-8, 1), (-3, 1 << 28), (-1, 1 << 30)
+# Options of `mallopt` in malloc.h: one heap, in which arrays up to 32 MB lie, since larger ones
+# would leave holes, and of which at most 256 MB stay free at its end.
+_HEAP = (-8, 1), (-3, 1 << 25), (-1, 1 << 28)
 
 
 @dataclass(frozen=True)

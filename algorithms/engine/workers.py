@@ -17,7 +17,7 @@ from ..core.threads import Counter, SharedThreads
 from .blockwise import JobProgress
 from .jobs import Job, JobResult, Share, attempt
 from .manifest import folders_of
-from .memory import Resources, share_one_heap
+from .memory import Resources, give_back, share_one_heap
 
 # When the user cancels, jobs have so many seconds to stop by themselves.
 _PATIENCE = 0.7
@@ -205,4 +205,6 @@ def _end_with_parent() -> None:
 def _in_process(job: Job, resources: Resources) -> JobResult:
     common = _common or _OfProcess(threading.Event(), SharedThreads(1))
     share = Share(resources, common.threads, is_alone=True)
-    return attempt(job, share, JobProgress(common.stop))
+    result = attempt(job, share, JobProgress(common.stop))
+    give_back()
+    return result
