@@ -23,8 +23,8 @@ _SECONDS, _NEARLY, _LIBRARIES = 0.3, 0.7, 200_000_000
 _MEMINFO = Path("/proc/meminfo")
 _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 _CGROUP = Path("/sys/fs/cgroup")
-# Options of `mallopt` in malloc.h: one heap, in which arrays up to 32 MB lie, since larger ones
-# would leave holes, and of which at most 256 MB stay free at its end.
+# Options of `mallopt` in malloc.h: one heap, in which arrays up to 32 MB lie, and of which at most
+# 256 MB stay free at its end.
 _HEAP = (-8, 1), (-3, 1 << 25), (-1, 1 << 28)
 
 
