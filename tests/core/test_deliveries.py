@@ -32,8 +32,9 @@ from bare_earth.algorithms.tools.water_classes import WaterClasses
 pytest.importorskip("pyproj")
 EAST, NORTH, WIDTH, DEPTH = 500_000.0, 5_600_000.0, 150.0, 90.0
 LAKE = (115.0, 45.0, 22.0)  # x, y and radius
-# The delivery that takes the least time.
-SMALL = {"delivery": "drone-site", "hold_out_share": None}
+# What takes the least time: nothing held out, the fastest method, large cells; and such a delivery.
+QUICK = {"hold_out_share": None, "method": "slope", "dtm_cell_size": 2.0}
+SMALL = {"delivery": "drone-site", **QUICK}
 ALWAYS = {"index.html", "delivery.json", "accuracy.html", "quality.html", "dtm.tif",
           "hillshade.tif"}  # fmt: skip
 FILES = {
@@ -137,7 +138,7 @@ def watered(scene, tmp_path_factory):
 def with_water(has_key_points=False):
     """Return a delivery with water that a user draws, of which nothing is held out."""
     water, _ = given_water(0.71)
-    return {"hold_out_share": None, "key_points": has_key_points, "water": water}
+    return {**QUICK, "key_points": has_key_points, "water": water}
 
 
 def files_of(folder):
@@ -264,7 +265,7 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
     scene, tmp_path, specification, distance, is_one
 ):
     water, truth = given_water(distance)
-    how = {"specification": specification, "hold_out_share": None, "water": water}
+    how = {**QUICK, "specification": specification, "water": water}
     summary = deliver(scene[1 if is_one else 2], tmp_path / "out", overview=True, **how)
     clouds = [laspy.read(path) for path in (tmp_path / "out" / "points").glob("*st.laz")]
     clouds = [laspy.read(summary.cloud)] if is_one else clouds
@@ -298,7 +299,7 @@ def test_key_points_are_among_the_ground_that_water_leaves(scene, watered, tmp_p
 
 def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scene, tmp_path):
     water, _ = given_water(0.71)
-    how = {"format": "copc.laz", "overview": True, "hold_out_share": None}
+    how = {**QUICK, "format": "copc.laz", "overview": True}
     summary = deliver(scene[2], tmp_path / "out", water=water, **how)
     points = tmp_path / "out" / "points"
     tiles = {"east.copc.laz", "west.copc.laz"}
@@ -490,7 +491,7 @@ def test_a_second_run_classifies_files_with_classes_of_water_again(
     if not resume:
         return
     # Without water, nothing is left of the classes of water.
-    third = deliver(scene[2], target, hold_out_share=None, resume=True)
+    third = deliver(scene[2], target, resume=True, **QUICK)
     assert not {9, 20} & third.class_counts.keys()
     assert not any((each == 9).any() for each in classes_by_file(target).values())
 
@@ -758,7 +759,8 @@ def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp
     along_river = line((91.0, 6.0, np.nan), (58.0, 6.0, np.nan))
     dyke = line((5.0, 45.0, 107.0), (12.0, 45.0, 107.5))
     edge = line((55.0, 50.0, np.nan), (75.0, 50.0, np.nan))
-    water, how = (lake, river, square(400.0, 0.0, 410.0, 10.0)), {**SMALL, "delivery": "flood"}
+    water = lake, river, square(400.0, 0.0, 410.0, 10.0)
+    how = {"delivery": "flood", "method": "slope", "hold_out_share": None}
     summary = deliver(
         scene[1 if is_one else 2], tmp_path / "out", water=water, rivers=(along_river,),
         breaklines=(dyke, edge), **how,

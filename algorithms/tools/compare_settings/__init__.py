@@ -64,11 +64,10 @@ def compare(
                 " into the memory that may be used. Choose a smaller one."
             )
         parts = progress.part(0.4, 0.8).shares(*[1.0] * len(settings))
-        labels = [
-            window.labels(setting, resources, part, is_first=part is parts[0])
+        outcomes = [
+            window.outcome(setting, resources, part, is_first=part is parts[0])
             for setting, part in zip(settings, parts)
         ]
-        outcomes = window.outcomes(labels)
         ends, first = options.profile, outcomes[0]
         line = line_between(window, ends) if ends else line_across(window, outcomes)
         figures = [

@@ -12,7 +12,6 @@ import numpy as np
 from ...core.errors import BareEarthError
 from ...core.points import Box, Points, box_in_words
 from ...core.progress import Progress
-from ...core.threads import in_threads
 from ...crs.measurable import require_measurable
 from ...crs.system import Crs
 from ...engine.memory import Resources
@@ -39,15 +38,6 @@ _MOST_CELLS = 300
 _CELL_SIZES = (0.25, 0.5)
 # Distance in metres up to which points around the window are used for the confidence.
 _NEAR = 20.0
-
-
-class Labels(NamedTuple):
-    """The points as classified with a setting."""
-
-    setting: Setting
-    classes: np.ndarray  # uint8, (n,)
-    ground: np.ndarray  # bool, (n,)
-    selected: np.ndarray  # bool, (n,): which points took part
 
 
 class Outcome(NamedTuple):
@@ -109,9 +99,9 @@ class Window:
         width, height = self.sides
         return math.ceil(height / self.cell_size), math.ceil(width / self.cell_size)
 
-    def labels(
+    def outcome(
         self, setting: Setting, resources: Resources, progress: Progress, is_first: bool
-    ) -> Labels:
+    ) -> Outcome:
         """Classify the points with a setting, and warn if there is no ground; messages that all
         settings have in common are only reported for the first.
         """
@@ -131,35 +121,26 @@ class Window:
         found = [step.applied(cloud, store.values(n)) for n, cloud in enumerate(self.clouds)]
         classes = np.concatenate([cloud.classification for cloud in found])
         selected = np.concatenate([its_marks.selected for its_marks in marks])
-        return Labels(setting, classes, classes == step.selection.to_class, selected)
+        ground = classes == step.selection.to_class
+        sure = self._confidence(ground, selected)
+        return Outcome(setting, classes, ground, self._terrain(ground), sure)
 
-    def outcomes(self, labels: Sequence[Labels]) -> list[Outcome]:
-        """Return the results of settings, several of which run at the same time."""
-        points = self.points
-
-        def outcome(labels: Labels) -> Outcome:
-            setting, classes, ground, selected = labels
-            sure = self._confidence(points, ground, selected)
-            return Outcome(setting, classes, ground, self._terrain(points, ground), sure)
-
-        return in_threads(outcome, labels)
-
-    def _terrain(self, points: Points, ground: np.ndarray) -> np.ndarray:
+    def _terrain(self, ground: np.ndarray) -> np.ndarray:
         """Return the heights of the terrain, from north to south."""
         if not ground.any():
             return np.full(self.shape, np.nan)
         # One vertex a cell is enough for a picture, and faster than the four of a terrain model.
-        surface = DenseSurface(points.take(ground), VERTICES_A_SIDE * self.cell_size)
+        surface = DenseSurface(self.points.take(ground), VERTICES_A_SIDE * self.cell_size)
         y, x = ((np.arange(count) + 0.5) * self.cell_size for count in self.shape)
         heights = surface.heights(np.tile(x, len(y)), np.repeat(y, len(x)))
         return heights.reshape(self.shape)[::-1]
 
-    def _confidence(self, points: Points, ground: np.ndarray, selected: np.ndarray) -> float:
+    def _confidence(self, ground: np.ndarray, selected: np.ndarray) -> float:
         """Return the mean confidence of the cells of 1 m in the window."""
-        (x, y, _), (width, height) = points, self.sides
+        (x, y, _), (width, height) = self.points, self.sides
         near = (x >= -_NEAR) & (y >= -_NEAR) & (x <= width + _NEAR) & (y <= height + _NEAR)
         near &= selected
-        cells, values = confidence(points.take(near), ground[near])
+        cells, values = confidence(self.points.take(near), ground[near])
         rows, columns = (
             slice(max(-first, 0), max(math.ceil(side / cells.size) - first, 0))
             for first, side in zip(cells.first, (height, width))
