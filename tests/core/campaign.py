@@ -218,7 +218,7 @@ def main(folder, seed, count, first=0):
     """Try mutants; return how many of them came to no good end."""
     here = Path(__file__).with_name("mutants.py")
     subprocess.run([sys.executable, str(here), str(folder)], check=True)
-    before = [Original(*each) for each in pickle.loads((folder / "originals").read_bytes())]
+    before = [Original(*fields) for fields in pickle.loads((folder / "originals").read_bytes())]
     work = Path(tempfile.mkdtemp(dir=folder))
     for name, suffix in (("a.las", ".las"), ("b.laz", ".laz")):
         sound = next(each for each in before if each.suffix == suffix)

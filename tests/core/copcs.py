@@ -32,7 +32,7 @@ def with_sub_pages(content, depth=1):
     first = (len(above) + len(pages)) * _ENTRY.size
     at, pointers, rest = start + first, [], b""
     for branch, members in pages.items():
-        page = b"".join(_ENTRY.pack(*each) for each in members)
+        page = b"".join(_ENTRY.pack(*member) for member in members)
         pointers.append((depth, *branch, at, len(page), -1))
         at, rest = at + len(page), rest + page
     data[start:] = b"".join(_ENTRY.pack(*each) for each in (*above, *pointers)) + rest

@@ -107,8 +107,8 @@ def write_laz(path, content):
 def without(points, point_format, *bits):
     """Return points with some bits cleared, such as `CLASS`."""
     points = points.copy()
-    for each in bits:
-        place, mask = each[point_format < 6]
+    for bit in bits:
+        place, mask = bit[point_format < 6]
         points[:, place] &= 0xFF ^ mask
     return points
 

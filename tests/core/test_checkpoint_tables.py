@@ -43,7 +43,7 @@ OPEN = """NVA|non-vegetated|unvegetated|no trees|Street|asphalt|grass
 
 
 def names_in(text):
-    return [each.strip() for each in text.split("|")]
+    return [word.strip() for word in text.split("|")]
 
 
 @pytest.mark.parametrize("cover", names_in(VEGETATED))
@@ -179,7 +179,7 @@ def test_the_name_of_a_file_says_the_kind_if_nothing_else_does(tmp_path, kind):
 def test_a_column_that_says_yes_or_no_to_plants(tmp_path):
     rows = "".join(f"{X},{Y},{Z},{each}\n" for each in ("yes", "no", "1", "none", "forest"))
     found = read(tmp_path, "x,y,z,Vegetation\n" + rows)
-    kinds = [LandCovers().kind("", each) for each in found.covers]
+    kinds = [LandCovers().kind("", cover) for cover in found.covers]
     assert kinds == ["VVA", "NVA", "VVA", "NVA", "VVA"]
 
 

@@ -245,8 +245,8 @@ def table(path, text, encoding="utf-8"):
 
 
 ROWS = [("A1", 500010.25, 5600020.5, 51.125, "Wald"), ("A2", 500090.0, 5600003.0, 48.5, "Schotter")]
-PLAIN = "\n".join("{},{},{},{},{}".format(*each) for each in ROWS)
-COMMAS = "\n".join(";".join(map(str, each)).replace(".", ",") for each in ROWS)
+PLAIN = "\n".join("{},{},{},{},{}".format(*row) for row in ROWS)
+COMMAS = "\n".join(";".join(map(str, row)).replace(".", ",") for row in ROWS)
 TABLES = {
     "english": "Point ID,Easting (m),Northing (m),Elevation (m),Land cover\n" + PLAIN,
     "german": "Punktnummer;Rechtswert;Hochwert;Höhe;Bodenbedeckung\n" + COMMAS,
@@ -254,7 +254,7 @@ TABLES = {
     "french": "Nom;Est;Nord;Altitude;Couverture\n" + COMMAS,
     "spanish": "Nombre;Este;Norte;Cota;Cobertura\n" + COMMAS,
     "short": "id,E,N,H,class\n" + PLAIN,
-    "order": "z,y,x,name,cover\n" + "\n".join("{3},{2},{1},{0},{4}".format(*each) for each in ROWS),
+    "order": "z,y,x,name,cover\n" + "\n".join("{3},{2},{1},{0},{4}".format(*row) for row in ROWS),
     "comment": "# name,x,y,z,cover\n# by GNSS\n" + PLAIN + "\n\n",
     "none": PLAIN,
     "tabs": PLAIN.replace(",", "\t"),
@@ -269,7 +269,7 @@ TABLES = {
 def test_tables_of_many_kinds(tmp_path, kind, encoding):
     found = read_checkpoints(table(tmp_path / "p.csv", TABLES[kind], encoding))
     assert found.names == ("A1", "A2") and found.covers == ("Wald", "Schotter")
-    assert found.xyz.tolist() == [list(each[1:4]) for each in ROWS]
+    assert found.xyz.tolist() == [list(row[1:4]) for row in ROWS]
 
 
 def test_tables_without_names(tmp_path):
@@ -335,7 +335,7 @@ def test_attributes_are_paired_with_the_names_that_the_library_returns(tmp_path,
 
     monkeypatch.setattr(pyogrio.raw, "read", in_alphabetical_order)
     found = read_checkpoints(tmp_path / "p.gpkg", "z=H")
-    assert found.xyz.tolist() == [list(each[1:4]) for each in ROWS]
+    assert found.xyz.tolist() == [list(row[1:4]) for row in ROWS]
     assert found.names == ("A1", "A2")
 
 
@@ -354,7 +354,7 @@ def test_vector_files(tmp_path, suffix, has_z):
         path = path.with_suffix(suffix)
     found = read_checkpoints(path)
     assert found.names == ("A1", "A2") and found.covers == ("Wald", "Schotter")
-    assert found.xyz.tolist() == [list(each[1:4]) for each in ROWS]
+    assert found.xyz.tolist() == [list(row[1:4]) for row in ROWS]
     assert "25832" in found.places.crs
 
 

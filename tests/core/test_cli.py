@@ -238,9 +238,9 @@ def test_the_help_names_each_option_with_its_default(method, capsys, monkeypatch
     monkeypatch.setenv("COLUMNS", "1000")
     text = help_of(capsys, "--method", method.name)
     for declared in (method.parameters, Selection, TerrainModel):
-        for each in declared.declarations():
-            assert f"--{each.name.replace('_', '-')} " in text
-            assert " ".join(each.help.split()) in text
+        for declaration in declared.declarations():
+            assert f"--{declaration.name.replace('_', '-')} " in text
+            assert " ".join(declaration.help.split()) in text
 
 
 def test_an_empty_parameter_is_automatic_as_its_help_says(capsys):
@@ -273,11 +273,15 @@ def steps_of_runs(monkeypatch):
 
 def options():
     for method in METHODS.values():
-        for each in method.parameters.declarations():
-            yield pytest.param(method, method.parameters, each, id=f"{method.name}-{each.name}")
+        for declaration in method.parameters.declarations():
+            yield pytest.param(
+                method, method.parameters, declaration, id=f"{method.name}-{declaration.name}"
+            )
     for place, declared in enumerate((Selection, TerrainModel)):
-        for each in declared.declarations():
-            yield pytest.param(METHODS["slope"], declared, each, id=f"{place}-{each.name}")
+        for declaration in declared.declarations():
+            yield pytest.param(
+                METHODS["slope"], declared, declaration, id=f"{place}-{declaration.name}"
+            )
 
 
 @pytest.mark.parametrize(("method", "declared", "each"), list(options()))

@@ -88,8 +88,8 @@ def test_the_page_needs_no_other_file_and_shows_all_settings(made):
     pictures = re.findall(r'(?:src|href)="([^"]*)"', page)
     # Of each setting terrain, differences and the points of the profile.
     assert len(pictures) == 3 * len(summary.settings)
-    for each in pictures:
-        kind, _, data = each.partition(",")
+    for picture in pictures:
+        kind, _, data = picture.partition(",")
         assert kind == "data:image/png;base64" and base64.b64decode(data)[:4] == b"\x89PNG"
     assert "http" not in page.replace("http://www.w3.org", "")
     for setting in summary.settings:
@@ -102,7 +102,7 @@ def test_the_profile_lies_where_the_terrains_differ_most_or_where_it_is_wanted(
     source, made, tmp_path
 ):
     texts = Tags(made[1]).texts
-    (about,) = (each for each in texts if each.startswith("The profile runs"))
+    (about,) = (text for text in texts if text.startswith("The profile runs"))
     start, end = re.findall(r"(\d+) m east and (\d+) m north", about)
     numbers = [int(each) for each in (*start, *end)]
     along_x = numbers[1] == numbers[3]

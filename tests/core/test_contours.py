@@ -146,7 +146,7 @@ def test_small_rings_are_left_out_and_large_ones_stay(tmp_path):
         contours(path, lines, interval=0.5, contour_smoothing=0, contour_min_length=least)
         lengths[least] = [np.hypot(*np.diff(each, axis=0).T).sum() for each in read(lines)[2]]
         assert min(lengths[least]) >= least
-    assert [len(each) for each in lengths.values()] == [6, 4, 2]
+    assert [len(value) for value in lengths.values()] == [6, 4, 2]
 
 
 @pytest.mark.parametrize("suffix", [".gpkg", ".shp", ".fgb", ".geojson"])
@@ -160,8 +160,8 @@ def test_all_formats_hold_the_same_lines(tmp_path, suffix):
     _, values, shapes = read(tmp_path / "expected.geojson")
     about, _, found, fields = pyogrio.raw.read(str(target))
     assert about["crs"] == "EPSG:25832" and about["geometry_type"] == "LineString"
-    found_values = sorted(zip(*(each.tolist() for each in fields)))
-    assert found_values == sorted(tuple(each.values()) for each in values)
+    found_values = sorted(zip(*(field.tolist() for field in fields)))
+    assert found_values == sorted(tuple(value.values()) for value in values)
     assert len(found) == len(shapes) > 20
 
 

@@ -431,7 +431,7 @@ def test_an_extent_that_the_points_cannot_have(las, place, value):
     sound = damage(las.make("a.las"), "d", *ends)
     odd = damage(las.make("b.las"), "d", *ends, (place, value))
     found = open_survey([sound, odd])
-    assert [each.path for each in found.tiles] == [sound]
+    assert [tile.path for tile in found.tiles] == [sound]
     assert "does not state the extent" in found.broken[0].reason
     with pytest.raises(BareEarthError, match="does not state the extent"):
         write_vpc(las.folder / "all.vpc", [odd])

@@ -463,7 +463,7 @@ def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
     # The classified files stay as they were, until all is done.
     before = {path: path.stat().st_mtime_ns for path in (target / "points").glob("*.laz")}
     assert len(before) == 2 and not any(
-        (each == 9).any() for each in classes_by_file(target).values()
+        (value == 9).any() for value in classes_by_file(target).values()
     )
     progress = Heard()
     summary = deliver(scene[2], target, resume=True, progress=progress, **how)
@@ -493,7 +493,7 @@ def test_a_second_run_classifies_files_with_classes_of_water_again(
     # Without water, nothing is left of the classes of water.
     third = deliver(scene[2], target, resume=True, **QUICK)
     assert not {9, 20} & third.class_counts.keys()
-    assert not any((each == 9).any() for each in classes_by_file(target).values())
+    assert not any((value == 9).any() for value in classes_by_file(target).values())
 
 
 def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
@@ -718,7 +718,7 @@ def test_records_of_many_files_are_not_among_the_points(scene, tmp_path):
     assert set(os.listdir(target / "points")) == handed
     assert set(os.listdir(target / ".bare-earth")) == {"east.laz.json", "west.laz.json"}
     files = json.loads((target / "delivery.json").read_text())["files"]
-    assert {each for each in files if each.startswith("points/")} == {
+    assert {name for name in files if name.startswith("points/")} == {
         f"points/{each}" for each in handed
     }
     # A run that goes on finds them, also after one that was stopped; one file has none.

@@ -102,7 +102,7 @@ def kept_in_copc(before, after, new):
         assert not other.pop(14).any()  # a time, which the points had not
     one.append(new)
     other.append(independent.classes(after.points, after.format))
-    rows = [np.array([each.astype(np.int64) for each in columns]) for columns in (one, other)]
+    rows = [np.array([column.astype(np.int64) for column in columns]) for columns in (one, other)]
     assert np.array_equal(*(row[:, np.lexsort(row)] for row in rows))
     left_out = LASZIP, COPC, *([SPEC] if before.format in WITH_WAVEFORMS else [])
     assert others(after.vlrs, *left_out) == others(before.vlrs, *left_out)

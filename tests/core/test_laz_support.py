@@ -65,10 +65,10 @@ def test_pip_agrees_on_what_this_python_can_load():
     tags = pytest.importorskip("pip._vendor.packaging.tags")
     here = Build.here()
     python = f"cp{sys.version_info[0]}{sys.version_info[1]}"
-    supported = {str(each) for each in tags.sys_tags()}
+    supported = {str(tag) for tag in tags.sys_tags()}
     # Old interfaces and generic platforms that no wheel of lazrs has are not asked about.
     of_wheels = {each for each in supported if f"-{python}-" in each or "-abi3-" in each}
-    assert of_wheels and all(here.takes(each) for each in of_wheels)
+    assert of_wheels and all(here.takes(wheel) for wheel in of_wheels)
     system = next(iter(of_wheels)).split("-", 2)[2]
     for other in (f"cp27-cp27m-{system}", f"{python}-{python}-win_mips", f"cp399-cp399-{system}"):
         assert other not in supported and not here.takes(other)

@@ -33,7 +33,7 @@ def test_the_package_is_imported_fast_and_alone():
         subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
         for _ in range(3)
     ]
-    seconds, *others = zip(*(each.stdout.split() for each in runs))
+    seconds, *others = zip(*(run.stdout.split() for run in runs))
     assert not others and min(map(float, seconds)) < 0.15
 
 

@@ -63,7 +63,7 @@ def found(monkeypatch, folder, names, seconds=60, waited=300):
 
 def test_the_campaign_sees_each_bad_end_and_goes_on_behind_it(tmp_path, monkeypatch):
     busy, waiting = "ended by SIGPROF", "ended by SIGALRM"
-    answers = found(monkeypatch, tmp_path, [each for each in ENDS if each not in (busy, waiting)])
+    answers = found(monkeypatch, tmp_path, [end for end in ENDS if end not in (busy, waiting)])
     answers.update(found(monkeypatch, tmp_path, ["done", busy, "refused"], seconds=0.5))
     answers.update(found(monkeypatch, tmp_path, ["done", waiting, "refused"], waited=1))
     for expected, answer in answers.items():

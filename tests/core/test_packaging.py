@@ -220,7 +220,7 @@ def test_the_check_of_the_plugin_site_is_clean(package, names, tmp_path):
     archive = zipfile.ZipFile(package[0])
     # `make lint` checks what is ours; here it is to leave out what is of others, and only that.
     ours = ("bare_earth/algorithms/", "bare_earth/plugin/")
-    archive.extractall(tmp_path, [each for each in names if not each.startswith(ours)])
+    archive.extractall(tmp_path, [name for name in names if not name.startswith(ours)])
     # It looks for the settings in what it checks; no file of ours is exempt.
     done = subprocess.run(
         [sys.executable, "-m", "bandit", "--quiet", "--recursive", tmp_path, "--format", "csv"],
@@ -229,4 +229,4 @@ def test_the_check_of_the_plugin_site_is_clean(package, names, tmp_path):
     )
     assert done.returncode == 0, done.stdout
     assert (tmp_path / "bare_earth" / ".bandit").read_text() == "[bandit]\nexclude: packages\n"
-    assert all(each.startswith("bare_earth/packages/") for each in names if "/packages/" in each)
+    assert all(name.startswith("bare_earth/packages/") for name in names if "/packages/" in name)

@@ -44,7 +44,7 @@ def _private_calls(path):
         if isinstance(node, ast.Attribute) and getattr(node.value, "id", "") not in ("self", "cls"):
             names = [node.attr]
         elif isinstance(node, ast.Call) and getattr(node.func, "attr", "") in ("setattr", "patch"):
-            names = [each.value for each in node.args if isinstance(each, ast.Constant)]
+            names = [argument.value for argument in node.args if isinstance(argument, ast.Constant)]
         for name in map(str, names):
             if re.match(r"_[a-z]", name) and name not in _NOT_PRIVATE:
                 yield f"{path.name}:{node.lineno}: {name}"
@@ -53,6 +53,6 @@ def _private_calls(path):
 def test_tests_call_and_replace_no_private_function():
     """Sizes, which are written in capitals, they may set: so a small cloud has many pieces."""
     found = [
-        each for path in sorted((ROOT / "tests").rglob("*.py")) for each in _private_calls(path)
+        call for path in sorted((ROOT / "tests").rglob("*.py")) for call in _private_calls(path)
     ]
     assert found == []

@@ -19,7 +19,7 @@ class Example(ParameterSet):
 
 
 def test_defaults_are_valid_and_kinds_follow_from_them():
-    kinds = {each.name: each.kind for each in Example.declarations()}
+    kinds = {declaration.name: declaration.kind for declaration in Example.declarations()}
     assert kinds == {
         "angle": "number",
         "count": "integer",
@@ -61,20 +61,22 @@ def test_an_optional_parameter_may_be_left_out():
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
 def test_every_method_declares_label_help_and_limits(method):
     method.parameters()
-    for each in method.parameters.declarations():
-        assert each.label and each.help.endswith("."), each.name
-        if each.kind in ("number", "integer", "numbers", "integers"):
-            assert each.minimum is not None and each.maximum is not None, each.name
+    for declaration in method.parameters.declarations():
+        assert declaration.label and declaration.help.endswith("."), declaration.name
+        if declaration.kind in ("number", "integer", "numbers", "integers"):
+            assert declaration.minimum is not None and declaration.maximum is not None, (
+                declaration.name
+            )
 
 
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
 def test_no_length_angle_or_count_is_below_zero(method):
     tried = 0
-    for each in method.parameters.declarations():
-        if each.kind in ("number", "integer"):
-            below = -1 if each.kind == "integer" else -1e-6
-            with pytest.raises(BareEarthError, match=each.label):
-                method.parameters(**{each.name: below})
+    for declaration in method.parameters.declarations():
+        if declaration.kind in ("number", "integer"):
+            below = -1 if declaration.kind == "integer" else -1e-6
+            with pytest.raises(BareEarthError, match=declaration.label):
+                method.parameters(**{declaration.name: below})
             tried += 1
     assert tried >= 4
 

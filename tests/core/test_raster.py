@@ -165,7 +165,7 @@ def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_
     def unlink(path, **named):
         # Windows removes no file that is open.
         files = Path("/proc/self/fd").iterdir() if Path("/proc/self/fd").exists() else ()
-        assert str(path) not in [os.path.realpath(each) for each in files]
+        assert str(path) not in [os.path.realpath(name) for name in files]
         removed.append(Path(path).name)
         remove(path, **named)
 

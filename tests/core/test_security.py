@@ -119,7 +119,7 @@ def test_names_of_any_kind_go_through_every_command(las, tmp_path, request, name
         assert (code, errors) == (0, []), command
     made = tmp_path / "out"
     names = {path.name for path in made.iterdir()}
-    assert names == {"tiles", *(f"{cut}{each}" for each in suffixes)}
+    assert names == {"tiles", *(f"{cut}{suffix}" for suffix in suffixes)}
     (listed,) = read_vpc(made / f"{cut}.vpc")
     assert listed.read_bytes() == (made / "tiles" / f"{name}.las").read_bytes()
     pages = [made / f"{cut}.html", tmp_path / "plain.htm"]
@@ -220,7 +220,7 @@ def calls():
     """Yield where something is called, its name with its modules, and the words given."""
     for path, node in nodes():
         if isinstance(node, ast.Call):
-            words = {each.arg: each.value for each in node.keywords}
+            words = {keyword.arg: keyword.value for keyword in node.keywords}
             yield f"{name_of(path)}:{node.lineno}", ast.unparse(node.func), words
 
 
@@ -234,7 +234,7 @@ UNPICKLING = {"pickle", "marshal", "shelve", "dill", "cloudpickle", "joblib", "y
 def test_shipped_code_reads_no_pickle():
     for path, node in nodes():
         if isinstance(node, (ast.Import, ast.ImportFrom)):
-            names = {each.name.split(".")[0] for each in node.names}
+            names = {name.name.split(".")[0] for name in node.names}
             module = (getattr(node, "module", None) or "").split(".")[0]
             assert not (names | {module}) & UNPICKLING, path
 

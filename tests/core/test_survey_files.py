@@ -230,7 +230,7 @@ def test_the_same_tile_twice_is_told(las):
     tile(las, "b.laz")
     heard = las.Heard()
     open_survey([las.folder], progress=heard)
-    assert any("a.las and b.laz have the same extent" in each for each in heard.warnings)
+    assert any("a.las and b.laz have the same extent" in text for text in heard.warnings)
 
 
 def test_a_copy_beside_a_file_of_a_folder_is_left_out_and_it_is_told(las):
@@ -256,7 +256,7 @@ def test_copies_that_are_named_are_all_used(las):
     heard, files = las.Heard(), [tile(las, "a.laz"), copc]
     survey = open_survey(files, progress=heard)
     assert names(each.path for each in survey.tiles) == ["a.copc.laz", "a.laz"]
-    assert any("have the same extent" in each for each in heard.warnings) and not heard.infos
+    assert any("have the same extent" in text for text in heard.warnings) and not heard.infos
     # One that is named beside the folder is that which is used.
     (las.folder / "list.txt").write_text("../clouds/a.copc.laz")
     for more in (copc, las.folder / "list.txt"):
@@ -289,8 +289,8 @@ def test_files_outside_of_the_folder_of_their_list_are_told(las):
     write_vpc(vpc, [inside, outside])
     heard = las.Heard()
     assert len(open_survey([vpc], progress=heard).tiles) == 2
-    assert [each for each in heard.warnings if f"The first is {outside.resolve()}." in each]
+    assert [text for text in heard.warnings if f"The first is {outside.resolve()}." in text]
     write_vpc(las.folder / "all.vpc", [inside, outside])
     heard = las.Heard()
     open_survey([las.folder / "all.vpc"], progress=heard)
-    assert not any("outside" in each for each in heard.warnings)
+    assert not any("outside" in text for text in heard.warnings)

@@ -53,7 +53,7 @@ def survey(count=30_000, width=300.0, depth=130.0):
 
 def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progress=SILENT):
     frame = survey_frame(parts[0].crs)
-    store = memory_store([(each, np.ones(each.count, bool)) for each in parts], frame, blocks)
+    store = memory_store([(part, np.ones(part.count, bool)) for part in parts], frame, blocks)
     selection = Selection(low_noise_class=depth is not None, low_noise_depth=depth or 1.0)
     label_ground(store, parameters, blocks, selection, Resources(threads=threads), progress)
     return [store.values(number) for number in range(len(parts))]
@@ -139,7 +139,7 @@ def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request,
                 (local, known[expected], wanted[expected]),
             )
         ]
-        assert np.array_equal(*(each[np.lexsort(each.T)] for each in rows))
+        assert np.array_equal(*(row[np.lexsort(row.T)] for row in rows))
         if waiting == "in memory":
             assert np.array_equal(np.sort(contents.positions), expected)
         assert len(np.unique(contents.positions)) == len(expected)

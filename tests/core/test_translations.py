@@ -9,7 +9,7 @@ import translations
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.filters import METHODS
 
-TEXTS = {each.stem.rpartition("_")[2]: qm.read_ts(each.read_bytes()) for each in translations.FILES}
+TEXTS = {name.stem.rpartition("_")[2]: qm.read_ts(name.read_bytes()) for name in translations.FILES}
 
 
 @pytest.fixture(params=sorted(TEXTS))
@@ -22,25 +22,25 @@ def test_there_are_german_and_french():
 
 
 def test_no_text_is_without_translation(language):
-    assert [each.source for each in TEXTS[language] if not each.translation.strip()] == []
+    assert [text.source for text in TEXTS[language] if not text.translation.strip()] == []
 
 
 def test_each_language_has_the_same_texts(language):
-    sources = [each.source for each in TEXTS[language]]
+    sources = [text.source for text in TEXTS[language]]
     assert len(sources) == len(set(sources)) > 300
-    assert sources == [each.source for each in TEXTS["de"]]
+    assert sources == [text.source for text in TEXTS["de"]]
 
 
 def test_what_the_plugin_says_has_a_translation(language):
-    assert translations.written_texts() <= {each.source for each in TEXTS[language]}
+    assert translations.written_texts() <= {text.source for text in TEXTS[language]}
 
 
 def test_labels_and_help_of_the_ground_filters_have_a_translation(language):
-    sources = {each.source for each in TEXTS[language]}
+    sources = {text.source for text in TEXTS[language]}
     for method in METHODS.values():
         assert issubclass(method.parameters, ParameterSet)
-        for each in method.parameters.declarations():
-            assert {each.label, each.help, *each.choices.values()} <= sources
+        for declaration in method.parameters.declarations():
+            assert {declaration.label, declaration.help, *declaration.choices.values()} <= sources
         told = method.toolbox
         assert {method.label, told.title, told.summary, told.about, *told.words} <= sources
 
@@ -49,9 +49,9 @@ def test_labels_and_help_of_the_ground_filters_have_a_translation(language):
     "pattern", [r"\{[^}]*\}", r"</?\w+/?>", r"\n", r"\*\.\w+", r"-?-\w+ \w+\.\w+"]
 )
 def test_placeholders_and_marks_are_those_of_the_text(language, pattern):
-    for each in TEXTS[language]:
-        wanted = sorted(re.findall(pattern, each.source))
-        assert sorted(re.findall(pattern, each.translation)) == wanted, each
+    for text in TEXTS[language]:
+        wanted = sorted(re.findall(pattern, text.source))
+        assert sorted(re.findall(pattern, text.translation)) == wanted, text
 
 
 def test_numbers_are_those_of_the_text(language):
@@ -66,6 +66,6 @@ def test_numbers_are_those_of_the_text(language):
 
 
 def test_a_text_ends_as_the_translation_does(language):
-    for each in TEXTS[language]:
+    for text in TEXTS[language]:
         for mark in (".", "…", "]", ")"):
-            assert each.translation.endswith(mark) == each.source.endswith(mark), each
+            assert text.translation.endswith(mark) == text.source.endswith(mark), text

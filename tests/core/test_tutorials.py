@@ -76,7 +76,7 @@ def error_in(drawn, delivery, scene):
     features = importlib.import_module("rasterio.features")
     with importlib.import_module("rasterio").open(delivery / "dtm.tif") as raster:
         heights, to = raster.read(1, masked=True).filled(np.nan), raster.transform
-    shapes = [each["geometry"] for each in json.loads(drawn.read_text())["features"]]
+    shapes = [feature["geometry"] for feature in json.loads(drawn.read_text())["features"]]
     inside = features.geometry_mask(shapes, heights.shape, to, invert=True)
     rows, columns = np.nonzero(inside & np.isfinite(heights))
     east, north = to.c + to.a * (columns + 0.5), to.f + to.e * (rows + 0.5)
@@ -105,7 +105,7 @@ def test_a_tutorial_runs_and_says_what_comes_out(
             drawn = Path("water.geojson" if job == "flood" else "corrections.geojson")
             errors.append(error_in(drawn, made, scene))
         named |= (files := set(_FILE.findall(block.behind)))
-        wrong += [each for each in files if not (Path(each).exists() or (made / each).exists())]
+        wrong += [name for name in files if not (Path(name).exists() or (made / name).exists())]
     assert wrong == []
     assert quotes >= 2 and len(named) >= 8
     # What the reader corrects is wrong before, and the correction helps. The river is found without

@@ -92,7 +92,7 @@ def test_without_a_place_on_the_globe_the_crs_is_left_out(las, code, monkeypatch
     (item,) = content["features"]
     assert item["properties"]["proj:wkt2"] == ""
     assert item["geometry"] == item["properties"]["proj:geometry"]
-    assert any("does not state the CRS of 1 of its 1 files" in each for each in heard.warnings)
+    assert any("does not state the CRS of 1 of its 1 files" in text for text in heard.warnings)
 
 
 def test_extra_bytes_are_dimensions(las):
@@ -196,4 +196,4 @@ def test_a_failure_leaves_what_was_there(las):
     with pytest.raises(BareEarthError, match=r"name it \.vpc"):
         write_vpc(las.folder / "all.json", [las.make()])
     assert target.read_text() == "old"
-    assert [each.name for each in las.folder.glob(".*")] == []
+    assert [path.name for path in las.folder.glob(".*")] == []

@@ -40,17 +40,21 @@ def _imports(path):
     found = set()
     for node in ast.walk(tree_of(path)):
         if isinstance(node, ast.Import):
-            found |= {each.name for each in node.names}
+            found |= {name.name for name in node.names}
         elif isinstance(node, ast.ImportFrom):
             above = package[: len(package) - node.level + 1] if node.level else ()
             base = ".".join([*above, *([node.module] if node.module else [])])
             base = f".{base}" if node.level else base
-            found |= {base, *(f"{base.rstrip('.')}.{each.name}" for each in node.names)}
+            found |= {base, *(f"{base.rstrip('.')}.{name.name}" for name in node.names)}
     return frozenset(found)
 
 
 def _within(modules, *packages):
-    return {each for each in modules if any(f"{each}.".startswith(f"{name}.") for name in packages)}
+    return {
+        module
+        for module in modules
+        if any(f"{module}.".startswith(f"{name}.") for name in packages)
+    }
 
 
 def test_the_imports_are_read_rightly(tmp_path):

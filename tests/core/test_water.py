@@ -254,12 +254,12 @@ def survey(tmp_path_factory):
     write(folder / "in.laz", *columns)
     for number in range(4):
         there = (columns[0] >= 200.3) + 2 * (columns[1] >= 190.7) == number
-        write(tiles / f"{number}.laz", *(each[there] for each in columns))
+        write(tiles / f"{number}.laz", *(column[there] for column in columns))
     return folder
 
 
 def run(*arguments):
-    assert main([str(each) for each in arguments]) == 0
+    assert main([str(argument) for argument in arguments]) == 0
 
 
 def test_many_files_give_the_same_as_one(survey, tmp_path, capsys):

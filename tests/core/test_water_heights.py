@@ -37,7 +37,7 @@ def surveys(tmp_path_factory):
         tiles.mkdir(parents=True)
         for number in range(4):
             there = (columns[0] >= 200.3) + 2 * (columns[1] >= 140.7) == number
-            write(tiles / f"{number}.las", *(each[there] for each in columns))
+            write(tiles / f"{number}.las", *(column[there] for column in columns))
         known[kind] = write(folder / kind / "one.las", *columns), tiles
         return known[kind]
 

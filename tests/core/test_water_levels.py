@@ -183,8 +183,8 @@ def test_levels_on_a_fork_are_those_of_each_branch():
     heights[::9] += 2.0  # walls
     found = descent(Network(90, np.array(edges)), station, heights)
     assert np.abs(found.levels - truth).max() < 0.15
-    assert sorted((each[0], each[-1]) for each in found.chains) == [(0, 30), (30, 59), (89, 30)]
-    assert all((np.diff(found.levels[each]) <= 0).all() for each in found.chains)
+    assert sorted((chain[0], chain[-1]) for chain in found.chains) == [(0, 30), (30, 59), (89, 30)]
+    assert all((np.diff(found.levels[chain]) <= 0).all() for chain in found.chains)
 
 
 def test_levels_step_where_banks_do():

@@ -67,7 +67,7 @@ def test_a_rectangle_that_is_none_is_refused(las):
 def test_a_wrong_header_is_told_and_hides_points_only_where_it_is_trusted(las):
     source, heard = with_extent(las.make(count=400), 1, 2, 3, 4), las.Heard()
     assert read_window(source, BOX, heard).count == 70
-    assert any("states a smaller extent than its points have" in each for each in heard.warnings)
+    assert any("states a smaller extent than its points have" in text for text in heard.warnings)
     assert read_window(source, BOX, trust_header=True).count == 0
     assert read_window(with_extent(source, 399_990, 5e6, 400_009, 5_000_019), BOX).count == 70
 
@@ -83,7 +83,7 @@ def test_a_right_header_is_not_complained_of(las):
     source = with_extent(las.make(count=400), 399_990, 5e6, 400_009, 5_000_019)
     heard = las.Heard()
     assert read_window(source, BOX, heard, trust_header=True).count == 70
-    assert not any("extent" in each for each in heard.warnings)
+    assert not any("extent" in text for text in heard.warnings)
 
 
 @pytest.mark.parametrize("name", ["in.las", "in.laz"])
@@ -142,7 +142,7 @@ def test_a_window_of_copc_holds_what_masking_the_whole_gives(las, octree, monkey
     ]
     assert counts[-1] == POINTS
     assert all(0 <= fraction <= 1 for fraction in heard.fractions)
-    assert not any("octree" in each for each in heard.warnings)
+    assert not any("octree" in text for text in heard.warnings)
 
 
 def test_a_small_window_of_copc_reads_only_its_nodes(octree):
@@ -159,7 +159,7 @@ def test_a_small_window_of_copc_reads_only_its_nodes(octree):
     octree.write_bytes(data)
     assert 20 < assert_is_part(read_window(octree, box, heard), whole, box) < 100
     assert read_window(octree, nowhere, heard).count == 0
-    assert not any("octree" in each for each in heard.warnings)
+    assert not any("octree" in text for text in heard.warnings)
     with pytest.raises(BareEarthError, match="damaged"):
         read_window(octree, (400_000.0, 5_000_000.0, 400_600.0, 5_000_600.0))
 
@@ -191,7 +191,7 @@ def test_a_window_of_copc_by_another_writer(las):
     cloud, heard = read_cloud(path), las.Heard()
     for box in boxes_in_octree():
         assert_is_part(read_window(path, box, heard), cloud, box)
-    assert not any("octree" in each for each in heard.warnings)
+    assert not any("octree" in text for text in heard.warnings)
 
 
 def test_nested_pages_are_followed_only_where_the_window_is(octree):
@@ -209,9 +209,9 @@ def test_nested_pages_are_followed_only_where_the_window_is(octree):
             data[start : start + 4] = struct.pack("<i", -1)
     octree.write_bytes(data)
     assert_is_part(read_window(octree, small, heard), cloud, small)
-    assert not any("octree" in each for each in heard.warnings)
+    assert not any("octree" in text for text in heard.warnings)
     assert_is_part(read_window(octree, large, heard), cloud, large)
-    assert any("octree" in each for each in heard.warnings)
+    assert any("octree" in text for text in heard.warnings)
 
 
 @pytest.mark.parametrize("nested", [False, True])
@@ -226,10 +226,10 @@ def test_other_classes_leave_the_octree_as_it_is(las, octree, nested, monkeypatc
     cloud, heard = read_cloud(target), las.Heard()
     for box in boxes_in_octree():
         assert_is_part(read_window(target, box, heard), cloud, box)
-    assert not any("octree" in each for each in heard.warnings)
+    assert not any("octree" in text for text in heard.warnings)
     pages = [read_pages(read_hierarchy(open_las(path))) for path in (octree, target)]
     assert len(pages[0]) == len(pages[1]) == count
-    for one, other in zip(*(np.concatenate(list(each.values())) for each in pages)):
+    for one, other in zip(*(np.concatenate(list(page.values())) for page in pages)):
         assert one["count"] == other["count"] and (one["key"] == other["key"]).all()
     classes[:] = cloud.classification
     write_classified(target, las.folder / "again.copc.laz", classes)
@@ -242,7 +242,7 @@ def test_other_classes_leave_the_octree_as_it_is(las, octree, nested, monkeypatc
     np.testing.assert_array_equal(las.split(less).records, before.records)
     for box in boxes_in_octree():
         assert_is_part(read_window(less, box, heard), read_cloud(less), box)
-    assert not any("octree" in each for each in heard.warnings)
+    assert not any("octree" in text for text in heard.warnings)
 
 
 def test_an_octree_that_is_damaged_is_made_anew(las, octree):
@@ -323,7 +323,7 @@ def test_a_damaged_octree_is_told_and_loses_no_point(las, octree, damage):
     change_entries(octree, damage)
     box = (400_000.0, 5_000_000.0, 400_600.0, 5_000_600.0)
     assert_is_part(read_window(octree, box, heard), cloud, box)
-    assert any(each.startswith(f"The octree of {octree} is damaged") for each in heard.warnings)
+    assert any(text.startswith(f"The octree of {octree} is damaged") for text in heard.warnings)
 
 
 @pytest.mark.parametrize("field", [3, 0, 5])
@@ -338,7 +338,7 @@ def test_a_wrong_cube_is_told_and_loses_no_point(las, octree, field):
     octree.write_bytes(data)
     box = (400_000.0, 5_000_000.0, 400_300.0, 5_000_300.0)
     assert_is_part(read_window(octree, box, heard), cloud, box)
-    assert any("is damaged" in each for each in heard.warnings)
+    assert any("is damaged" in text for text in heard.warnings)
 
 
 def test_damaged_nodes_are_an_error(octree):

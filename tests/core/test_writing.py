@@ -313,8 +313,8 @@ def test_real_files_keep_all_but_the_class(las, name, written):
     rest = [column for column in range(one.records.shape[1]) if column != changed]
     np.testing.assert_array_equal(other.records[:, rest], one.records[:, rest])
     mark = b"laszip encoded"
-    assert [each for each in other.vlrs if each[2:16] != mark] == [
-        each for each in one.vlrs if each[2:16] != mark
+    assert [record for record in other.vlrs if record[2:16] != mark] == [
+        record for record in one.vlrs if record[2:16] != mark
     ]
     assert blank(other.header, (96, 105), (235, 243)) == blank(one.header, (96, 105), (235, 243))
     if written == "las":

@@ -284,11 +284,11 @@ def test_an_area_of_many_files(registry, scene, context, log, tmp_path):
     algorithm = registry.createAlgorithmById("bareearth:classifytiles")
     results, done = algorithm.run(given, context, log)
     assert done, log.text
-    clouds = [laspy.read(each) for each in sorted(out.glob("*.laz"))]
-    x = np.concatenate([each.x for each in clouds]) - EAST
+    clouds = [laspy.read(path) for path in sorted(out.glob("*.laz"))]
+    x = np.concatenate([cloud.x for cloud in clouds]) - EAST
     assert len(clouds) == results["DONE_COUNT"] == results["TILE_COUNT"] == 2
     assert x.min() >= 50 and x.max() <= 120 and len(x) == results["POINT_COUNT"] == 140 * 80
-    before = [(each.X, each.classification) for each in clouds]
+    before = [(cloud.X, cloud.classification) for cloud in clouds]
     command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
     for each in out.glob("*.laz"):
         each.unlink()

@@ -48,10 +48,10 @@ def test_a_dialog_takes_them(name, scene, tmp_path, context):
     classes = laspy.read(files["OUTPUT"]).classification
     assert np.array_equal(classes == 2, scene.ground)
     (terrain,) = (
-        each
-        for each in QgsProject.instance().mapLayers().values()
+        layer
+        for layer in QgsProject.instance().mapLayers().values()
         # In a group with the raster of classes, where this QGIS shows no points.
-        if each.name() in ("Terrain model", f"{folder.name}: Terrain model")
+        if layer.name() in ("Terrain model", f"{folder.name}: Terrain model")
     )
     assert terrain.isValid()
     (command,) = (shlex.split(each) for each in log.said if each.startswith("bare-earth "))

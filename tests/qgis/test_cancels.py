@@ -126,7 +126,7 @@ def test_a_cancel_leaves_old_files_and_nothing_else(name, registry, inputs, tmp_
         assert not [path for path in left if path.name != ".bare-earth"], log.text
         now = {path: Path(path).read_bytes() for path in old}
         if results:  # the end came first
-            assert all(each != b"old" for each in now.values())
+            assert all(value != b"old" for value in now.values())
             assert ".~" not in log.text
             continue
         cancelled += 1

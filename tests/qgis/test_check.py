@@ -78,7 +78,7 @@ def test_run_with_a_table(registry, cloud, table, rows, tmp_path, context, log):
     layer = QgsVectorLayer(results["OUTPUT"], "errors")
     assert layer.isValid() and layer.featureCount() == len(rows)
     assert layer.crs().authid() == "EPSG:25832"
-    states = [each["STATE"] for each in layer.getFeatures()]
+    states = [feature["STATE"] for feature in layer.getFeatures()]
     assert states.count("outside") == 1
     page = (tmp_path / "report.html").read_bytes()
     assert b"produced to meet" in page or b"tested to meet" in page
@@ -115,7 +115,7 @@ def test_a_layer_in_another_crs_and_its_style(cloud, rows, tmp_path, has_z):
     rules = layer.renderer().rootRule().children()
     assert len(rules) == 6 and rules[-1].label() == "Not counted"
     assert rules[0].symbol().color().name() == "#2166ac"
-    names = {each["NAME"] for each in layer.getFeatures()}
+    names = {feature["NAME"] for feature in layer.getFeatures()}
     assert {"far", rows[0][0]} <= names
     QgsProject.instance().clear()
 

@@ -26,7 +26,7 @@ def dialog(plugin):
 
 def box_of(dialog, text):
     boxes = dialog.findChildren(QComboBox)
-    return next(each for each in boxes if each.findText(text) >= 0)
+    return next(box for box in boxes if box.findText(text) >= 0)
 
 
 def test_labels_are_shown_and_ids_given(dialog, scene):

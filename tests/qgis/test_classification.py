@@ -197,7 +197,7 @@ def test_cancel_leaves_nothing(registry, scene, out, context):
     run(whole)
     for name in os.listdir(out):
         os.remove(out / name)
-    moments = sorted({each for each in whole.moments if each < 100})
+    moments = sorted({moment for moment in whole.moments if moment < 100})
     assert len(moments) > 6
     # The first, the last, and some between.
     for percent in {*moments[:: len(moments) // 6], moments[-1]}:

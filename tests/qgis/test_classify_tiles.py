@@ -160,10 +160,10 @@ def test_each_file_gets_its_own_rasters_and_one_layer_shows_them(
     results = processing.runAndLoadResults(algorithm, {**parameters, "RASTER_PER_FILE": True})
     assert results["DTM"] == str(tmp_path / "heights.vrt") and not dtm.exists()
     parts = sorted((tmp_path / "heights").iterdir())
-    assert [each.name for each in parts] == [f"{number}.tif" for number in range(4)]
-    rasters = (each for each in project.mapLayers().values() if isinstance(each, QgsRasterLayer))
+    assert [part.name for part in parts] == [f"{number}.tif" for number in range(4)]
+    rasters = (layer for layer in project.mapLayers().values() if isinstance(layer, QgsRasterLayer))
     # Beside the classes, where this QGIS shows no points.
-    (layer,) = (each for each in rasters if each.name() != "Classes")
+    (layer,) = (raster for raster in rasters if raster.name() != "Classes")
     assert layer.isValid() and layer.name().endswith("Terrain model")
     height, found = layer.dataProvider().sample(QgsPointXY(500_200.5, 5_700_040.5), 1)
     assert found and height == pytest.approx(100 + 0.05 * 200.5 + 0.02 * 40.5, abs=0.02)

@@ -44,7 +44,7 @@ def deliver(scene, tmp_path, context):
 
 def shown(root):
     """Return the layers of the project from the top, and whether they are visible."""
-    return {each.name(): each.itemVisibilityChecked() for each in root.findLayers()}
+    return {node.name(): node.itemVisibilityChecked() for node in root.findLayers()}
 
 
 def test_the_dialog_offers_all_deliveries(registry):
@@ -117,7 +117,7 @@ def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
     assert results["POINT_COUNT"] == scene.count and "DTM" not in results
     (group,) = root.findGroups()
     assert group.name() == "scene: Flood model"
-    names = [each.name() for each in group.findLayers()]
+    names = [node.name() for node in group.findLayers()]
     expected = [
         "Contour lines",
         "Classes",
@@ -129,7 +129,7 @@ def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
     assert names == [each for each in expected if each in names] and len(names) >= 5
     assert shown(root)["Terrain model"] and not shown(root)["Surface model"]
     layers = QgsProject.instance().mapLayers().values()
-    assert {type(each) for each in layers} >= {QgsRasterLayer, QgsVectorLayer}
+    assert {type(layer) for layer in layers} >= {QgsRasterLayer, QgsVectorLayer}
     assert f"{scene.ground_count:,} of {scene.count:,} points are ground" in log.text
     assert "accuracy: not measured" in log.text and "held out: RMSE" in log.text
 

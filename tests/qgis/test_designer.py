@@ -51,8 +51,8 @@ def designer(model, registry):
         return dialogs[-1]
 
     yield opened
-    for each in dialogs:
-        remove(each)
+    for dialog in dialogs:
+        remove(dialog)
 
 
 def field_of(dialog, name):
@@ -63,7 +63,7 @@ def choose(field, kind, label):
     """Choose what a field takes, and of that the one with a label, as a mouse would."""
     menu = next(each for each in field.findChildren(QToolButton) if each.menu()).menu()
     menu.aboutToShow.emit()
-    next(each for each in menu.actions() if each.text() == kind).trigger()
+    next(action for action in menu.actions() if action.text() == kind).trigger()
     box = next(each for each in field.findChildren(QComboBox) if each.findText(label) >= 0)
     box.setCurrentIndex(box.findText(label))
 
@@ -76,7 +76,7 @@ def add(model, dialog):
 
 def test_the_window_opens_for_every_algorithm(registry, designer):
     for algorithm in registry.providerById("bareearth").algorithms():
-        names = [each.name() for each in algorithm.parameterDefinitions()]
+        names = [definition.name() for definition in algorithm.parameterDefinitions()]
         dialog = designer(algorithm.id())
         assert all(field_of(dialog, name) is not None for name in names)
 
@@ -120,7 +120,7 @@ def test_what_is_drawn_runs(model, designer, scene, log):
     classify = add(model, dialog)
     dialog = designer("bareearth:heightaboveground")
     boxes = field_of(dialog, "INPUT").findChildren(QComboBox)
-    labels = [each.itemText(i) for each in boxes for i in range(each.count())]
+    labels = [box.itemText(i) for box in boxes for i in range(box.count())]
     (label,) = (each for each in labels if "Classified point cloud" in each)
     choose(field_of(dialog, "INPUT"), "Algorithm Output", label)
     heights = add(model, dialog)

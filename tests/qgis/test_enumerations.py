@@ -16,8 +16,8 @@ def unscoped_values(source):
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] == "qgis":
             module = importlib.import_module(node.module)
-            known.update({each.asname or each.name: getattr(module, each.name, None)
-                          for each in node.names})  # fmt: skip
+            known.update({name.asname or name.name: getattr(module, name.name, None)
+                          for name in node.names})  # fmt: skip
     found = []
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):

@@ -59,7 +59,10 @@ def test_a_choice_that_a_stored_model_does_not_know_is_the_default(example):
 
 
 def test_the_defaults_of_the_dialog_are_those(example):
-    defaults = {each.name(): each.defaultValue() for each in example.parameterDefinitions()}
+    defaults = {
+        definition.name(): definition.defaultValue()
+        for definition in example.parameterDefinitions()
+    }
     assert chosen(example, defaults) == Example()
 
 

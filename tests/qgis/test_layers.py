@@ -48,7 +48,7 @@ def load(context):
             parameters[name] = QgsProcessingOutputLayerDefinition(parameters[name], project)
         results = processing.runAndLoadResults(ALGORITHM, parameters)
         layers = QgsProject.instance().mapLayers().values()
-        return results, {type(each).__name__: each for each in layers}
+        return results, {type(layer).__name__: layer for layer in layers}
 
     return load
 
@@ -103,7 +103,9 @@ def test_a_cloud_is_coloured_by_class_and_counted_right(load, parameters, scene)
         cloud = layers["QgsPointCloudLayer"]
         assert isinstance(cloud.renderer(), QgsPointCloudClassifiedRenderer)
         assert cloud.renderer().attribute() == "Classification"
-        categories = {each.value(): each.label() for each in cloud.renderer().categories()}
+        categories = {
+            category.value(): category.label() for category in cloud.renderer().categories()
+        }
         assert categories == {1: "Unclassified", 2: "Ground"}
         assert cloud.pointCount() == scene.count
         assert cloud.crs().authid() == "EPSG:25832"

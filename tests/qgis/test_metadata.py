@@ -24,7 +24,7 @@ def run(name, values, outputs, folder):
         for key, file in outputs.items()
     }
     processing.runAndLoadResults(name, {**values, **loaded})
-    return {each.name(): each for each in project.mapLayers().values()}
+    return {layer.name(): layer for layer in project.mapLayers().values()}
 
 
 @pytest.mark.parametrize("name", OUTPUTS)

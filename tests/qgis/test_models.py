@@ -22,9 +22,9 @@ def make_model(algorithm, path=None):
     """Return a model round the algorithm; its input is a file, or stands in it."""
     # The designer writes all defaults into the model, too.
     values = {
-        each.name(): each.defaultValue()
-        for each in algorithm.parameterDefinitions()
-        if not each.isDestination()
+        definition.name(): definition.defaultValue()
+        for definition in algorithm.parameterDefinitions()
+        if not definition.isDestination()
     }
     model = QgsProcessingModelAlgorithm("Terrain", "tests")
     child = QgsProcessingModelChildAlgorithm(ALGORITHM)
@@ -73,8 +73,8 @@ def test_a_model_survives_saving_and_runs(fixed, algorithm, scene, tmp_path, con
     # The designer's output names differ with the version: "dtm" or "classify:DTM".
     files = {"dtm": str(tmp_path / "dtm.tif"), "output": str(tmp_path / "ground.laz")}
     outputs = {
-        each.name(): files[each.name().lower().rpartition(":")[2]]
-        for each in model.destinationParameterDefinitions()
+        definition.name(): files[definition.name().lower().rpartition(":")[2]]
+        for definition in model.destinationParameterDefinitions()
     }
     assert len(outputs) == 2
     parameters = {"size": 36, **outputs}
@@ -110,7 +110,7 @@ def test_batch_mode_takes_files(algorithm, scene, tmp_path, plugin):
     try:
         panel = dialog.mainWidget()
         assert panel.batchRowCount() == 1
-        columns = [each.name() for each in algorithm.parameterDefinitions()]
+        columns = [definition.name() for definition in algorithm.parameterDefinitions()]
         assert "INPUT" in columns
         wrapper = panel.wrappers[0][panel.parameter_to_column["INPUT"]]
         wrapper.setParameterValue(str(scene.path), panel.processing_context)

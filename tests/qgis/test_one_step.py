@@ -52,7 +52,7 @@ def test_a_file_becomes_all_maps(scene, tmp_path):
     assert np.nanmax(np.abs(band(outputs["RELIEF"])[20:60, 20:60])) < 0.05
     opened = ogr.Open(outputs["CONTOURS"])
     lines = opened[0]
-    heights = sorted({each.GetField("ELEV") for each in lines})
+    heights = sorted({line.GetField("ELEV") for line in lines})
     assert heights == [100.5 + 0.5 * step for step in range(11)] and lines.GetSpatialRef()
     assert f"{scene.ground_count:,} of {scene.count:,} points are ground" in log.text
     assert not [each for each in os.listdir(tmp_path) if each.startswith(".") or "aux" in each]
@@ -70,8 +70,8 @@ def test_the_commands_at_the_end_of_the_log_do_the_same(scene, tmp_path):
     classes = laspy.read(outputs["OUTPUT"]).classification
     commands = [shlex.split(each) for each in log.said if each.startswith("bare-earth ")]
     assert [words[:2] for words in commands] == [["bare-earth", x] for x in ("classify", "terrain")]
-    for each in outputs.values():
-        os.remove(each)
+    for value in outputs.values():
+        os.remove(value)
     for words in commands:
         assert main(words[1:]) == 0
     assert np.array_equal(laspy.read(outputs["OUTPUT"]).classification, classes)
@@ -212,7 +212,7 @@ def test_a_folder_is_one_survey(tmp_path, how):
     results = processing.run(ALL_IN_ONE, {**inputs[how], **everything(out)})
     assert results["OUTPUT"] == str(out / "ground" / "classified.vpc")
     assert results["GROUND_COUNT"] == sum(map(np.count_nonzero, ground))
-    names = [each for each in sorted(os.listdir(out / "ground")) if each[0] != "."]
+    names = [name for name in sorted(os.listdir(out / "ground")) if name[0] != "."]
     assert names == ["0.laz", "1.laz", "classified.vpc"]
     assert band(results["DTM"]).shape[1] >= 159
 
@@ -256,8 +256,10 @@ def test_a_format_that_lines_cannot_have_leaves_nothing(scene, tmp_path):
 
 def test_it_is_the_first_of_the_toolbox(registry):
     provider = registry.providerById("bareearth")
-    groups = sorted({each.group() for each in provider.algorithms()})
-    first = [each.id() for each in provider.algorithms() if each.group() == groups[0]]
+    groups = sorted({algorithm.group() for algorithm in provider.algorithms()})
+    first = [
+        algorithm.id() for algorithm in provider.algorithms() if algorithm.group() == groups[0]
+    ]
     assert first == [ALL_IN_ONE]
 
 

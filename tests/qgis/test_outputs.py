@@ -76,8 +76,8 @@ def test_what_qgis_names_itself_is_not_refused(registry, tmp_path, context):
 def test_file_dialogs_offer_what_can_be_written(registry):
     algorithm = registry.createAlgorithmById(WHOLE)
     offered = algorithm.parameterDefinition("CONTOURS").createFileFilter()
-    kinds = [each for each in offered.split(";;") if "*.*" not in each]
-    assert [each.partition("(")[2] for each in kinds] == [
+    kinds = [word for word in offered.split(";;") if "*.*" not in word]
+    assert [kind.partition("(")[2] for kind in kinds] == [
         "*.gpkg)", "*.geojson)", "*.shp)", "*.fgb)",
     ]  # fmt: skip
     for name in ("terrainmodel", "heightaboveground", "comparesettings"):
@@ -99,7 +99,7 @@ def test_what_has_always_a_value_is_not_called_optional(registry, context):
     wrappers["RECURSIVE"].setParameterValue("false", context)
     assert not box.isChecked()
     labels = [each.text() for each in dialog.findChildren((QLabel, QCheckBox))]
-    labels = [each for each in labels if each.endswith("[optional]")]
+    labels = [label for label in labels if label.endswith("[optional]")]
     for name, wrapper in wrappers.items():
         parameter = wrapper.parameterDefinition()
         if type(parameter).__name__ in ("ChoiceParameter", "QgsProcessingParameterBoolean"):
@@ -120,7 +120,7 @@ def test_models_refuse_outputs_too(output, file, registry, tmp_path, context):
     cloud = str(tmp_path / "scene.laz")
     write_scene(cloud)
     model = registry.createAlgorithmById("bareearth:terraincontours")
-    names = [each.name() for each in model.destinationParameterDefinitions()]
+    names = [definition.name() for definition in model.destinationParameterDefinitions()]
     values = {"INPUT": cloud, **dict.fromkeys(names, "TEMPORARY_OUTPUT")}
     assert model.checkParameterValues(values, context) == (True, "")
     values[output] = str(tmp_path / file)

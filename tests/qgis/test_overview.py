@@ -53,15 +53,15 @@ def test_points_are_seen_at_once_at_a_small_scale(tmp_path, context):
     processing.runAndLoadResults("bareearth:classifytiles", given)
     root = project.layerTreeRoot()
     clouds = [each for each in root.layerOrder() if isinstance(each, QgsPointCloudLayer)]
-    names = [each.name() for each in clouds]
+    names = [cloud.name() for cloud in clouds]
     assert names == (
         ["Classes"] if compat.SHOWS_OVERVIEWS else ["Classes", "Overview of the classes"]
     )
-    assert all(root.findLayer(each).isVisible() for each in clouds)
+    assert all(root.findLayer(cloud).isVisible() for cloud in clouds)
     # Only the classes that are there.
-    assert {each.value() for each in clouds[0].renderer().categories()} == {1, 2}
-    for each in clouds:
-        each.setOpacity(1.0)
+    assert {category.value() for category in clouds[0].renderer().categories()} == {1, 2}
+    for cloud in clouds:
+        cloud.setOpacity(1.0)
     for _ in range(20):
         QgsApplication.processEvents()
     colours = colours_of(clouds)

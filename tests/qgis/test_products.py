@@ -117,7 +117,7 @@ def test_a_dialog_shows_classes_where_it_cannot_show_points(labelled, out, name)
     said = [each.toPlainText() for each in dialog.findChildren(QTextEdit)]
     assert ended[0][0] and "results dialog" not in "".join(said)
     (layer,) = project.mapLayersByName("scene: Classes")
-    labels = [each.label for each in layer.renderer().classes()]
+    labels = [value.label for value in layer.renderer().classes()]
     assert labels[0] == "Ground" and len(labels) > 1
     remove(dialog)
     project.clear()
@@ -141,7 +141,7 @@ def test_rasters(labelled, out):
 
     results = processing.run(TERRAIN, parameters_for(TERRAIN, labelled, out))
     rasters = {name: gdal.Open(results[name]) for name in ("DTM", "DSM", "CHM", "HILLSHADE")}
-    dtm, dsm, chm, shade = (each.ReadAsArray() for each in rasters.values())
+    dtm, dsm, chm, shade = (value.ReadAsArray() for value in rasters.values())
     rows, columns = np.mgrid[: dtm.shape[0], : dtm.shape[1]]
     west, _, _, north, _, _ = rasters["DTM"].GetGeoTransform()
     terrain = plane(west + columns + 0.5, north - rows - 0.5)
@@ -319,5 +319,5 @@ def test_a_folder_is_one_survey_and_becomes_a_folder(registry, tmp_path, out, na
         assert -0.01 < results["MINIMUM"] < 0.01 < 8.0 < results["MAXIMUM"]
     if name == WATER:
         classes = [np.asarray(laspy.read(each).classification) for each in made]
-        counts = [np.count_nonzero(each == 9) for each in classes]
+        counts = [np.count_nonzero(value == 9) for value in classes]
         assert min(counts) > 50 and sum(counts) == results["WATER_COUNT"]

@@ -276,9 +276,15 @@ def test_saved_models_depend_on_these_names(registry):
     listed = registry.providerById("bareearth").algorithms()
     # As one that runs: QGIS learns only then what a model is made of.
     algorithms = [registry.createAlgorithmById(each.id()) for each in listed]
-    names = {each.id(): [p.name() for p in each.parameterDefinitions()] for each in algorithms}
+    names = {
+        algorithm.id(): [p.name() for p in algorithm.parameterDefinitions()]
+        for algorithm in algorithms
+    }
     assert names == {**PARAMETERS, **MODELS}
-    outputs = {each.id(): [o.name() for o in each.outputDefinitions()] for each in algorithms}
+    outputs = {
+        algorithm.id(): [o.name() for o in algorithm.outputDefinitions()]
+        for algorithm in algorithms
+    }
     assert {name: each for name, each in outputs.items() if name in PARAMETERS} == OUTPUTS
 
 
@@ -297,8 +303,8 @@ def test_an_algorithm_says_what_it_is(each):
 
 def test_each_algorithm_has_an_icon_of_its_own(registry):
     provider = registry.providerById("bareearth")
-    algorithms = [each for each in provider.algorithms() if each.id() in PARAMETERS]
-    paths = {each.id(): each.svgIconPath() for each in algorithms}
+    algorithms = [algorithm for algorithm in provider.algorithms() if algorithm.id() in PARAMETERS]
+    paths = {algorithm.id(): algorithm.svgIconPath() for algorithm in algorithms}
     assert len({*paths.values(), provider.svgIconPath()}) == len(paths) + 1
     for name, path in paths.items():
         assert f"{name.partition(':')[2]}.svg" == os.path.basename(path)
@@ -522,7 +528,7 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
             else:
                 continue
             assert shown in [cell.strip("`") for cell in cells]
-    outputs = [each.name() for each in each.outputDefinitions()]
+    outputs = [definition.name() for definition in each.outputDefinitions()]
     if each.name() in ("tindensification", "slopefilter", "gridminimum"):
         page += shared
     assert all(f"`{name}`" in page for name in outputs)
@@ -532,8 +538,8 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
 def test_unknown_parameters_are_told(name, registry, scene, tmp_path, context, log):
     algorithm = registry.createAlgorithmById(name)
     given = {"INPUT": str(scene.path), "PRESETT": "flat", "NOSUCH": 1}
-    outputs = [each.name() for each in algorithm.destinationParameterDefinitions()]
-    files = {each: str(tmp_path / each.replace(":", "_")) for each in outputs}
+    outputs = [definition.name() for definition in algorithm.destinationParameterDefinitions()]
+    files = {output: str(tmp_path / output.replace(":", "_")) for output in outputs}
     endings = {"OUTPUT": ".laz", "DTM": ".tif", "HILLSHADE": ".tif", "ground:OUTPUT": ".laz"}
     files = {each: f"{path}{endings.get(each, '.tif')}" for each, path in files.items()}
     if "contours:OUTPUT" in files:

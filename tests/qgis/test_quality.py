@@ -68,7 +68,7 @@ def strips(tmp_path):
 
 def legend_of(layer):
     nodes = QgsLayerTreeModel(QgsProject.instance().layerTreeRoot()).layerLegendNodes
-    return [each.data(0) for each in nodes(QgsProject.instance().layerTreeRoot().findLayer(layer))]
+    return [node.data(0) for node in nodes(QgsProject.instance().layerTreeRoot().findLayer(layer))]
 
 
 def colour_at(layer, x, y):

@@ -183,7 +183,7 @@ def test_the_command_of_the_log_makes_the_same_raster(run, scene, tmp_path, log)
     (command,) = [each for each in log.said if "bare-earth terrain" in each]
     words = command[command.index("bare-earth terrain") :].split()[1:]
     again = str(tmp_path / "again.tif")
-    assert main([again if each == made else each for each in words]) == 0
+    assert main([again if word == made else word for word in words]) == 0
     assert grid_of(raster(again)) == grid_of(raster(made))
 
 

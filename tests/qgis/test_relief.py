@@ -40,7 +40,7 @@ def terrain(tmp_path):
 
 def outputs_of(kinds):
     return [
-        "RELIEF" if each == "local-relief" else each.replace("-", "_").upper() for each in kinds
+        "RELIEF" if kind == "local-relief" else kind.replace("-", "_").upper() for kind in kinds
     ]
 
 
@@ -75,7 +75,7 @@ def test_the_layers_have_their_styles_and_names(terrain, tmp_path):
     kinds = list(KINDS)
     parameters = {"INPUT": terrain, "KINDS": kinds, "OUTPUT_FOLDER": str(tmp_path / "relief")}
     processing.runAndLoadResults(ALGORITHM, parameters)
-    layers = {each.name(): each for each in QgsProject.instance().mapLayers().values()}
+    layers = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
     assert len(layers) == len(kinds)
     assert layers["Red relief image map"].renderer().type() == "multibandcolor"
     assert layers["Archaeological topography (VAT)"].renderer().type() == "singlebandgray"

@@ -58,8 +58,8 @@ def run(context):
 
 def by_name():
     layers = QgsProject.instance().mapLayers().values()
-    assert len({each.name() for each in layers}) == len(layers)
-    return {each.name(): each for each in layers}
+    assert len({layer.name() for layer in layers}) == len(layers)
+    return {layer.name(): layer for layer in layers}
 
 
 def groups():
@@ -104,7 +104,7 @@ def test_the_map_shows_the_new_terrain_in_the_old_group(run, scene, tmp_path):
     tree, ids = groups(), {name: each.id() for name, each in before.items()}
     terrain = before["Terrain model"]
     assert value_of(terrain) == pytest.approx(100.7, abs=0.1)
-    assert {each["ELEV"] for each in before["Contour lines"].getFeatures()} == set(
+    assert {feature["ELEV"] for feature in before["Contour lines"].getFeatures()} == set(
         np.arange(100.5, 106, 0.5)
     )
     # What the user has changed in the tree stays.
@@ -118,7 +118,7 @@ def test_the_map_shows_the_new_terrain_in_the_old_group(run, scene, tmp_path):
     }
     ((name, layers),) = groups().items()
     assert {
-        name: [each.replace("My t", "T") + " model" * (each == "My terrain") for each in layers]
+        name: [layer.replace("My t", "T") + " model" * (layer == "My terrain") for layer in layers]
     } == tree
     terrain = after["My terrain"]
     assert value_of(terrain) == pytest.approx(150.7, abs=0.1)
@@ -126,7 +126,7 @@ def test_the_map_shows_the_new_terrain_in_the_old_group(run, scene, tmp_path):
     renderer = terrain.renderer()
     assert 149 < renderer.classificationMin() < renderer.classificationMax() < 157
     lines = after["Contour lines"]
-    assert {each["ELEV"] for each in lines.getFeatures()} == set(np.arange(150.5, 156, 0.5))
+    assert {feature["ELEV"] for feature in lines.getFeatures()} == set(np.arange(150.5, 156, 0.5))
 
 
 def test_the_extent_of_a_layer_follows_its_file(run, scene, tmp_path):
@@ -193,10 +193,10 @@ def test_virtual_rasters_are_reloaded(name, run, tmp_path):
         write_scene(tmp_path / "in" / f"{number}.laz", origin=origin)
         lift(tmp_path / "in" / f"{number}.laz", 0.0)
     if name == "terrainmodel":
-        for each in sorted((tmp_path / "in").iterdir()):
-            las = laspy.read(each)
+        for path in sorted((tmp_path / "in").iterdir()):
+            las = laspy.read(path)
             las.classification[:] = np.where(np.asarray(las.z) < 110, 2, 1)
-            las.write(each)
+            las.write(path)
     values = {"RASTER_PER_FILE": True}
     if name == "terrainmodel":
         values["INPUT"] = str(tmp_path / "in")
@@ -204,10 +204,10 @@ def test_virtual_rasters_are_reloaded(name, run, tmp_path):
         values |= {"INPUT_FOLDER": str(tmp_path / "in"), "OUTPUT_FOLDER": str(tmp_path / "out")}
     outputs = {"DTM": tmp_path / "dtm.tif"}
     before = run(f"bareearth:{name}", values, outputs)
-    (terrain,) = (each for each in before.values() if each.source().endswith("dtm.vrt"))
+    (terrain,) = (layer for layer in before.values() if layer.source().endswith("dtm.vrt"))
     assert value_of(terrain) == pytest.approx(100.7, abs=0.1)
-    for each in sorted((tmp_path / "in").iterdir()):
-        lift(each, 5.0)
+    for path in sorted((tmp_path / "in").iterdir()):
+        lift(path, 5.0)
     run(f"bareearth:{name}", values, outputs)
     assert value_of(terrain) == pytest.approx(105.7, abs=0.1)
     assert len(groups()) <= 1
@@ -223,7 +223,7 @@ def test_points_and_their_classes_are_the_new_ones(times, run, scene, tmp_path):
         values = {"INPUT": str(scene.path), "TO_CLASS": 9 + number}
         after = run(ALGORITHM, values, outputs)["Classes"]
         assert after.id() == before.id()
-        assert 9 + number in {each.value() for each in after.renderer().categories()}
+        assert 9 + number in {category.value() for category in after.renderer().categories()}
         colours.add(colour_of(after))
     assert len(colours) == 1 + times and "#ffffff" not in colours
     assert os.path.samefile(after.source(), outputs["OUTPUT"])
@@ -252,7 +252,7 @@ def test_the_points_of_many_files_are_the_new_ones(run, tmp_path):
         given = {**values, "TO_CLASS": value, "FORMAT": "copc.laz"}
         layer = run("bareearth:classifytiles", given, {"DTM": tmp_path / "dtm.tif"})["Classes"]
         ids.add(layer.id())
-        assert {each.value() for each in layer.renderer().categories()} == {1, value}
+        assert {category.value() for category in layer.renderer().categories()} == {1, value}
         colours.add(colour_of(layer))
     assert len(colours) == 3 and len(ids) == 1 and "#ffffff" not in colours
 
@@ -271,7 +271,7 @@ def test_a_layer_with_edits_that_are_not_saved_is_not_overwritten(run, scene, tm
     _, done = algorithm.run(given, context, log)
     assert not done and "is being edited" in log.text
     written = QgsVectorLayer(str(outputs["CONTOURS"]))
-    assert lines.isModified() and max(each["ELEV"] for each in written.getFeatures()) < 110
+    assert lines.isModified() and max(feature["ELEV"] for feature in written.getFeatures()) < 110
     lines.rollBack()
 
 
@@ -301,12 +301,12 @@ def test_files_are_released_where_open_files_cannot_be_replaced(
     given = {**values, **{name: str(path) for name, path in outputs.items()}}
     registry.createAlgorithmById(ONE_STEP).run(given, context, log)
     assert not held
-    assert by_name() == layers and all(each.isValid() for each in layers.values())
+    assert by_name() == layers and all(layer.isValid() for layer in layers.values())
     raised = 50.0 if ends == "well" else 0.0
     terrain = layers["Terrain model"]
     assert value_of(terrain) == pytest.approx(100.7 + raised, abs=0.1)
     assert terrain.renderer().classificationMax() == pytest.approx(colours + raised, abs=0.5)
-    lines = {each["ELEV"] for each in layers["Contour lines"].getFeatures()}
+    lines = {feature["ELEV"] for feature in layers["Contour lines"].getFeatures()}
     assert lines == set(np.arange(100.5 + raised, 106 + raised, 0.5))
     assert layers["Contour lines"].renderer().type() == "RuleRenderer"
 
@@ -335,11 +335,11 @@ def test_a_step_of_a_model_in_another_thread_releases_layers_too(
 
 
 def open_files(paths):
-    names = {str(each) for each in paths}
+    names = {str(path) for path in paths}
     found = []
-    for each in os.listdir("/proc/self/fd"):
+    for name in os.listdir("/proc/self/fd"):
         try:
-            found.append(os.readlink(f"/proc/self/fd/{each}"))
+            found.append(os.readlink(f"/proc/self/fd/{name}"))
         except OSError:
             continue
     return names & set(found)
@@ -349,7 +349,7 @@ def test_the_loop_of_corrections_by_polygons(run, scene, tmp_path):
     outputs = {each: tmp_path / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
     values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / "o.las")}
     layers = run(ALGORITHM, values, outputs)
-    terrain, ids = layers["Terrain model"], {each.id() for each in layers.values()}
+    terrain, ids = layers["Terrain model"], {layer.id() for layer in layers.values()}
     on_roof = QgsPointXY(WEST + 39.5, SOUTH + 33.5)
     below = terrain.dataProvider().sample(on_roof, 1)[0]
     assert below < 104
@@ -362,7 +362,7 @@ def test_the_loop_of_corrections_by_polygons(run, scene, tmp_path):
     rock.updateFields()
     rock.dataProvider().changeAttributeValues({next(rock.getFeatures()).id(): {0: 2}})
     layers = run(ALGORITHM, {**values, "CORRECTIONS": rock}, outputs)
-    assert {each.id() for each in layers.values()} == ids
+    assert {layer.id() for layer in layers.values()} == ids
     assert terrain.dataProvider().sample(on_roof, 1)[0] == pytest.approx(112.0, abs=0.01)
     assert terrain.renderer().classificationMax() > 110
     assert len(groups()) == 1
@@ -408,7 +408,7 @@ def test_a_shipped_model_reloads_its_layers(run, scene, tmp_path):
     }
     values = {"INPUT": str(scene.path), "INTERVAL": 0.5, "ground:OUTPUT": str(tmp_path / "o.las")}
     before = run("bareearth:terraincontours", values, outputs)
-    ids, tree = {each.id() for each in before.values()}, groups()
+    ids, tree = {layer.id() for layer in before.values()}, groups()
     assert tree == {
         "scene: Terrain, hillshade and contours": [
             "Contour lines",
@@ -419,18 +419,18 @@ def test_a_shipped_model_reloads_its_layers(run, scene, tmp_path):
     }
     lift(scene.path, 50.0)
     after = run("bareearth:terraincontours", values, outputs)
-    assert {each.id() for each in after.values()} == ids and groups() == tree
+    assert {layer.id() for layer in after.values()} == ids and groups() == tree
     assert value_of(after["Terrain model"]) == pytest.approx(150.7, abs=0.1)
     assert after["Terrain model"].renderer().classificationMin() > 149
-    assert {each["ELEV"] for each in after["Contour lines"].getFeatures()} >= {151.0, 155.5}
+    assert {feature["ELEV"] for feature in after["Contour lines"].getFeatures()} >= {151.0, 155.5}
     assert after["Contour lines"].renderer().type() == "RuleRenderer"
     # With another interval, the legend is another one.
     again = run("bareearth:terraincontours", {**values, "INTERVAL": 1.0}, outputs)
     rules = again["Contour lines"].renderer().rootRule().children()
-    assert [each.label() for each in rules] == ["Every 5 m", "Every 1 m"]
+    assert [rule.label() for rule in rules] == ["Every 5 m", "Every 1 m"]
     # A run that fails leaves all layers as they were.
     scene.path.write_bytes(scene.path.read_bytes()[:3000])
     with pytest.raises(QgsProcessingException):
         run("bareearth:terraincontours", values, outputs)
-    assert all(each.isValid() for each in again.values()) and groups() == tree
+    assert all(layer.isValid() for layer in again.values()) and groups() == tree
     assert value_of(again["Terrain model"]) == pytest.approx(150.7, abs=0.1)

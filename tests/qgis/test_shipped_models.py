@@ -126,7 +126,7 @@ def test_they_are_there_by_themselves(registry):
     """Nothing is put into the profile: they come and go with the plugin."""
     provider = registry.providerById("bareearth")
     assert isinstance(provider, QgsProcessingProvider)
-    listed = {each.name() for each in provider.algorithms()}
+    listed = {algorithm.name() for algorithm in provider.algorithms()}
     assert {file.stem.replace("_", "") for file in FILES} == set(OUTPUTS) <= listed
     for name in OUTPUTS:
         model = registry.createAlgorithmById(f"bareearth:{name}")
@@ -177,28 +177,28 @@ def test_their_layers_are_a_group_with_names_and_colours(
     assert tree.name() == f"scene: {group}"
     layers = {each.name(): each for each in tree.children()}
     assert sorted(layers) == sorted(titles)
-    assert [each for each in layers if not each.startswith("Hillshade, ")] == [
+    assert [layer for layer in layers if not layer.startswith("Hillshade, ")] == [
         each for each in titles if not each.startswith("Hillshade, ")
     ]
     assert {title for title, each in layers.items() if each.isVisible()} == set(shown)
     if name == "terraincontours":
         rules = layers["Contour lines"].layer().renderer().rootRule().children()
-        assert [each.label() for each in rules] == ["Every 2.5 m", "Every 0.5 m"]
+        assert [rule.label() for rule in rules] == ["Every 2.5 m", "Every 0.5 m"]
 
 
 @pytest.mark.parametrize("name", OUTPUTS)
 def test_their_outputs_are_known_before_a_run(name, registry, qgis_process):
     """As `processing.algorithmHelp`, `qgis_process help` and the toolbox see them."""
     registered = registry.algorithmById(f"bareearth:{name}")
-    listed = {each.name() for each in registered.outputDefinitions()}
+    listed = {definition.name() for definition in registered.outputDefinitions()}
     assert set(OUTPUTS[name]) <= listed
-    assert {each.name() for each in registered.destinationParameterDefinitions()} == set(
-        OUTPUTS[name]
-    )
+    assert {
+        definition.name() for definition in registered.destinationParameterDefinitions()
+    } == set(OUTPUTS[name])
     done = qgis_process("help", f"bareearth:{name}")
     arguments, _, outputs = done.stdout.partition("Outputs")
-    for each in OUTPUTS[name]:
-        assert each in arguments and each in outputs
+    for output in OUTPUTS[name]:
+        assert output in arguments and output in outputs
 
 
 @pytest.mark.parametrize("name", OUTPUTS)
@@ -206,15 +206,15 @@ def test_without_outputs_they_make_all_of_them_in_temporary_files(name, scene, c
     import processing
 
     results = processing.run(f"bareearth:{name}", {"INPUT": str(scene.path)}, context=context)
-    for each in OUTPUTS[name]:
-        assert Path(results[each]).is_file()
+    for output in OUTPUTS[name]:
+        assert Path(results[output]).is_file()
 
 
 def test_their_dialogs_make_every_output(registry):
     for name in OUTPUTS:
         model = registry.createAlgorithmById(f"bareearth:{name}")
-        for each in model.destinationParameterDefinitions():
-            assert each.createByDefault(), each.name()
+        for definition in model.destinationParameterDefinitions():
+            assert definition.createByDefault(), definition.name()
 
 
 def test_their_presets_have_labels_and_numbers(run, registry):

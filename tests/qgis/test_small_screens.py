@@ -13,15 +13,15 @@ def dialogs(registry):
     """Yield all dialogs, with all settings chosen where some can be compared."""
     from processing.gui.AlgorithmDialog import AlgorithmDialog
 
-    for each in registry.providerById("bareearth").algorithms():
-        dialog = AlgorithmDialog(registry.createAlgorithmById(each.id()))
+    for algorithm in registry.providerById("bareearth").algorithms():
+        dialog = AlgorithmDialog(registry.createAlgorithmById(algorithm.id()))
         settings = dialog.mainWidget().wrappers.get("SETTINGS")
         if settings:
             dialog.setParameters({"SETTINGS": list(settings.parameterDefinition().options())})
         dialog.resize(WIDTH, HEIGHT)
         dialog.show()
         QgsApplication.processEvents()
-        yield each.id(), dialog
+        yield algorithm.id(), dialog
         remove(dialog)
 
 

@@ -96,17 +96,17 @@ def test_classes_without_a_usual_colour_are_shown_too():
     layer = QgsPointCloudLayer()
     clouds.by_class([26, 2, 200])(layer)
     categories = layer.renderer().categories()
-    assert [(each.value(), each.label()) for each in categories] == [
+    assert [(category.value(), category.label()) for category in categories] == [
         (2, "Ground"), (26, "26"), (200, "200"),
     ]  # fmt: skip
-    assert len({each.color().name() for each in categories}) == 3
+    assert len({category.color().name() for category in categories}) == 3
 
 
 def test_what_is_not_classified_is_faint_but_opaque():
     layer = QgsPointCloudLayer()
     clouds.by_class([1, 2])(layer)
     renderer = layer.renderer()
-    colours = {each.value(): each.color() for each in renderer.categories()}
+    colours = {category.value(): category.color() for category in renderer.categories()}
     assert colours[1].alpha() == colours[2].alpha() == 255
     assert colours[1].lightness() > colours[2].lightness() + 20
     assert colours[1].hslSaturation() < colours[2].hslSaturation() / 2
@@ -234,7 +234,7 @@ def test_a_run_is_a_group_in_a_sensible_order_and_shows_one_theme(run, scene, tm
         ("Classes", True), ("Terrain model", False), ("Hillshade", True),
     ]  # fmt: skip
     assert tree() == {"scene: TIN densification": expected}
-    assert {each.name() for each in QgsProject.instance().mapLayers().values()} == {
+    assert {layer.name() for layer in QgsProject.instance().mapLayers().values()} == {
         name for name, _ in expected
     }
 
@@ -256,7 +256,7 @@ def test_no_raster_is_bare_and_grey(run, scene, tmp_path):
     names = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE")
     outputs = {each: tmp_path / f"{each}.tif" for each in names}
     run("bareearth:terrainmodel", {"INPUT": ground}, outputs)
-    layers = {each.name(): each for each in QgsProject.instance().mapLayers().values()}
+    layers = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
     kinds = {name: each.renderer().type() for name, each in layers.items()}
     assert kinds.pop("Hillshade") == "singlebandgray"
     assert len(kinds) == 4 and set(kinds.values()) == {"singlebandpseudocolor"}
@@ -273,8 +273,8 @@ def test_a_layer_that_a_model_has_named_keeps_its_name_and_place(run, scene, tmp
     run("bareearth:terrainmodel", {"INPUT": ground}, outputs, "Mine")
     assert not tree()
     layers = QgsProject.instance().mapLayers().values()
-    assert {each.name() for each in layers} == {"Mine"}
-    assert {each.renderer().type() for each in layers} == {
+    assert {layer.name() for layer in layers} == {"Mine"}
+    assert {layer.renderer().type() for layer in layers} == {
         "singlebandgray", "singlebandpseudocolor",
     }  # fmt: skip
 
@@ -294,7 +294,7 @@ def test_legends_say_what_is_shown_and_its_unit(run, scene, tmp_path, monkeypatc
     told = {}
     for layer in project.mapLayers().values():
         node = project.layerTreeRoot().findLayer(layer.id())
-        texts = [each.data(Qt.ItemDataRole.DisplayRole) for each in model.layerLegendNodes(node)]
+        texts = [entry.data(Qt.ItemDataRole.DisplayRole) for entry in model.layerLegendNodes(node)]
         told[layer.name()] = texts
     assert "Ground" in told.pop("Classes")
     # Grey values of a hillshade mean nothing.
@@ -313,9 +313,9 @@ def legend_of(name):
     """Return the texts of a layer's legend, as a window has them."""
     project = QgsProject.instance()
     model = QgsLayerTreeModel(project.layerTreeRoot())
-    (layer,) = (each for each in project.mapLayers().values() if each.name().endswith(name))
+    (layer,) = (layer for layer in project.mapLayers().values() if layer.name().endswith(name))
     nodes = model.layerLegendNodes(project.layerTreeRoot().findLayer(layer.id()))
-    return [each.data(Qt.ItemDataRole.DisplayRole) for each in nodes]
+    return [node.data(Qt.ItemDataRole.DisplayRole) for node in nodes]
 
 
 def test_the_legend_of_contour_lines_says_the_unit(run, tmp_path):
@@ -369,8 +369,8 @@ def test_the_map_has_the_colours_of_the_legend(run, tmp_path):
     outputs["OUTPUT"] = tmp_path / "o.copc.laz"
     run(ALGORITHM, {"INPUT": str(tmp_path / "scene.las")}, outputs)
     root = QgsProject.instance().layerTreeRoot()
-    for each in root.findLayers():
-        each.setItemVisibilityChecked(True)
+    for node in root.findLayers():
+        node.setItemVisibilityChecked(True)
     wanted = clouds.categories_of([1, 2])
     places = {2: (10.25, 60.25), 1: (39.25, 33.25)}
     for value, (x, y) in places.items():

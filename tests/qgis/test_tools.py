@@ -22,10 +22,10 @@ def test_a_new_tool_is_in_the_toolbox_with_its_help(registry, provider):
     algorithm = registry.createAlgorithmById(ID)
     assert (algorithm.displayName(), algorithm.group()) == (TOOL.title, "Products")
     assert algorithm.shortDescription() == TOOL.summary and "toy" in algorithm.tags()
-    names = [each.name() for each in algorithm.parameterDefinitions()]
+    names = [definition.name() for definition in algorithm.parameterDefinitions()]
     assert names[:2] == ["INPUT", "CRS"] and names[-1] == "OUTPUT"
     assert {"NEW_CLASS", "GROUND_CLASSES", "THREADS"} <= set(names)
-    assert [each.name() for each in algorithm.outputDefinitions()][1:] == [
+    assert [definition.name() for definition in algorithm.outputDefinitions()][1:] == [
         "POINT_COUNT",
         "NEW_COUNT",
     ]

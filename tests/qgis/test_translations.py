@@ -30,13 +30,13 @@ def marked():
 
 
 def algorithms(registry):
-    return [each.create() for each in registry.providerById("bareearth").algorithms()]
+    return [algorithm.create() for algorithm in registry.providerById("bareearth").algorithms()]
 
 
 def test_all_that_algorithms_say_has_a_translation(registry):
     texts = translations.written_texts() | translations.asked_texts()
     for path in translations.FILES:
-        sources = {each.source for each in qm.read_ts(path.read_bytes())}
+        sources = {text.source for text in qm.read_ts(path.read_bytes())}
         assert texts - sources == set(), "make translations, then translate"
         assert sources - texts == set(), "make translations removes what is gone"
 
@@ -45,9 +45,9 @@ def test_nothing_is_said_past_the_translator(registry, marked):
     for algorithm in algorithms(registry):
         ids = {
             word
-            for each in algorithm.parameterDefinitions()
-            if isinstance(each, QgsProcessingParameterEnum)
-            for word in re.findall(r"[a-z]+", " ".join(each.options()).lower())
+            for definition in algorithm.parameterDefinitions()
+            if isinstance(definition, QgsProcessingParameterEnum)
+            for word in re.findall(r"[a-z]+", " ".join(definition.options()).lower())
         }
         for text in translations.visible_texts(algorithm):
             if text in algorithm.tags():
@@ -75,9 +75,9 @@ def test_qgis_speaks_german_and_french(registry, speak, locale, title, label, ta
     assert size.description() == label and f"<b>{label}</b>" in algorithm.shortHelpString()
     assert tag in algorithm.tags() and "lasground" in algorithm.tags()
     # Scripts and models know no language.
-    assert {each.id(): each.groupId() for each in found.values()} == ids
+    assert {layer.id(): layer.groupId() for layer in found.values()} == ids
     assert algorithm.parameterDefinition("PRESET").options()[0] == "automatic"
-    groups = {each.group(): each.groupId() for each in found.values()}
+    groups = {layer.group(): layer.groupId() for layer in found.values()}
     assert groups[min(groups)] == "allinone"  # first in the toolbox
     for name, each in found.items():
         assert each.displayName() != english[name][0] and each.shortHelpString() != english[name][3]
@@ -115,8 +115,8 @@ def test_the_option_lang_of_qgis_counts_more_than_the_settings(algorithm, speak)
 @pytest.mark.parametrize("path", translations.FILES, ids=lambda path: path.stem)
 def test_qt_finds_every_translation(path, speak):
     translator = speak(path.stem.rpartition("_")[2])
-    for each in qm.read_ts(path.read_bytes()):
-        assert i18n.tr(each.source) == each.translation
+    for text in qm.read_ts(path.read_bytes()):
+        assert i18n.tr(text.source) == text.translation
     assert not translator.translate(i18n.CONTEXT, "never said")
 
 
@@ -193,5 +193,5 @@ def test_the_files_are_those_of_make_translations(registry, tmp_path):
         assert copy.read_text(encoding="utf-8") == path.read_text(encoding="utf-8")
         # A new text waits for its translator, one that is gone goes.
         assert translations.update(copy, {"Preset", "Something new"}) == 1
-        kept = {each.source: each.translation for each in qm.read_ts(copy.read_bytes())}
+        kept = {text.source: text.translation for text in qm.read_ts(copy.read_bytes())}
         assert kept["Preset"] and kept == {"Preset": kept["Preset"], "Something new": ""}

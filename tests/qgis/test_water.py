@@ -40,12 +40,12 @@ def test_a_lake_is_found_and_drawn_in_blue(registry, cloud, tmp_path):
     results = processing.runAndLoadResults(ALGORITHM, {"INPUT": str(cloud), **outputs})
     assert results["LAKES"] == 1 and results["RIVERS"] == 0
     assert results["AREA"] == pytest.approx(np.pi * 54**2, rel=0.03)
-    layers = {each.name(): each for each in QgsProject.instance().mapLayers().values()}
+    layers = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
     (water,) = layers["Water"].getFeatures()
     assert water["LEVEL"] == pytest.approx(50.1, abs=0.15) and water["GRADE"] == "certain"
     assert water.geometry().area() == pytest.approx(results["AREA"], rel=0.02)
     rules = layers["Water"].renderer().rootRule().children()
-    assert [each.label() for each in rules] == ["Given", "Certain", "Likely", "Doubtful"]
+    assert [rule.label() for rule in rules] == ["Given", "Certain", "Likely", "Doubtful"]
     # The legend keeps its picture unless the renderer is a new one.
     assert layers["Breaklines"].renderer().symbol().color().name() == "#1450aa"
     model = QgsLayerTreeModel(QgsProject.instance().layerTreeRoot())
@@ -71,7 +71,7 @@ def square(crs="EPSG:25832", transform=None):
     corners = [(west, south), (west + side, south), (west + side, south + side),
                (west, south + side), (west, south)]  # fmt: skip
     if transform is not None:
-        corners = [transform(*each) for each in corners]
+        corners = [transform(*corner) for corner in corners]
     return layer_of("Polygon", f"Polygon(({', '.join(f'{x!r} {y!r}' for x, y in corners)}))", crs)
 
 

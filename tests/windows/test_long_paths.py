@@ -58,7 +58,7 @@ def test_classified_files_and_rasters(survey, tmp_path, longest, words):
     given = words.format(one=survey / "one.laz", many=survey / "many", out=out).split()
     code, _, errors = said(*given, *SLOPE)
     assert code == 0 and ".~" not in errors and (out / longest).stat().st_size
-    assert not [each for each in os.listdir(out) if each.startswith(".~")]
+    assert not [name for name in os.listdir(out) if name.startswith(".~")]
 
 
 @pytest.mark.parametrize("source", ["one.laz", "many"])
