@@ -25,12 +25,18 @@ ADDRESS_HELP = (
     " data set, of a virtual point cloud or of a STAC item. Only what lies in the extent is"
     " downloaded."
 )
+# As a name, so that the widget is imported only in dialogs, not in qgis_process.
+_WIDGET = f"{__package__}.widgets.AddressWidget"
 # QGIS 3.40 and newer hand over such a source of a layer: its provider and its address.
 _WITH_PROVIDER = re.compile(r"(copc|ept|vpc|pdal)://(?=[a-z][a-z0-9]+://)")
 
 
 class RemoteInput(PointCloudInput):
     """A point cloud layer, or the address or path of a file."""
+
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        self.setMetadata({"widget_wrapper": {"class": _WIDGET}})
 
     def clone(self) -> RemoteInput:
         """Return a copy."""

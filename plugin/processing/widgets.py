@@ -88,6 +88,16 @@ class PointCloudWidget:
         return widget
 
 
+class AddressWidget:
+    """Makes the widget of a remote point cloud: an address is typed, or a layer chosen."""
+
+    def __new__(cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: Any) -> Any:
+        """Return a widget, not an instance of this class."""
+        if _kind(dialog) == QgsProcessingGui.WidgetType.Standard and not _is_designer(dialog):
+            return _AddressBox(parameter, _kind(dialog), dialog)
+        return PointCloudWidget(parameter, dialog)
+
+
 def _is_designer(dialog: QWidget) -> bool:
     return type(dialog).__name__ == "ModelerParametersDialog"
 
@@ -300,15 +310,50 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
             self._box.setLayer(None)
 
 
+class _AddressBox(QgsAbstractProcessingParameterWidgetWrapper):
+    """A box for an address, which offers the remote point clouds of the project."""
+
+    def createWidget(self) -> QWidget:
+        """Return the box, with the active layer chosen if it is remote."""
+        box = _narrow(QComboBox())
+        box.setEditable(True)
+        box.lineEdit().setPlaceholderText("https://")
+        for layer in _clouds(self.widgetContext().project()):
+            if file_of(layer) is None:
+                box.addItem(layer.name(), layer.id())
+        box.setCurrentIndex(0 if box.count() else -1)
+        box.currentTextChanged.connect(lambda _: self.widgetValueHasChanged.emit(self))
+        return box
+
+    def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
+        """Show an address, or choose a layer, also those of an earlier run."""
+        box = self.wrappedWidget()
+        if box is not None and not compat.is_null(value):
+            place = box.findData(value)
+            box.setCurrentIndex(place)
+            if place < 0:
+                box.setEditText(str(value))
+
+    def widgetValue(self) -> Any:
+        """Return the id of the layer, or the address."""
+        box = self.wrappedWidget()
+        place = box.findText(box.currentText())
+        return box.itemData(place) if place >= 0 else box.currentText().strip()
+
+
 def _cloud_of(project: QgsProject | None) -> QgsPointCloudLayer | None:
     """Return the active layer if it is a point cloud on this computer, else the uppermost one."""
+    return next((layer for layer in _clouds(project) if file_of(layer)), None)
+
+
+def _clouds(project: QgsProject | None) -> list[QgsPointCloudLayer]:
+    """Return the point clouds of the project, the active layer first, and then from the top."""
     from qgis.utils import iface
 
     project = project or QgsProject.instance()
     active = [iface.activeLayer()] if iface is not None else []
-    layers = [*active, *project.layerTreeRoot().layerOrder()]
-    clouds = (layer for layer in layers if isinstance(layer, QgsPointCloudLayer) and file_of(layer))
-    return next(clouds, None)
+    layers = dict.fromkeys([*active, *project.layerTreeRoot().layerOrder()])
+    return [layer for layer in layers if isinstance(layer, QgsPointCloudLayer)]
 
 
 def _narrow(box: QComboBox) -> QComboBox:

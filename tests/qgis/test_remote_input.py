@@ -95,8 +95,9 @@ def test_an_extent_in_another_crs_is_transformed(address, cloud, corner, tmp_pat
 
 
 @needs_copc
-def test_part_of_a_layer_is_downloaded(address, corner, tmp_path, log):
+def test_part_of_a_layer_is_downloaded(registry, address, corner, tmp_path, log):
     import processing
+    from processing.gui.AlgorithmDialog import AlgorithmDialog
 
     layer = QgsPointCloudLayer(address, "far away", "copc")
     assert layer.isValid()
@@ -107,6 +108,13 @@ def test_part_of_a_layer_is_downloaded(address, corner, tmp_path, log):
     results = processing.run(FETCH, values, feedback=log)
     assert results["POINT_COUNT"] == count == count_of(target)
     assert "--extent" in log.text and "SECRET" not in log.text
+    dialog = AlgorithmDialog(registry.createAlgorithmById(FETCH))
+    try:
+        wrapper = dialog.mainWidget().wrappers["ADDRESS"]
+        assert wrapper.parameterValue() == layer.id()
+        assert wrapper.wrappedWidget().currentText() == "far away"
+    finally:
+        remove(dialog)
     QgsProject.instance().clear()
 
 
@@ -150,8 +158,13 @@ def test_a_new_dialog_shows_the_extent_of_the_map(registry, monkeypatch):
     monkeypatch.undo()
     dialog = AlgorithmDialog(algorithm)
     try:
-        shown = dialog.mainWidget().wrappers["EXTENT"].parameterValue()
-        assert str(shown).startswith("500")
+        wrappers = dialog.mainWidget().wrappers
+        assert str(wrappers["EXTENT"].parameterValue()).startswith("500")
+        # No layer is remote, so that an address is typed.
+        box = wrappers["ADDRESS"].wrappedWidget()
+        assert box.isEditable() and not box.currentText()
+        box.setEditText(" https://example.org/a.copc.laz ")
+        assert wrappers["ADDRESS"].parameterValue() == "https://example.org/a.copc.laz"
     finally:
         remove(dialog)
         canvas.deleteLater()
