@@ -234,15 +234,22 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
     cells (0 to `size` - 1).
     """
     # The first element of a cell has the least first key; the next key decides between equal ones.
-    which = np.arange(len(index))
+    found, least = np.full(size, -1, dtype=np.intp), np.full(size, np.inf)
+    which, cell = np.arange(len(index)), index
+    if not keys:
+        found[index] = which
     for key in keys:
-        cell, values = index[which], key[which]
-        least = np.full(size, np.inf)
-        lower_at(least, cell, values)
-        which = which[values == least[cell]]
-    index = index[which]
-    found = np.full(size, -1, dtype=np.intp)
-    found[index] = which  # of elements with equal keys, the last one
+        values = key if len(which) == len(key) else key[which]
+        lowest = lower_at(least, cell, values)
+        lowest = lowest[values[lowest] == least[cell[lowest]]]
+        which, cell = which[lowest], cell[lowest]
+        found[cell] = which  # of elements with equal keys, the last one
+        equal = cell[found[cell] != which]
+        if not len(equal):
+            break
+        least[equal] = np.inf
+        undecided = np.flatnonzero(least[cell] == np.inf)
+        which, cell = which[undecided], cell[undecided]
     return found[found >= 0]
 
 

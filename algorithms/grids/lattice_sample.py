@@ -20,9 +20,9 @@ TILE = 512
 _POINTS_A_PART = 1 << 17
 # Rounding error of a coordinate on the border of a cell, as a share of the cell.
 _ROUNDING = 1e-6
-# Squared distances to the centre of a cell, in squared cells, are rounded to so many decimals.
-# Further decimals depend on the origin of the coordinates.
-_DECIMALS = 6
+# Squared distances to the centre of a cell are rounded to so many parts of a squared cell.
+# Smaller differences depend on the origin of the coordinates.
+_DISTANCES = 1e6
 _MOST_SMALL = 1 << 16
 
 
@@ -65,9 +65,9 @@ class LatticeSample:
 
     def _tile_of_each(self, progress: Progress) -> tuple[np.ndarray, list[tuple[int, int]]]:
         """Return the number of the tile of each point (n,), and row and column of each tile."""
-        (first_row, last_row), (first_column, last_column) = (
-            [int(np.floor(self.cells(end, axis)) // TILE) for end in (places.min(), places.max())]
-            for axis, places in ((1, self.points.y), (0, self.points.x))
+        first_column, first_row, last_column, last_row = (
+            int(np.floor(self.cells(end, side % 2) / TILE))
+            for side, end in enumerate(self.points.box)
         )
         rows, columns = last_row - first_row + 1, last_column - first_column + 1
         # NumPy sorts integers of two bytes fastest.
@@ -76,7 +76,7 @@ class LatticeSample:
 
         def place(part: slice) -> None:
             row, column = (
-                np.floor(self.cells(places[part], axis)).astype(np.int64) // TILE - first
+                np.floor(self.cells(places[part], axis) / TILE) - first
                 for axis, places, first in (
                     (1, self.points.y, first_row),
                     (0, self.points.x, first_column),
@@ -101,10 +101,10 @@ class LatticeSample:
         x = self.cells(self.points.x[which], 0) - place[1] * TILE
         y = self.cells(self.points.y[which], 1) - place[0] * TILE
         column, row = x.astype(np.int32), y.astype(np.int32)
-        distance = np.round((x - column - 0.5) ** 2 + (y - row - 0.5) ** 2, _DECIMALS)
+        distance = np.rint(((x - column - 0.5) ** 2 + (y - row - 0.5) ** 2) * _DISTANCES)
         slots = row * TILE + column
         first = first_of_each(slots, TILE * TILE, distance, self.points.z[which], x, y)
-        outer = which[~_is_inner(slots)[slots]]
+        outer = which[_are_outer(slots[first])[slots]]
         return Tile(slots[first], x[first] - _ROUNDING, y[first] - _ROUNDING, which[first], outer)
 
     @property
@@ -154,17 +154,21 @@ class Window(NamedTuple):
     which: np.ndarray  # intp (n,), indices in the points before thinning
 
 
-def _is_inner(slots: np.ndarray) -> np.ndarray:
-    """Return which cells of a tile have points in all four quarters of the plane round them."""
-    # Their own points are no corners of the convex hull.
+def _are_outer(slots: np.ndarray) -> np.ndarray:
+    """Return which cells of a tile have no points in some of the four quarters of the plane round
+    them, bool (TILE * TILE,), given the cells with points.
+    """
+    # Only points of such cells can be corners of the convex hull.
     occupied = np.zeros((TILE, TILE), dtype=bool)
     occupied.ravel()[slots] = True
-    inner = np.ones((TILE, TILE), dtype=bool)
-    for rows, columns in itertools.product((1, -1), (1, -1)):
-        there = occupied[::rows, ::columns]
-        for axis in (0, 1):
-            there = np.logical_or.accumulate(there, axis=axis)
-        before = np.zeros((TILE, TILE), dtype=bool)
-        before[1:, 1:] = there[:-1, :-1]
-        inner &= before[::rows, ::columns]
-    return inner.ravel()
+    has_any, columns = occupied.any(axis=1), np.arange(TILE)
+    outer = np.zeros((TILE, TILE), dtype=bool)
+    for rows in (slice(None), slice(None, None, -1)):
+        some = occupied[rows]
+        # First and last columns of points in the rows before each one.
+        first = np.where(has_any[rows], some.argmax(axis=1), TILE)[:-1]
+        last = np.where(has_any[rows], TILE - 1 - some[:, ::-1].argmax(axis=1), -1)[:-1]
+        first = np.append(TILE, np.minimum.accumulate(first))[:, None]
+        last = np.append(-1, np.maximum.accumulate(last))[:, None]
+        outer[rows] |= (columns <= first) | (columns >= last)
+    return outer.ravel()

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...core.points import Box, Points
 from ...core.progress import SILENT, Progress
-from ...core.threads import parts_of
+from ...core.threads import over_parts, parts_of
 from ...grids.cell_window import CellWindow
 from ...grids.cells import are_inside, first_of_each
 from ...grids.confidence import confidence
@@ -29,8 +29,8 @@ _EDGES = 2.0
 CONTENTS, QUARTERS, ANY, TOP = "contents", 4, 16, 32
 # Rounding error of coordinates in metres.
 _ROUNDING = 1e-6
-# Least number of points that are processed together.
-_POINTS_A_PART = 1 << 20
+# Least number of points that are processed together; those whose arrays stay in the cache.
+_POINTS_A_PART, _POINTS_SEEN = 1 << 20, 1 << 16
 
 
 class BlockRasters(NamedTuple):
@@ -120,22 +120,28 @@ _LayerCells = Tuple[np.ndarray, Optional[np.ndarray]]
 def _contents(step: RasterStep, view: BlockView, window: CellWindow) -> np.ndarray:
     """Return what each cell contains, as `CONTENTS` says."""
     quarters = CellWindow(*(2 * number for number in window))
-    any_points, ground, top = np.zeros((3, *quarters.shape), dtype=bool)
-    for part in parts_of(view.points.count, _POINTS_A_PART):
+    any_points, ground, top = np.zeros((3, quarters.rows * quarters.columns), dtype=bool)
+
+    def see(part: slice) -> None:
         x, y = view.points.x[part], view.points.y[part]
         row, column = quarters.places(x, y, view.corner, step.cell / 2.0)
         inside = are_inside(row, column, quarters.shape)
-        any_points[row[inside], column[inside]] = True
-        is_top = inside & view.top[part]
-        top[row[is_top], column[is_top]] = True
+        index = row * quarters.columns + column
+        any_points[index[inside]] = True
+        top[index[inside & view.top[part]]] = True
         inside &= view.ground[part]
-        ground[row[inside], column[inside]] = True
+        ground[index[inside]] = True
         # A point on the middle line of a cell lies in the quarters on both sides.
         before = quarters.places(x - _ROUNDING, y - _ROUNDING, view.corner, step.cell / 2.0)
-        south, west = (np.where(own % 2, low, own) for own, low in zip((row, column), before))
-        middle = np.flatnonzero(inside & ((south < row) | (west < column)))
-        for rows, columns in ((south, column), (row, west), (south, west)):
-            ground[rows[middle], columns[middle]] = True
+        is_south, is_west = (
+            inside & (low < own) & (own % 2 > 0) for own, low in zip((row, column), before)
+        )
+        for which, cells in ((is_south, quarters.columns), (is_west, 1)):
+            ground[index[which] - cells] = True
+        ground[index[is_south & is_west] - quarters.columns - 1] = True
+
+    over_parts(see, view.points.count, _POINTS_SEEN, SILENT)
+    any_points, ground, top = (flags.reshape(quarters.shape) for flags in (any_points, ground, top))
     contents = np.zeros(window.shape, dtype=np.uint8)
     for number in range(QUARTERS):
         quarter = slice(number // 2, None, 2), slice(number % 2, None, 2)
