@@ -83,6 +83,7 @@ class FindKeyPoints(PointStep):
     mark: KeyPointMark = field(default_factory=KeyPointMark)  # whether they get a class or a flag
 
     counts = GroundCounts
+    imports = "scipy.ndimage", "scipy.spatial"
     summary_type = KeyPointSummary
     vpc_name = "key_points.vpc"
 
