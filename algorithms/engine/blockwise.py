@@ -56,7 +56,7 @@ def over_blocks(
         )
     is_tight = sum(memory) > resources.bytes
     if is_tight:
-        progress = GivingBack(progress, resources.bytes)
+        progress = GivingBack(progress)
     for number, result in run_jobs(jobs, counts, at_once, resources.thread_count, progress):
         if is_tight and memory[number] > _MUCH:
             give_back()

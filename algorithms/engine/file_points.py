@@ -173,7 +173,7 @@ class FilePoints:
             for values in self._mapped:
                 values.leave_memory()
 
-        return GivingBack(progress, self._given.bytes, leave_memory)
+        return GivingBack(progress, leave_memory)
 
     def allocate(self, kind: type) -> np.ndarray:
         """Return an array of one value for each point; on disk if the points are."""

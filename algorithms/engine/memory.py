@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 import time
@@ -17,15 +16,14 @@ from ..core.threads import available_cpus
 GIGABYTE = 1 << 30
 _UNKNOWN = 4 * GIGABYTE
 _SHARE = 0.5
-# Freed memory is given back after so many seconds if a process takes more than this share of what
-# it may use, and so many bytes for its libraries.
-_SECONDS, _NEARLY, _LIBRARIES = 0.3, 0.7, 200_000_000
+# Freed memory is given back after so many seconds if memory is short.
+_SECONDS = 0.3
 _MEMINFO = Path("/proc/meminfo")
 _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 _CGROUP = Path("/sys/fs/cgroup")
-# Options of `mallopt` in malloc.h: one heap, in which arrays up to 32 MB lie, and of which at most
-# 256 MB stay free at its end.
-_HEAP = (-8, 1), (-3, 1 << 25), (-1, 1 << 28)
+# Options of `mallopt` in malloc.h: one heap, in which arrays up to 128 MB lie, and of which as much
+# may stay free at its end.
+_HEAP = (-8, 1), (-3, 1 << 27), (-1, 1 << 27)
 
 
 @dataclass(frozen=True)
@@ -111,23 +109,21 @@ def give_back() -> None:
 
 
 class GivingBack(PassingOn):
-    """Passes on progress, and now and then, if this process nears the `most` bytes that may be
-    used, gives freed memory back to the system and calls `also`, which gives up other memory.
+    """Passes on progress, and now and then gives freed memory back to the system and calls `also`,
+    which gives up other memory.
     """
 
-    def __init__(self, whole: Progress, most: int, also: Callable[[], None] | None = None) -> None:
+    def __init__(self, whole: Progress, also: Callable[[], None] | None = None) -> None:
         super().__init__(whole)
-        self._most, self._also, self._given = most, also, time.monotonic()
+        self._also, self._given = also, time.monotonic()
 
     def report(self, fraction: float) -> None:
         """Pass on how much is done."""
         super().report(fraction)
         if time.monotonic() - self._given > _SECONDS:
-            # Memory that stays is used again, and its pages need not be made anew.
-            if (_own("VmRSS") or math.inf) > _LIBRARIES + _NEARLY * self._most:
-                give_back()
-                if self._also is not None:
-                    self._also()
+            give_back()
+            if self._also is not None:
+                self._also()
             self._given = time.monotonic()
 
 
