@@ -136,9 +136,9 @@ def _part(
     if name_of(address).lower() == DESCRIPTION:
         skips = wanted.skips_missing
         return EptPart(transfers, address, waiting, wanted.area, wanted.resolution, skips, progress)
-    file = (
-        RemoteFile(transfers, address, waiting) if is_address(address) else LocalFile(Path(address))
-    )
+    is_remote = is_address(address)
+    file = RemoteFile(transfers, address, waiting) if is_remote else LocalFile(Path(address))
+    transfers.files.enter_context(file)
     return CopcPart(file, wanted.area, wanted.resolution, progress)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import queue
 import threading
 import time
@@ -98,12 +99,14 @@ class Transfers:
         self._web, self._stores = _READERS[0](), StoreReader()
         self._stopped = threading.Event()
         self._threads: list[threading.Thread] = []
+        self.files = contextlib.ExitStack()  # which end with the block, too
 
     def __enter__(self) -> Transfers:
         return self
 
     def __exit__(self, *exception: object) -> None:
         self._stopped.set()
+        self.files.close()
         for reader in (self._web, self._stores):
             reader.close()
         # So that no thread uses what a program ends meanwhile.

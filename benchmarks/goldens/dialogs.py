@@ -45,6 +45,10 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
         "INPUT": "raw.laz", "BOUNDARY": "boundary.geojson", "AREA_ONLY": True,
         "OUTPUT": "OUT/a.copc.laz",
     }),
+    "fetch": ("fetch", {
+        "ADDRESS": "grid-minimum/a.copc.laz", "EXTENT": "569970,570020,5931970,5932030",
+        "OUTPUT": "OUT/part.laz",
+    }),
     "tiles": ("classifytiles", {
         "INPUT_FOLDER": "raw", **_CLASSES, "METHOD": "slope", "FORMAT": "las",
         "HEIGHT_ABOVE_GROUND": True, "ABOVE_GROUND": "ign", "OUTPUT_FOLDER": "OUT/tiles",

@@ -69,8 +69,8 @@ def remote_of(
     layer = parameters.get(name)
     if not isinstance(layer, QgsPointCloudLayer):
         text = _WITH_PROVIDER.sub("", algorithm.parameterAsString(parameters, name, context))
-        # A layer of the project: of an address, QGIS would make one, and ask the server.
-        layer = None if is_address(text) else QgsProcessingUtils.mapLayerFromString(text, context)
+        # Only a layer of the project: of other texts, QGIS would make one, and ask the server.
+        layer = QgsProcessingUtils.mapLayerFromString(text, context, False)
         if not isinstance(layer, QgsPointCloudLayer):
             if not text:
                 raise Refusal(mark("Choose a point cloud."))
