@@ -55,6 +55,8 @@ def above_ground(
     threads: int | None = None,
     memory: float | None = None,
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     scheduler: str | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> AboveGroundSummary | Any:
@@ -66,9 +68,10 @@ def above_ground(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Classified files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of
-        them together are one survey.
+    sources : path, address, or iterable of them
+        Classified files, folders, virtual point clouds (.vpc), lists of files (.txt), or
+        addresses (https, s3, gs, az) of remote point clouds; all of them together are one
+        survey.
     output : path
         The file to write (.las, .laz or .copc.laz), or a folder if there are many inputs.
     extent : four floats, optional
@@ -141,6 +144,11 @@ def above_ground(
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
@@ -171,6 +179,8 @@ def assess(
     ignored_classes: Sequence[int] | None = None,
     map_cell_size: float = 1.0,
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Assessment:
     """Compare a classified file with a reference.
@@ -181,9 +191,9 @@ def assess(
 
     Parameters
     ----------
-    classified : path
+    classified : path or address
         The file to check.
-    reference : path
+    reference : path or address
         A file with the same points and their true classes; one can be a part of the other.
     report : path, optional
         Write a report (.html).
@@ -201,6 +211,11 @@ def assess(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
@@ -238,6 +253,8 @@ def check(
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Check:
     """Compare the ground with checkpoints, or with points that are held out.
@@ -248,9 +265,10 @@ def check(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Classified files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of
-        them together are one survey.
+    sources : path, address, or iterable of them
+        Classified files, folders, virtual point clouds (.vpc), lists of files (.txt), or
+        addresses (https, s3, gs, az) of remote point clouds; all of them together are one
+        survey.
     checkpoints : path or array of shape (n, 3), optional
         Points that were surveyed on the ground (CSV and other tables in the CRS of the points,
         GeoJSON, or with pyogrio GeoPackage, shapefile and others, whose CRS is transformed to
@@ -306,6 +324,11 @@ def check(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
@@ -427,6 +450,8 @@ def classify(
     memory: float | None = None,
     crs: str | None = None,
     vpc: _Path | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     scheduler: str | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Summary | Any:
@@ -435,9 +460,9 @@ def classify(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of them
-        together are one survey.
+    sources : path, address, or iterable of them
+        Files, folders, virtual point clouds (.vpc), lists of files (.txt), or addresses (https,
+        s3, gs, az) of remote point clouds; all of them together are one survey.
     output : path
         The file to write (.las, .laz or .copc.laz), or a folder if there are many inputs.
     dtm : path, optional
@@ -828,6 +853,11 @@ def classify(
         written point clouds keep the records that the files have.
     vpc : path, optional
         With many files: the virtual point cloud that lists the results, by default in OUTPUT.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
@@ -859,6 +889,8 @@ def compare_settings(
     threads: int | None = None,
     memory: float | None = None,
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> TrialSummary:
     """Try methods and presets on a window, and show them side by side.
@@ -869,9 +901,9 @@ def compare_settings(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of them
-        together are one survey.
+    sources : path, address, or iterable of them
+        Files, folders, virtual point clouds (.vpc), lists of files (.txt), or addresses (https,
+        s3, gs, az) of remote point clouds; all of them together are one survey.
     page : path
         The page to write (.html).
     extent : four floats, optional
@@ -915,6 +947,11 @@ def compare_settings(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
@@ -1067,6 +1104,8 @@ def deliver(
     threads: int | None = None,
     memory: float | None = None,
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     scheduler: str | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> DeliverySummary:
@@ -1074,9 +1113,9 @@ def deliver(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of them
-        together are one survey.
+    sources : path, address, or iterable of them
+        Files, folders, virtual point clouds (.vpc), lists of files (.txt), or addresses (https,
+        s3, gs, az) of remote point clouds; all of them together are one survey.
     output : path
         The folder for all outputs: a new or empty one, or that of an earlier delivery, which is
         replaced.
@@ -1428,6 +1467,11 @@ def deliver(
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
@@ -1526,6 +1570,8 @@ def heights(
     threads: int | None = None,
     memory: float | None = None,
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     scheduler: str | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> HeightSummary | Any:
@@ -1537,9 +1583,10 @@ def heights(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Classified files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of
-        them together are one survey.
+    sources : path, address, or iterable of them
+        Classified files, folders, virtual point clouds (.vpc), lists of files (.txt), or
+        addresses (https, s3, gs, az) of remote point clouds; all of them together are one
+        survey.
     output : path
         The file to write (.las, .laz or .copc.laz), or a folder if there are many inputs.
     dtm : path, optional
@@ -1580,6 +1627,11 @@ def heights(
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
@@ -1604,6 +1656,8 @@ def info(
     source: _Path,
     *,
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Description:
     """Describe a file.
@@ -1612,11 +1666,16 @@ def info(
 
     Parameters
     ----------
-    source : path
+    source : path or address
         A .las, .laz or .copc.laz file.
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
@@ -1652,6 +1711,8 @@ def key_points(
     threads: int | None = None,
     memory: float | None = None,
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     scheduler: str | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> KeyPointSummary | Any:
@@ -1663,9 +1724,10 @@ def key_points(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Classified files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of
-        them together are one survey.
+    sources : path, address, or iterable of them
+        Classified files, folders, virtual point clouds (.vpc), lists of files (.txt), or
+        addresses (https, s3, gs, az) of remote point clouds; all of them together are one
+        survey.
     output : path
         The file to write (.las, .laz or .copc.laz), or a folder if there are many inputs.
     tolerance_above : float, default 0.15 m
@@ -1715,6 +1777,11 @@ def key_points(
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
@@ -1746,6 +1813,8 @@ def quality(
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Quality:
     """Measure density, voids and overlap of a survey, and compare it with a specification.
@@ -1756,9 +1825,10 @@ def quality(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Classified files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of
-        them together are one survey.
+    sources : path, address, or iterable of them
+        Classified files, folders, virtual point clouds (.vpc), lists of files (.txt), or
+        addresses (https, s3, gs, az) of remote point clouds; all of them together are one
+        survey.
     page : path, optional
         Write a page (.html).
     folder : path, optional
@@ -1785,6 +1855,11 @@ def quality(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
@@ -1957,6 +2032,8 @@ def terrain(
     threads: int | None = None,
     memory: float | None = None,
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     scheduler: str | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> RasterSize:
@@ -1965,9 +2042,10 @@ def terrain(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Classified files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of
-        them together are one survey.
+    sources : path, address, or iterable of them
+        Classified files, folders, virtual point clouds (.vpc), lists of files (.txt), or
+        addresses (https, s3, gs, az) of remote point clouds; all of them together are one
+        survey.
     dtm : path, optional
         GeoTIFF (.tif). Heights of the bare ground.
     dsm : path, optional
@@ -2117,6 +2195,11 @@ def terrain(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.
@@ -2148,6 +2231,8 @@ def water(
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> WaterSummary:
     """Find lakes and rivers in classified points.
@@ -2158,9 +2243,10 @@ def water(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Classified files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of
-        them together are one survey.
+    sources : path, address, or iterable of them
+        Classified files, folders, virtual point clouds (.vpc), lists of files (.txt), or
+        addresses (https, s3, gs, az) of remote point clouds; all of them together are one
+        survey.
     output : path
         The polygons of water to write (.gpkg, .geojson, .shp, .fgb); all but .geojson need
         pyogrio.
@@ -2188,6 +2274,11 @@ def water(
     crs : str, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.
@@ -2222,6 +2313,8 @@ def water_classes(
     threads: int | None = None,
     memory: float | None = None,
     crs: str | None = None,
+    cache: _Path | None = None,
+    limit: float | None = None,
     scheduler: str | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> WaterClassSummary | Any:
@@ -2233,9 +2326,10 @@ def water_classes(
 
     Parameters
     ----------
-    sources : path or iterable of paths
-        Classified files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of
-        them together are one survey.
+    sources : path, address, or iterable of them
+        Classified files, folders, virtual point clouds (.vpc), lists of files (.txt), or
+        addresses (https, s3, gs, az) of remote point clouds; all of them together are one
+        survey.
     output : path
         The file to write (.las, .laz or .copc.laz), or a folder if there are many inputs.
     water : path or polygons
@@ -2283,6 +2377,11 @@ def water_classes(
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.
+    cache : path, optional
+        The folder that keeps what is fetched of remote point clouds; without it that of
+        BARE_EARTH_CACHE, or one of the user.
+    limit : float, optional
+        Gigabytes that may be fetched of remote point clouds; without it 2.
     scheduler : str, optional
         With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers
         do the work, or the word processes; without it, threads of this process do it.

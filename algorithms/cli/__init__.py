@@ -11,7 +11,7 @@ from typing import Sequence
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay, UsageError
 from ..engine.memory import share_one_heap
 from ..tools import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
-from . import odm
+from . import cache, odm
 from .commands import tool_command
 from .options import FAILED, USAGE
 
@@ -21,7 +21,7 @@ _COMMANDS = (
     *map(tool_command, ("info", "assess", "check", "quality")),
     *map(tool_command, ("remove-off-terrain-objects", "height", "above-ground", "key-points")),
     *map(tool_command, ("terrain", "contours", "relief", "water", "water-classes")),
-    *odm.COMMANDS,
+    *odm.COMMANDS, *cache.COMMANDS,
 )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Sequence
 
 from ..core.errors import BareEarthError, UsageError
+from ..remote.addresses import is_address, name_of
 from ..tools import (
     COMPOSITIONS,
     FILE_TOOLS,
@@ -29,7 +30,8 @@ if TYPE_CHECKING:
 
 # What values are called in the help, where not FILE.
 _METAVARS = {
-    "source": "INPUT", "folder": "FOLDER", "like": "RASTER", "scheduler": "ADDRESS",
+    "source": "INPUT", "folder": "FOLDER", "cache": "FOLDER", "limit": "GB", "like": "RASTER",
+    "scheduler": "ADDRESS",
     "crs": "CRS", "checkpoints_crs": "CRS",
     "columns": "x=E,y=N,z=H,cover=Class,type=Use,name=ID",
 }  # fmt: skip
@@ -90,8 +92,10 @@ def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
     text = text.replace(", or their x, y and z in the CRS of the points", "")  # of arrays
     is_needed, metavar = argument.default is REQUIRED, _METAVARS.get(name, "FILE")
     if argument.kind == KINDS["clouds"]:
-        parser.add_argument(name, metavar="INPUT", type=Path, nargs="+", help=text)
-    elif is_needed and argument.kind in (KINDS["path"], KINDS["text"]):
+        parser.add_argument(name, metavar="INPUT", nargs="+", help=text)
+    elif argument.kind == KINDS["number"]:
+        parser.add_argument(_option(name), type=float, metavar=metavar, help=text)
+    elif is_needed and argument.kind in (KINDS["path"], KINDS["text"], KINDS["cloud"]):
         parser.add_argument(name, metavar=_METAVARS.get(name, name.upper()), help=text)
     elif argument.kind == KINDS["extent"]:
         text = text.replace("xmin, ymin, xmax, ymax: ", "")
@@ -142,8 +146,9 @@ def _do_on_points(name: str, options: argparse.Namespace) -> int:
     """Write what a tool finds for points, or makes of them, and tell what was done."""
     from ..library.tools import of_tool
 
-    done = _called(of_tool(name), options)
-    tell(options, done, done.told(Path(getattr(options, "output", options.sources[0]))))
+    done, source = _called(of_tool(name), options), options.sources[0]
+    source = name_of(source) if is_address(source) else source
+    tell(options, done, done.told(Path(getattr(options, "output", source))))
     return FAILED if done.failures else DONE
 
 
@@ -163,7 +168,7 @@ def _called(function: Function, options: argparse.Namespace) -> Any:
     _check_boxes(options)
     values = SimpleNamespace(**vars(options), in_processes=True)
     with Terminal(options.verbose) as values.progress:
-        return function.run(values, sets)
+        return function.work(values, sets)
 
 
 def _check_boxes(options: argparse.Namespace) -> None:

@@ -22,8 +22,10 @@ class Kind(NamedTuple):
 
 
 KINDS = {
-    "clouds": Kind(f"{_PATH} | Iterable[{_PATH}]", "path or iterable of paths"),
+    "clouds": Kind(f"{_PATH} | Iterable[{_PATH}]", "path, address, or iterable of them"),
+    "cloud": Kind(_PATH, "path or address"),
     "path": Kind(_PATH, "path"),
+    "number": Kind("float", "float"),
     "polygons": Kind(f"{_PATH} | Sequence[Any]", "path or polygons"),
     "lines": Kind(f"{_PATH} | Sequence[Any]", "path or lines"),
     "points": Kind(f"{_PATH} | Sequence[Any]", "path or array of shape (n, 3)"),
@@ -68,8 +70,8 @@ def path(name: str, help: str, default: Any = None) -> Argument:
 SOURCES = Argument.of(
     "sources",
     "clouds",
-    "files, folders, virtual point clouds (.vpc), or lists of files (.txt); all of them together"
-    " are one survey",
+    "files, folders, virtual point clouds (.vpc), lists of files (.txt), or addresses (https, s3,"
+    " gs, az) of remote point clouds; all of them together are one survey",
     REQUIRED,
 )
 OUTPUT = path(
@@ -97,6 +99,17 @@ SCHEDULER = Argument.of(
     "text",
     "with many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers do"
     " the work, or the word processes; without it, threads of this process do it",
+)
+# Where the points may be on the web.
+REMOTE = (
+    path(
+        "cache",
+        "the folder that keeps what is fetched of remote point clouds; without it that of"
+        " BARE_EARTH_CACHE, or one of the user",
+    ),
+    Argument.of(
+        "limit", "number", "gigabytes that may be fetched of remote point clouds; without it 2"
+    ),
 )
 VPC = path(
     "vpc", "with many files: the virtual point cloud that lists the results, by default in OUTPUT"

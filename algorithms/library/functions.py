@@ -14,12 +14,13 @@ from ..core.parameters import Declaration, ParameterSet
 from ..filters import METHODS
 from ..tools.ground.method import TileMethod
 from .arguments import REQUIRED, Argument, Kind
+from .remote_points import bring_points
 
 PACKAGE = __name__.partition(".algorithms.")[0]
 _WIDTH = 92
 _OPTION = re.compile(r"--([a-z-]+)")  # in texts of the command line
 # Arguments that stand behind the parameters.
-_LAST = ("crs", "vpc", "scheduler", "progress")
+_LAST = ("crs", "vpc", "cache", "limit", "scheduler", "progress")
 _TYPES = {"number": "float", "integer": "int", "boolean": "bool"}
 _RAISES = """
 Raises
@@ -134,6 +135,11 @@ class Function:
             found.append(declared(**given))
         return found
 
+    def work(self, values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+        """Fetch the points that are given by addresses, and run."""
+        bring_points((*self.positional, *self.keywords), values, sets)
+        return self.run(values, sets)
+
     def callable(self, module: str = PACKAGE) -> Callable[..., Any]:
         """Return the function, as one of a module."""
         signature, name = self.signature, self.name
@@ -149,7 +155,7 @@ class Function:
                 raise TypeError(f"{name}(): {error}.") from None
             bound.apply_defaults()
             values = bound.arguments
-            return self.run(SimpleNamespace(**values), self.sets_of(values, named))
+            return self.work(SimpleNamespace(**values), self.sets_of(values, named))
 
         function.__name__ = function.__qualname__ = name
         function.__module__ = module

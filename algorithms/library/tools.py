@@ -44,7 +44,7 @@ from .given import (
 )
 
 CLASSIFIED = replace(arguments.SOURCES, help=f"classified {arguments.SOURCES.help}")
-_REACHES = (arguments.SCHEDULER, arguments.PROGRESS)
+_REACHES = (*arguments.REMOTE, arguments.SCHEDULER, arguments.PROGRESS)
 # What reads the inputs that have several arguments.
 _READERS: dict[str, Callable[[SimpleNamespace], Any]] = {
     "area": area_of,
@@ -87,6 +87,8 @@ def _of_file_tool(command: str) -> Function:
     tool = file_tool(command)
     given = [argument for declared in tool.inputs for argument in arguments_of(declared)]
     given += [_argument_of(output) for output in tool.outputs]
+    if any(declared.kind in ("cloud", "clouds") for declared in tool.inputs):
+        given += arguments.REMOTE
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         inputs = {declared.name: _input(declared, values) for declared in tool.inputs}
@@ -140,8 +142,8 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
     if declared.kind == "clouds":
         return (CLASSIFIED if declared.help else arguments.SOURCES,)
     help = declared.help.format(formats=FORMATS)
-    kinds = {"extent": "extent", "words": "words", "polygons": "polygons", "address": "text"}
-    kind = kinds.get(declared.kind, "path")
+    kind = "text" if declared.kind == "address" else declared.kind
+    kind = kind if kind in ("cloud", "extent", "polygons", "text", "words") else "path"
     if kind == "extent":
         help = f"xmin, ymin, xmax, ymax: {help}, in the CRS of the points{declared.more}"
     is_required = not declared.optional and kind not in ("extent", "words")

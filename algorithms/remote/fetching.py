@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Iterable, Protocol, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import make_work_folder, write_errors_told
@@ -24,6 +24,7 @@ from .parts import remove_parts
 from .transfers import Transfers
 
 _GIGABYTE = 1e9
+_ADVICE = "Choose a smaller area or a coarser resolution"
 _UNSAFE = re.compile(r"[^\w.,+() -]")  # in names of files
 
 
@@ -93,7 +94,12 @@ def fetch(
         with Transfers(progress) as transfers:
             progress = transfers.progress
             parts = _found(address, transfers, waiting, wanted, progress.part(0.0, 0.1))
-            _check(parts, target, wanted.most, progress)
+            if len(parts) > 1 and target.suffix:
+                raise BareEarthError(
+                    f"{len(parts)} point clouds have points there. Name a new folder as output,"
+                    " without an ending: each becomes a file in it."
+                )
+            check_size(parts, wanted.most, _ADVICE, progress)
             is_planned = True
             shares = progress.part(0.1, 0.7).shares(*(part.size for part in parts))
             for part, share in zip(parts, shares):
@@ -101,7 +107,7 @@ def fetch(
             counts = _written(parts, target, progress.part(0.7, 1.0))
             if not counts:
                 is_planned = False
-                raise _nothing_there(parts, address)
+                raise nothing_there(parts, address)
     except BaseException:
         if is_planned:
             _tell_of_rest(waiting, progress)
@@ -125,7 +131,7 @@ def _found(
     ]
     found = [part for part in parts if part.point_count]
     if not found:
-        raise _nothing_there(parts, address)
+        raise nothing_there(parts, address)
     return found
 
 
@@ -142,20 +148,15 @@ def _part(
     return CopcPart(file, wanted.area, wanted.resolution, progress)
 
 
-def _check(parts: list[Part], target: Path, most: float, progress: Progress) -> None:
-    """Tell how much will be downloaded; refuse too much, and one file for several clouds."""
-    if len(parts) > 1 and target.suffix:
-        raise BareEarthError(
-            f"{len(parts)} point clouds have points there. Name a new folder as output, without an"
-            " ending: each becomes a file in it."
-        )
+def check_size(parts: Sequence[Part], most: float, advice: str, progress: Progress) -> None:
+    """Tell how much will be downloaded; refuse too much, with advice."""
     size, points = sum(part.size for part in parts), sum(part.point_count for part in parts)
     about = "" if all(part.is_exact for part in parts) else "about "
     if size > most:
         raise BareEarthError(
             f"This would download {about}{in_words(size)} ({points:,} points), more than the limit"
-            f" of {in_words(most)}. Choose a smaller area or a coarser resolution, or raise the"
-            f" limit: --limit {size / _GIGABYTE + 0.1:.1f}."
+            f" of {in_words(most)}. {advice}, or raise the limit: --limit"
+            f" {size / _GIGABYTE + 0.1:.1f}."
         )
     requests = sum(part.request_count for part in parts)
     progress.info(
@@ -178,7 +179,7 @@ def _written(parts: list[Part], target: Path, progress: Progress) -> list[int]:
         counts = [parts[0].write(target, progress)]
     else:
         target.mkdir()
-        counts, names = [], _names(parts)
+        counts, names = [], names_of([part.name for part in parts])
         for part, name, share in zip(parts, names, progress.shares(*[1] * len(parts))):
             counts.append(part.write(target / name, share))
             if not counts[-1]:
@@ -186,11 +187,11 @@ def _written(parts: list[Part], target: Path, progress: Progress) -> list[int]:
     return [count for count in counts if count]
 
 
-def _names(parts: list[Part]) -> list[str]:
-    """Return different names for the files of a folder."""
+def names_of(clouds: Iterable[str]) -> list[str]:
+    """Return different names for the files of a folder, given the names of the clouds."""
     names: list[str] = []
-    for part in parts:
-        stem, number = part.name, 1
+    for stem in clouds:
+        number = 1
         for ending in (SUFFIX, ".laz"):
             stem = stem[: -len(ending)] if stem.lower().endswith(ending) else stem
         # A list of somebody else must not say into which folder a file is written.
@@ -201,7 +202,7 @@ def _names(parts: list[Part]) -> list[str]:
     return names
 
 
-def _nothing_there(parts: list[Part], address: str) -> BareEarthError:
+def nothing_there(parts: Sequence[Part], address: str) -> BareEarthError:
     """Return the error for an area without points."""
     if len(parts) == 1 and parts[0].area is not None:
         return outside("the area", parts[0].area.bounds, parts[0].name, parts[0].box)

@@ -60,9 +60,9 @@ class RemoteFile(io.RawIOBase):
         self.address, self.name = address, name_of(address)
         self._transfers, self._parts, self._position = transfers, Parts(folder, address), 0
         # Asked for in any case, since it tells the version of the file.
-        self._head, self._state = transfers.one(lambda: transfers.read(address, 0, _FIRST, None))
-        self.size = self._state.size
-        self._parts.begin(self._state._asdict(), self._state.is_certain)
+        self._head, self.version = transfers.one(lambda: transfers.read(address, 0, _FIRST, None))
+        self.size = self.version.size
+        self._parts.begin(self.version._asdict(), self.version.is_certain)
 
     def plan(self, pieces: Iterable[Range]) -> Plan:
         """Return the requests that give some pieces, joined across gaps."""
@@ -118,7 +118,7 @@ class RemoteFile(io.RawIOBase):
         return self._parts.read(start, stop)
 
     def _fetch(self, start: int, stop: int) -> None:
-        data, _ = self._transfers.read(self.address, start, stop, self._state)
+        data, _ = self._transfers.read(self.address, start, stop, self.version)
         self._parts.add(start, data)
 
 

@@ -57,9 +57,11 @@ class Cloud(NamedTuple):
         return located is None or located.may_touch(box)
 
 
-def clouds_of(address: str, transfers: Transfers, follows: bool) -> list[Cloud]:
+def clouds_of(
+    address: str, transfers: Transfers, follows: bool, how: str = "run it again with --follow"
+) -> list[Cloud]:
     """Return the point clouds at an address, or at the path of a file: itself, or those of a list;
-    refuse a list that leads to servers that the user did not name, unless it may.
+    refuse a list that leads to servers that the user did not name, and say `how` it may.
     """
     if ends_with(address, ".laz", ".las") or name_of(address).lower() == DESCRIPTION:
         return [Cloud(address)]
@@ -68,8 +70,7 @@ def clouds_of(address: str, transfers: Transfers, follows: bool) -> list[Cloud]:
     if reader.strange_hosts:
         hosts = ", ".join(sorted(reader.strange_hosts))
         raise BareEarthError(
-            f"{shown(address)} names files on other servers: {hosts}. If you trust them, run it"
-            " again with --follow."
+            f"{shown(address)} names files on other servers: {hosts}. If you trust them, {how}."
         )
     if not clouds:
         raise BareEarthError(

@@ -365,3 +365,14 @@ def test_a_list_on_this_computer_may_name_its_files(copc, tmp_path):
     (tmp_path / "a.copc.laz").write_bytes(copc)
     (tmp_path / "all.vpc").write_bytes(text_of(item_of("./a.copc.laz")))
     assert bare_earth.fetch(tmp_path / "all.vpc", tmp_path / "part.laz").point_count == 4000
+
+
+def test_a_data_set_is_an_input_like_a_file(server, tmp_path, monkeypatch):
+    monkeypatch.setenv("BARE_EARTH_CACHE", str(tmp_path))
+    add_ept(server)
+    address = server.address("set/ept.json")
+    assert bare_earth.info(address).point_count == 3000
+    assert [path.name for path in tmp_path.rglob("*.laz")] == ["set.laz"]
+    server.asked.clear()
+    assert bare_earth.info(f"{address}?sig=x").point_count == 3000
+    assert len(server.asked) == 1

@@ -26,8 +26,8 @@ FLOORS = {
     "tools/ground": "core crs grids las survey rasters filters engine",
     "tools/compare_settings": ("core crs grids las survey filters report engine tools"),
     "delivery": "core crs grids las survey rasters filters report engine tools",
-    "library": ("core crs grids las survey rasters filters engine tools delivery"),
-    "cli": ("core crs grids las survey rasters filters engine tools delivery library"),
+    "library": ("core crs grids las survey rasters filters engine tools delivery remote"),
+    "cli": ("core crs grids las survey rasters filters engine tools delivery library remote"),
     "__main__": "cli",
     "__init__": ("core crs grids las survey rasters filters engine tools delivery"),
 }

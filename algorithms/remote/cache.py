@@ -1,0 +1,182 @@
+"""Keeps the parts of remote point clouds that runs read, so that the next run finds them here."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import os
+import re
+import shutil
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple, Sequence
+
+from ..core.files import describe_write_error, replacing, write_errors_told
+from ..core.progress import SILENT, Progress
+from ..crs.system import Crs
+from ..survey.area import Area
+from ..survey.shapes import Place, Shapes
+from .addresses import beside, checked, name_of, shown
+from .copc import CopcPart
+from .ept import DESCRIPTION, EptPart
+from .fetching import Part, Wanted, check_size, names_of, nothing_there
+from .files import RemoteFile
+from .lists import Cloud, clouds_of
+from .parts import remove_parts
+from .transfers import Transfers
+
+VARIABLE = "BARE_EARTH_CACHE"
+# Of folders; 16 of the 64 digits of a hash, since paths must be short for Windows.
+_DIGITS, _OURS = 16, re.compile(r"[0-9a-f]{16}")
+# Units of points whose CRS is not known may be feet: about so many are a metre.
+_UNITS_A_METRE = 3.3
+_MOST_JSON = 1 << 28
+_HOW = "fetch them first, by 'bare-earth fetch' with --follow"
+
+
+@dataclass(frozen=True, eq=False)
+class Surroundings(Area):
+    """The rectangle round an area, wider by a margin, whose points help to judge those inside."""
+
+    margin: float = 0.0  # metres
+    crs: Crs | None = None  # of the points, if the user states it
+
+    def located(self, place: Place, progress: Progress = SILENT) -> Area:
+        """Return the rectangle in the CRS of the points."""
+        crs = self.crs or place.crs
+        area = super().located(place._replace(crs=crs), progress)
+        metre = _UNITS_A_METRE if crs == Crs() else 1.0 / crs.horizontal_unit
+        return Area(area.buffered_box(self.margin * metre))
+
+    @property
+    def key(self) -> str:
+        """Text that differs for different areas."""
+        rings = [[ring.tolist() for ring in polygon] for polygon in self.polygons]
+        stated = self.polygons.crs if isinstance(self.polygons, Shapes) else None
+        return json.dumps([self.box, rings, stated, self.margin, repr(self.crs)])
+
+
+class Here(NamedTuple):
+    """What is on this computer of some addresses."""
+
+    paths: list[Path]  # of the point clouds
+    is_list: bool  # whether an address is that of a list of point clouds
+
+
+class _NoPoint(Exception):
+    """No point lies in the area, so that there is no file to keep."""
+
+
+class _Kept:
+    """The place in the cache of what an area needs of a point cloud."""
+
+    def __init__(self, cloud: Cloud, wanted: Wanted, cache: Path, transfers: Transfers) -> None:
+        self.address, self._wanted, self._transfers = cloud.address, wanted, transfers
+        area = wanted.area.key if isinstance(wanted.area, Surroundings) else ""
+        # Signatures differ from run to run, and belong into no file.
+        folder = cache / _digest(shown(cloud.address)) / _digest(f"{area} {wanted.resolution}")
+        self.waiting = folder / "parts"
+        with write_errors_told(folder):
+            folder.mkdir(parents=True, exist_ok=True)
+        self._file: RemoteFile | None = None
+        self.name = name_of(cloud.address)
+        is_certain = True
+        # One request, which tells the version.
+        if self.name.lower() == DESCRIPTION:
+            text = transfers.one(lambda: transfers.read_whole(cloud.address, _MOST_JSON))
+            version = hashlib.sha256(text).hexdigest()
+            self.name = name_of(beside(cloud.address, ""))
+        else:
+            self._file = RemoteFile(transfers, cloud.address, self.waiting)
+            version, is_certain = json.dumps(self._file.version), self._file.version.is_certain
+        self.path = folder / _digest(version) / names_of([self.name])[0]
+        if self._file is None:
+            self.path = self.path.with_name(self.path.name.replace(".copc.laz", ".laz"))
+        self.is_here = is_certain and self.path.is_file()
+
+    def part(self, progress: Progress) -> Part:
+        """Return what has to be fetched."""
+        wanted = self._wanted
+        if self._file is not None:
+            return CopcPart(self._file, wanted.area, wanted.resolution, progress)
+        place = self._transfers, self.address, self.waiting
+        return EptPart(*place, wanted.area, wanted.resolution, wanted.skips_missing, progress)
+
+    def write(self, part: Part, progress: Progress) -> int:
+        """Write what was fetched, and return the number of points."""
+        count = 0
+        with contextlib.suppress(_NoPoint), write_errors_told(self.path):
+            self.path.parent.mkdir(exist_ok=True)
+            with replacing(self.path) as temporary:
+                count = part.write(temporary, progress)
+                if not count:
+                    raise _NoPoint
+        remove_parts(self.waiting)
+        return count
+
+
+def cache_of(folder: str | Path | None) -> Path:
+    """Return the folder of the cache: the given one, that of the environment, or the user's."""
+    if folder or os.environ.get(VARIABLE):
+        return Path(folder or os.environ[VARIABLE]).expanduser().absolute()
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData/Local", "bare-earth")
+    if sys.platform == "darwin":
+        return Path.home() / "Library/Caches/bare-earth"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "bare-earth")
+
+
+def bring_here(
+    addresses: Sequence[str], wanted: Wanted, cache: Path, advice: str, progress: Progress
+) -> Here:
+    """Return files with what is wanted of addresses, fetched unless the cache has them; `advice`
+    says what to do if that is too much.
+    """
+    with Transfers(progress) as transfers:
+        progress, clouds, is_list = transfers.progress, [], False
+        for address in map(checked, addresses):
+            listed = clouds_of(address, transfers, False, _HOW)
+            is_list = is_list or [cloud.address for cloud in listed] != [address]
+            clouds += [cloud for cloud in listed if cloud.may_touch(wanted.area)]
+        kept = [_Kept(cloud, wanted, cache, transfers) for cloud in dict.fromkeys(clouds)]
+        missing = [cloud for cloud in kept if not cloud.is_here]
+        shares = progress.part(0.0, 0.1).shares(*[1.0] * len(missing))
+        planned = [(cloud, cloud.part(share)) for cloud, share in zip(missing, shares)]
+        parts = [(cloud, part) for cloud, part in planned if part.point_count]
+        if parts:
+            check_size([part for _, part in parts], wanted.most, advice, progress)
+        shares = progress.part(0.1, 0.7).shares(*(part.size for _, part in parts))
+        for (_, part), share in zip(parts, shares):
+            part.fetch(share)
+        shares = progress.part(0.7, 1.0).shares(*(part.point_count for _, part in parts))
+        for (cloud, part), share in zip(parts, shares):
+            cloud.is_here = cloud.write(part, share) > 0
+    found = [cloud for cloud in kept if cloud.is_here]
+    if not found:
+        raise nothing_there([part for _, part in planned], addresses[0])
+    for cloud in found:
+        progress.info(f"{shown(cloud.address)} is read from {cloud.path}.")
+    return Here([cloud.path for cloud in found], is_list)
+
+
+def clear(cache: Path) -> int:
+    """Remove what is kept, nothing else, and return how many bytes that were."""
+    if not cache.is_dir():
+        return 0
+    size = 0
+    for folder in cache.iterdir():
+        if _OURS.fullmatch(folder.name) and folder.is_dir() and not folder.is_symlink():
+            size += sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
+            try:
+                shutil.rmtree(folder)
+            except OSError as error:
+                raise describe_write_error(folder, error) from error
+    with contextlib.suppress(OSError):  # it holds something else
+        cache.rmdir()
+    return size
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:_DIGITS]

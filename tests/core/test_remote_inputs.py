@@ -1,0 +1,211 @@
+"""Point clouds given by their addresses: the same results as of files, fetched once."""
+
+import json
+import sys
+
+import laspy
+import numpy as np
+import pytest
+from remote_server import serving
+from runs import said
+from surveys import ORIGIN, strip, write, write_classified
+
+import bare_earth
+from bare_earth import BareEarthError
+from bare_earth.algorithms.las import copc_octree
+from bare_earth.algorithms.remote import transfers
+from bare_earth.algorithms.remote.cache import cache_of
+
+WEST, SOUTH = ORIGIN[:2]
+BOX = (WEST + 100, SOUTH + 20, WEST + 180, SOUTH + 90)
+EXTENT = ("--extent", *BOX)
+# Looks only a few metres round the area, so that a part of the file is enough.
+NEAR = {"method": "slope", "preset": "whitebox", "search_radius": 3.0}
+SECRET = "sig=s3cr3t"
+
+
+@pytest.fixture
+def server(monkeypatch, tmp_path):
+    monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
+    monkeypatch.setenv("BARE_EARTH_CACHE", str(tmp_path / "cache"))
+    with serving() as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def tiles(tmp_path_factory):
+    """Return two COPC files of many nodes, side by side."""
+    folder = tmp_path_factory.mktemp("tiles")
+    integers = strip(60_000, 600.0)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(copc_octree, "_LEAF_POINTS", 300)
+        patch.setattr(copc_octree, "_SMALL_NODE", 20)
+        for name, inside in (("west", integers[:, 0] < 30_000), ("east", integers[:, 0] >= 30_000)):
+            write(folder / "plain.las", integers[inside])
+            classes = np.full(np.count_nonzero(inside), 2, np.uint8)
+            write_classified(folder / "plain.las", folder / f"{name}.copc.laz", classes)
+    return folder / "west.copc.laz", folder / "east.copc.laz"
+
+
+def labels_in(path, box=BOX):
+    """Return coordinates and classes of the points of a file in a box, in order."""
+    las = laspy.read(path)
+    inside = (las.x >= box[0]) & (las.x <= box[2]) & (las.y >= box[1]) & (las.y <= box[3])
+    rows = np.column_stack((las.X, las.Y, las.Z, las.classification))[inside]
+    return rows[np.lexsort(rows.T)]
+
+
+def add(server, path):
+    return f"{server.add(path.name, path.read_bytes())}?{SECRET}"
+
+
+def cached(tmp_path):
+    return sorted((tmp_path / "cache").rglob("*.laz"))
+
+
+def test_a_part_gives_the_labels_of_the_whole_file(server, tiles, tmp_path):
+    here, remote = tmp_path / "here.laz", tmp_path / "remote.laz"
+    bare_earth.classify(tiles[0], here, extent=BOX, **NEAR)
+    bare_earth.classify(add(server, tiles[0]), remote, extent=BOX, **NEAR)
+    assert np.array_equal(labels_in(here), labels_in(remote)) and len(labels_in(here)) > 500
+    assert laspy.read(remote).header.point_count < laspy.read(here).header.point_count / 2
+
+
+def test_a_raster_is_that_of_the_file(server, tiles, tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    rasters = []
+    for name, source in (("here.tif", tiles[0]), ("remote.tif", add(server, tiles[0]))):
+        bare_earth.terrain(source, dtm=tmp_path / name, extent=BOX)
+        with rasterio.open(tmp_path / name) as raster:
+            rasters.append((raster.read(1), raster.transform))
+    assert np.array_equal(rasters[0][0], rasters[1][0]) and rasters[0][1] == rasters[1][1]
+
+
+def test_the_second_run_makes_one_request_with_any_signature(server, tiles, tmp_path):
+    address = add(server, tiles[0])
+    words = ("--method", "slope", "--preset", "whitebox", *EXTENT)
+    assert said("classify", address, tmp_path / "a.laz", *words)[0] == 0
+    server.asked.clear()
+    again = address.replace("s3cr3t", "0ther")
+    assert said("classify", again, tmp_path / "b.laz", *words)[0] == 0
+    assert len(server.asked) == 1
+    assert (tmp_path / "a.laz").read_bytes() == (tmp_path / "b.laz").read_bytes()
+    assert [path.name for path in cached(tmp_path)] == ["west.copc.laz"]
+
+
+def test_a_changed_object_is_fetched_anew(server, tiles, tmp_path):
+    address = add(server, tiles[0])
+    before = bare_earth.info(address)
+    server.etags[tiles[0].name] = '"another"'
+    server.files[tiles[0].name] = tiles[1].read_bytes()
+    after = bare_earth.info(address)
+    assert before.point_count == laspy.read(tiles[0]).header.point_count
+    assert after.point_count == laspy.read(tiles[1]).header.point_count
+    assert before != after
+
+
+def test_too_much_without_an_area_is_refused(server, tiles, tmp_path):
+    address = add(server, tiles[0])
+    code, _, errors = said("classify", address, tmp_path / "out.laz", "--limit", "0.00001")
+    assert code == 1 and "more than the limit of 10.0 kB" in errors
+    assert "Give an area (--extent or --boundary), or raise the limit: --limit 0.1" in errors
+    assert not cached(tmp_path) and not (tmp_path / "out.laz").exists()
+    with pytest.raises(BareEarthError, match="Fetch a part of it first"):
+        bare_earth.info(address, limit=0.00001)
+    assert said("key-points", address, tmp_path / "out.laz")[0] == 0
+
+
+def test_two_addresses_are_one_survey(server, tiles, tmp_path):
+    box = (WEST + 250, SOUTH + 20, WEST + 350, SOUTH + 90)
+    done = bare_earth.classify(tiles, tmp_path / "here", extent=box, **NEAR)
+    addresses = [add(server, path) for path in tiles]
+    again = bare_earth.classify(addresses, tmp_path / "remote", extent=box, **NEAR)
+    assert done.tile_count == again.tile_count == 2
+    for path in tiles:
+        pair = [labels_in(tmp_path / folder / path.name, box) for folder in ("here", "remote")]
+        assert np.array_equal(*pair) and len(pair[0])
+    # The files stay those of an earlier run, whatever the signature.
+    other = [address.replace("s3cr3t", "0ther") for address in addresses]
+    last = bare_earth.classify(other, tmp_path / "remote", extent=box, resume=True, **NEAR)
+    assert last.kept_count == 2
+
+
+def test_a_list_is_a_survey_of_what_lies_in_the_area(server, tiles, tmp_path):
+    items = []
+    for path, west in zip(tiles, (WEST, WEST + 300)):
+        server.add(path.name, path.read_bytes())
+        box = [west, SOUTH, west + 300, SOUTH + 130]
+        about = {"proj:bbox": box, "proj:epsg": 25832}
+        items.append({
+            "type": "Feature", "properties": about, "assets": {"data": {"href": f"./{path.name}"}}
+        })  # fmt: skip
+    content = json.dumps({"type": "FeatureCollection", "features": items}).encode()
+    address = server.add("all.vpc", content)
+    done = bare_earth.classify(address, tmp_path / "out", extent=BOX, **NEAR)
+    assert done.tile_count == 1 and (tmp_path / "out" / tiles[0].name).is_file()
+    assert {path for path, *_ in server.asked} == {"all.vpc", tiles[0].name}
+
+
+def test_secrets_are_nowhere(server, tiles, tmp_path):
+    address, said_all = add(server, tiles[0]), ""
+    table = tmp_path / "dtm.tif"
+    for words in (
+        ("classify", address, tmp_path / "out.laz", *EXTENT),
+        ("terrain", address, "--dtm", table, *EXTENT),
+        ("info", address),
+        ("info", address, "--json"),
+        ("quality", address, "--page", tmp_path / "page.html"),
+        ("classify-tiles", address, tmp_path / "out", *EXTENT),
+        ("classify", address, tmp_path / "out.laz", "--limit", "0", "--cache", tmp_path / "new"),
+    ):
+        code, *texts = said(*words, "--verbose")
+        said_all += "".join(texts)
+        assert code == ("--limit" in words), texts
+    assert "127.0.0.1" in said_all and "s3cr3t" not in said_all
+    for path in tmp_path.rglob("*"):
+        assert "s3cr3t" not in str(path)
+        assert path.is_dir() or b"s3cr3t" not in path.read_bytes()
+
+
+def test_the_cache_is_cleared_and_nothing_else(server, tiles, tmp_path):
+    bare_earth.info(add(server, tiles[0]))
+    other = tmp_path / "cache" / "mine.txt"
+    other.write_text("mine")
+    code, text, _ = said("clear-cache")
+    assert code == 0 and "kB were removed" in text and " 0.0 kB" not in text
+    assert list((tmp_path / "cache").iterdir()) == [other]
+    assert "0.0 kB were removed" in said("clear-cache", "--cache", tmp_path / "none")[1]
+
+
+def test_outputs_in_the_cache_cannot_replace_what_is_read(server, tiles, tmp_path):
+    address = add(server, tiles[0])
+    bare_earth.info(address)
+    with pytest.raises(BareEarthError, match="Input and output are the same file"):
+        bare_earth.classify(address, cached(tmp_path)[0])
+
+
+@pytest.mark.parametrize(
+    "system, variable", [("win32", "LOCALAPPDATA"), ("linux", "XDG_CACHE_HOME")]
+)
+def test_the_cache_is_where_the_system_has_caches(monkeypatch, tmp_path, system, variable):
+    monkeypatch.delenv("BARE_EARTH_CACHE", raising=False)
+    monkeypatch.setattr(sys, "platform", system)
+    monkeypatch.setenv(variable, str(tmp_path))
+    assert cache_of(None) == tmp_path / "bare-earth"
+
+
+def test_an_interrupted_run_goes_on(server, tiles, tmp_path):
+    address = add(server, tiles[0])
+    server.fault = lambda number, path: "403" if number > 1 else ""
+    with pytest.raises(BareEarthError, match="refuses"):
+        bare_earth.info(address)
+    server.fault = lambda number, path: ""
+    server.asked.clear()
+    assert bare_earth.info(address).point_count == laspy.read(tiles[0]).header.point_count
+    assert not cached(tmp_path)[0].with_name("parts").exists()
+
+
+def test_a_limit_is_a_number(server, tiles):
+    with pytest.raises(BareEarthError, match="must be a number of gigabytes, not nan"):
+        bare_earth.info(add(server, tiles[0]), limit=float("nan"))
+    assert not server.asked
