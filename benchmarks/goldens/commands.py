@@ -100,6 +100,7 @@ COMMANDS = {
     "water-classes/survey": "water-classes truth OUT/tiles --water water.geojson"
     " --shore-distance 1",
     # Parts.
+    "clear-cache": "clear-cache --cache OUT/none",
     "fetch/area": "fetch classify/key-points/a.copc.laz OUT/a.copc.laz --extent 569970 5931970"
     " 570030 5932030 --boundary boundary.geojson --json",
     # Figures.
