@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from os import PathLike
+from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Sequence
 
@@ -25,15 +26,17 @@ _SHARE = 0.5
 
 def bring_points(
     arguments: Sequence[Argument], values: SimpleNamespace, sets: Sequence[ParameterSet]
-) -> None:
-    """Put files of the cache in the place of addresses of point clouds."""
+) -> dict[Path, str]:
+    """Put files of the cache in the place of addresses of point clouds; return their paths with the
+    addresses as they are shown.
+    """
     given = {
         argument.name: _several(getattr(values, argument.name))
         for argument in arguments
         if argument.kind in (KINDS["cloud"], KINDS["clouds"])
     }
     if not any(map(_is_remote, (source for sources in given.values() for source in sources))):
-        return
+        return {}
     from ..remote.cache import bring_here, cache_of
     from ..remote.fetching import Wanted
 
@@ -46,16 +49,19 @@ def bring_points(
     if "extent" not in names:
         advice = "Fetch a part of it first, by 'bare-earth fetch' with an area"
     wanted, progress = Wanted(area, most=most * 1e9), progress_of(values.progress)
+    found: dict[Path, str] = {}
     parts = progress.part(0.0, _SHARE).shares(*[1.0] * len(given))
     for (name, sources), part in zip(given.items(), parts):
         addresses = [str(source) for source in sources if _is_remote(source)]
         if addresses:
             here = bring_here(addresses, wanted, cache_of(values.cache), advice, part)
+            found.update(here.paths)
             paths = [*here.paths, *(source for source in sources if not _is_remote(source))]
             # A list is a survey, however many of its files have points in the area.
             many = Inputs(paths, True if here.is_list else None)
             setattr(values, name, many if len(many) > 1 or many.is_survey else paths[0])
     values.progress = progress.part(_SHARE, 1.0)
+    return found
 
 
 def _several(given: Any) -> list[Any]:

@@ -61,7 +61,7 @@ class Surroundings(Area):
 class Here(NamedTuple):
     """What is on this computer of some addresses."""
 
-    paths: list[Path]  # of the point clouds
+    paths: dict[Path, str]  # of the point clouds, with their addresses as they are shown
     is_list: bool  # whether an address is that of a list of point clouds
 
 
@@ -156,9 +156,10 @@ def bring_here(
     found = [cloud for cloud in kept if cloud.is_here]
     if not found:
         raise nothing_there([part for _, part in planned], addresses[0])
-    for cloud in found:
-        progress.info(f"{shown(cloud.address)} is read from {cloud.path}.")
-    return Here([cloud.path for cloud in found], is_list)
+    paths = {cloud.path: shown(cloud.address) for cloud in found}
+    for path, address in paths.items():
+        progress.info(f"{address} is read from {path}.")
+    return Here(paths, is_list)
 
 
 def clear(cache: Path) -> int:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from remote_server import serving
 from runs import said
-from surveys import ORIGIN, strip, write, write_classified
+from surveys import ORIGIN, strip, write, write_classified, write_points
 
 import bare_earth
 from bare_earth import BareEarthError
@@ -69,6 +69,29 @@ def test_a_part_gives_the_labels_of_the_whole_file(server, tiles, tmp_path):
     bare_earth.classify(add(server, tiles[0]), remote, extent=BOX, **NEAR)
     assert np.array_equal(labels_in(here), labels_in(remote)) and len(labels_in(here)) > 500
     assert laspy.read(remote).header.point_count < laspy.read(here).header.point_count / 2
+
+
+@pytest.mark.parametrize("crs, metre", [("EPSG:25832", 1.0), ("EPSG:2230", 3937 / 1200)])
+def test_the_margin_is_in_units_of_the_points(server, tmp_path, crs, metre):
+    x, y = np.random.default_rng(1).uniform(0, 4000, (2, 20_000))
+    plain, source = tmp_path / "plain.las", tmp_path / "feet.copc.laz"
+    write_points(plain, x, y, 0.01 * x, crs=crs)
+    write_classified(plain, source, np.full(len(x), 1, np.uint8))
+    box = (WEST + 1900, SOUTH + 1900, WEST + 2100, SOUTH + 2100)
+    bare_earth.classify(add(server, source), tmp_path / "out.laz", extent=box)
+    header = laspy.read(cached(tmp_path)[0]).header
+    sides = (header.maxs - header.mins)[:2]
+    assert np.all(sides <= 200 + 2 * 180 * metre) and np.all(sides > 120 + 2 * 180 * metre)
+    here = tmp_path / "here.laz"
+    bare_earth.classify(source, here, extent=box)
+    assert np.array_equal(labels_in(here, box), labels_in(tmp_path / "out.laz", box))
+
+
+def test_a_delivery_is_made_of_an_address(server, tiles, tmp_path):
+    pytest.importorskip("rasterio")
+    code, _, errors = said("deliver", "survey", add(server, tiles[0]), tmp_path / "out", *EXTENT)
+    assert code == 0, errors
+    assert any("west" in path.name for path in (tmp_path / "out").rglob("*.laz"))
 
 
 def test_a_raster_is_that_of_the_file(server, tiles, tmp_path):
@@ -192,6 +215,13 @@ def test_the_cache_is_where_the_system_has_caches(monkeypatch, tmp_path, system,
     monkeypatch.setattr(sys, "platform", system)
     monkeypatch.setenv(variable, str(tmp_path))
     assert cache_of(None) == tmp_path / "bare-earth"
+
+
+def test_errors_name_the_address(server, tiles, tmp_path):
+    extent = WEST + 120.001, SOUTH + 20.001, WEST + 120.002, SOUTH + 20.002
+    with pytest.raises(BareEarthError) as told:
+        bare_earth.classify(add(server, tiles[0]), tmp_path / "out.laz", extent=extent)
+    assert f"No point of {server.address(tiles[0].name)} lies in the area" in str(told.value)
 
 
 def test_an_interrupted_run_goes_on(server, tiles, tmp_path):
