@@ -239,3 +239,12 @@ def test_a_limit_is_a_number(server, tiles):
     with pytest.raises(BareEarthError, match="must be a number of gigabytes, not nan"):
         bare_earth.info(add(server, tiles[0]), limit=float("nan"))
     assert not server.asked
+
+
+def test_what_has_no_version_is_fetched_each_time(server, tiles, tmp_path):
+    address = add(server, tiles[0])
+    server.etags[tiles[0].name] = 'W/"1"'
+    for _ in range(2):
+        server.asked.clear()
+        bare_earth.info(address)
+        assert len(server.asked) > 1
