@@ -95,9 +95,9 @@ def written_water(source, folder):
     return sorted(bodies, key=lambda body: -body.level)
 
 
-def overlap(bodies, away, size=(WIDE, WIDE)):
-    """Return the intersection over union of found and true water."""
-    step = size[0] / 250.0
+def overlap(bodies, away, size=(WIDE, WIDE), places=250):
+    """Return the intersection over union of found and true water, seen at so many places a side."""
+    step = size[0] / places
     x, y = np.meshgrid(*(np.arange(step / 2.0, side, step) for side in size))
     true, found = away(x, y) < 0, np.zeros(x.shape, dtype=bool)
     for body in bodies:
