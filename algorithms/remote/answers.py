@@ -140,15 +140,20 @@ def check_status(address: str, status: int, headers: Headers) -> None:
     if status in (404, 410):
         raise Missing(f"{place} does not exist (status {status}). Check the address.")
     if status == 407:
-        raise BareEarthError(
-            f"The proxy asks for a password before it lets you reach {host}. Set it in HTTPS_PROXY:"
-            " http://user:password@proxy:port."
-        )
+        raise refused_by_proxy(host)
     if not 200 <= status < 300:
         raise BareEarthError(f"{host} does not give {place} (status {status}). Check the address.")
     encoding = headers.get("Content-Encoding", "").strip().lower()
     if encoding not in ("", "identity"):
         raise _not_asked(address, f"it compressed by {encoding}, although it was asked not to")
+
+
+def refused_by_proxy(host: str) -> BareEarthError:
+    """Return the error for a proxy that wants a password."""
+    return BareEarthError(
+        f"The proxy asks for user and password before it lets you reach {host}. Set them in"
+        " HTTPS_PROXY, with a colon between them and @ before the proxy."
+    )
 
 
 def changed(address: str) -> BareEarthError:

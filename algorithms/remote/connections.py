@@ -21,7 +21,16 @@ from urllib.parse import SplitResult, unquote, urljoin, urlsplit, urlunsplit
 from ..core.errors import BareEarthError
 from ..core.version import __version__
 from .addresses import checked, host_of, shown
-from .answers import REDIRECTS, Headers, State, Unfinished, check_range, check_whole, range_of
+from .answers import (
+    REDIRECTS,
+    Headers,
+    State,
+    Unfinished,
+    check_range,
+    check_whole,
+    range_of,
+    refused_by_proxy,
+)
 
 # Seconds without a byte after which a connection is given up.
 _TIMEOUT = 30.0
@@ -278,8 +287,5 @@ def _errors_told(host: str) -> Iterator[None]:
     except OSError as error:
         reason = error.strerror or "the connection broke"
         if "Tunnel connection failed: 407" in str(error):
-            raise BareEarthError(
-                f"The proxy asks for user and password before it lets you reach {host}. Set them in"
-                " HTTPS_PROXY, with a colon between them and @ before the proxy."
-            ) from error
+            raise refused_by_proxy(host) from error
         raise Unfinished(reason[:1].lower() + reason[1:]) from error
