@@ -21,7 +21,7 @@ from ..core.threads import SharedThreads
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
-from ..survey.window import may_touch, read_window
+from ..survey.window import may_touch, parts_in_window, read_window
 from .block_grid import BlockIndex, code, memory_of
 from .blocks import Block
 from .disk_store import DiskStore
@@ -101,8 +101,10 @@ class BlockJob(Job):
         """Return the bytes of memory that it takes at most, as far as is known before."""
         return min(memory_of(self.output.grid, self.count), resources.bytes)
 
-    def clouds(self, progress: Progress) -> Iterator[PointCloud]:
-        """Yield the points of each file that the blocks need, with what was found before."""
+    def clouds(self, store: MemoryStore | DiskStore, progress: Progress) -> Iterator[PointCloud]:
+        """Yield the points of each file that the blocks need, with what was found before; part by
+        part if they are to wait on disk.
+        """
         grid = self.output.grid
         window = grid.window(self.output.files)
         for source, part in zip(self.sources, progress.shares(*[1.0] * len(self.sources))):
@@ -116,15 +118,21 @@ class BlockJob(Job):
                 if self.before and source not in self.finished:
                     values = [BlockValues(found, las, are_all=False) for found in self.before]
                     change = partial(applied, values)
-                cloud = read_window(las, window, part.quiet(), trust_header=True, change=change)
+                # Parts that are stored cannot be left out again: only what was decompressed once,
+                # and so is sound, is stored part by part.
+                is_sound = las.unpacked is not None or not las.is_compressed
+                if isinstance(store, DiskStore) and is_sound:
+                    clouds = parts_in_window(las, window, part.quiet(), change)
+                else:
+                    whole = read_window(las, window, part.quiet(), trust_header=True, change=change)
+                    clouds = iter([whole])
             except BareEarthError as error:
                 progress.warning(
                     f"{source.name} is left out: the results beside it are made without its"
                     f" points. {error}"
                 )
                 continue
-            if cloud.count:
-                yield cloud
+            yield from (cloud for cloud in clouds if cloud.count)
 
     @contextlib.contextmanager
     def store(self, share: Share) -> Iterator[MemoryStore | DiskStore]:
@@ -148,7 +156,7 @@ class PointJob(BlockJob):
         grid, files = self.output.grid, self.output.files
         counts, failure, has_work = grid.step.counts(), "", False
         with self.store(share) as store:
-            for cloud in self.clouds(progress.part(0.0, 0.3)):
+            for cloud in self.clouds(store, progress.part(0.0, 0.3)):
                 codes = grid.codes(cloud)
                 blocks = np.zeros(cloud.count, dtype=np.uint8)
                 for number, place in enumerate(files, start=1):
@@ -167,10 +175,11 @@ class PointJob(BlockJob):
                     failure = str(error)
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
             for number, place in enumerate(files, start=1):
-                of_files = {}
+                found: dict[Path, list[np.ndarray]] = {path: [] for path, _ in parts}
                 for which, (path, blocks) in enumerate(parts):
                     values = store.values(which)[blocks == number]
-                    of_files[path] = np.zeros_like(values) if failure else values
+                    found[path].append(np.zeros_like(values) if failure else values)
+                of_files = {path: np.concatenate(some) for path, some in found.items()}
                 self.output.write(place, of_files, failure)
 
 
@@ -184,7 +193,7 @@ class SinkJob(BlockJob):
         counts = step.counts()
         found: dict[BlockIndex, list[Any]] = {place: [] for place in files}
         with self.store(share) as store:
-            for cloud in self.clouds(progress.part(0.0, 0.5)):
+            for cloud in self.clouds(store, progress.part(0.0, 0.5)):
                 marks = step.marks(cloud, counts)
                 has_points |= bool(marks.selected.any())
                 store.append(cloud, marks)

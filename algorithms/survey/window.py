@@ -36,19 +36,31 @@ def read_window(
     """
     # Of a COPC file only the nodes of its octree that touch the rectangle are read, unless the
     # octree is damaged. LAS and LAZ files are read completely, part by part.
-    west, south, east, north = map(float, box)
-    area = Area(box=(west, south, east, north))
-    layout = open_las(path)
+    area, layout = _area_of(box), open_las(path)
     require_packages(layout)
     if layout.is_copc and layout.unpacked is None and change is None:
         try:
-            return _joined(layout, area, _in_nodes(layout, area, progress, times), progress.quiet())
+            parts = _in_nodes(layout, area, progress, times)
+            return _joined(layout, _chosen(layout, area, parts), progress.quiet())
         except OctreeError as error:
             progress.warning(f"{error} The whole file is read instead, which takes longer.")
-    parts: Iterator[PointCloud] = iter(())
+    parts = iter(())
     if not trust_header or may_touch(layout, box):
         parts = _in_file(layout, progress, times, change)
-    return _joined(layout, area, parts, progress)
+    return _joined(layout, _chosen(layout, area, parts), progress)
+
+
+def parts_in_window(
+    layout: LasFile, box: Box, progress: Progress = SILENT, change: Change | None = None
+) -> Iterator[PointCloud]:
+    """Yield the same points of any file in parts of which each fits into memory."""
+    for part in _chosen(layout, _area_of(box), _in_file(layout, progress, False, change)):
+        yield replace(part, scanner_channel=None)
+
+
+def _area_of(box: Box) -> Area:
+    west, south, east, north = map(float, box)
+    return Area(box=(west, south, east, north))
 
 
 def _in_nodes(layout: LasFile, area: Area, progress: Progress, times: bool) -> Iterator[PointCloud]:
@@ -109,16 +121,18 @@ def _inside(layout: LasFile, area: Area, x: np.ndarray, y: np.ndarray) -> np.nda
     return area.contains(x * east + x0, y * north + y0)
 
 
-def _joined(
-    layout: LasFile, area: Area, parts: Iterator[PointCloud], progress: Progress
-) -> PointCloud:
-    """Return the points of parts that lie in an area, without what only writing needs."""
-    kept = []
+def _chosen(layout: LasFile, area: Area, parts: Iterator[PointCloud]) -> Iterator[PointCloud]:
+    """Yield the points of parts that lie in an area."""
     for part in parts:
         corners = np.array([part.lowest, part.highest]).T if part.count else np.zeros((2, 0))
         if not _inside(layout, area, *corners).all():
             part = part.take(np.flatnonzero(_inside(layout, area, part.x, part.y)))
-        kept.append(part)
+        yield part
+
+
+def _joined(layout: LasFile, parts: Iterator[PointCloud], progress: Progress) -> PointCloud:
+    """Return the points of parts, without what only writing needs."""
+    kept = list(parts)
     if not kept:
         names = columns_of(layout)
         empty: dict[str, np.ndarray] = {

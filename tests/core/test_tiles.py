@@ -34,6 +34,7 @@ from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
 from bare_earth.algorithms.engine.blocks import Blocks
+from bare_earth.algorithms.engine.disk_store import DiskStore
 from bare_earth.algorithms.engine.jobs import PointJob
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.options import TileOutput
@@ -165,8 +166,17 @@ def test_tiles_larger_than_memory_give_the_same_bytes(tmp_path, out, monkeypatch
     cut(tmp_path / "in", strip(60_000, 400.0, 200.0), 6)
     classify(tmp_path / "in", tmp_path / "much")
     monkeypatch.setattr(reading_module, "_CHUNK", 2000)
+    counts, append = [], DiskStore.append
+
+    def noting(store, part, marks):
+        counts.append(part.count)
+        append(store, part, marks)
+
+    monkeypatch.setattr(DiskStore, "append", noting)
     classify(tmp_path / "in", out, threads=2, memory=0.001)
     assert bytes_of(out) == bytes_of(tmp_path / "much")
+    # No file need be in memory as a whole.
+    assert counts and max(counts) <= 2000
 
 
 def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
