@@ -136,10 +136,18 @@ def test_a_file_that_is_replaced_meanwhile_is_refused(server, tmp_path, fault):
 
 def test_a_run_goes_on_where_it_stopped(server, tmp_path):
     address = server.add("a", DATA)
-    server.fault = lambda number, path: "400" if number == 3 else ""
+
+    def refuse_last(number, path):
+        if number < 3:
+            return ""
+        time.sleep(0.3)  # until the others are there
+        return "400"
+
+    server.fault = refuse_last
     with pytest.raises(BareEarthError, match="status 400"):
         fetched(f"{address}?sig=first", tmp_path / "parts")
     server.asked.clear()
+    server.fault = lambda number, path: ""
     assert fetched(f"{address}?sig=second", tmp_path / "parts")[0] == wanted()
     ranges = [headers for _, headers, _, _ in server.asked]
     assert 2 <= len(ranges) <= 3 and ranges[0] == "bytes=0-65535"

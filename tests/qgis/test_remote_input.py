@@ -167,4 +167,4 @@ def test_a_new_dialog_shows_the_extent_of_the_map(registry, monkeypatch):
         assert wrappers["ADDRESS"].parameterValue() == "https://example.org/a.copc.laz"
     finally:
         remove(dialog)
-        canvas.deleteLater()
+        remove(canvas)
