@@ -24,7 +24,7 @@ from ..las.reading import read_cloud, read_parts
 from ..las.records import needed
 from ..las.unpacked import has_room, unpack
 from ..las.writing import layers_kept, write_changed
-from ..survey.point_counts import PointCounts, by_class, count_classes
+from ..survey.point_counts import by_class, count_classes
 from ..survey.shapes import Place
 from .disk_store import DiskStore, ValuesOnDisk
 from .memory import GIGABYTE, GivingBack, Resources
@@ -114,10 +114,8 @@ class FilePoints:
     def place(self) -> Place:
         """Where the points lie."""
         if self.is_in_memory:
-            counts = PointCounts()
-            if self.count:
-                counts.see(self.cloud)
-            return Place(str(self.path), self.cloud.crs, counts.bounds)
+            box = self.cloud.box if self.count else None
+            return Place(str(self.path), self.cloud.crs, box)
         las = self.file
         # The header of one file can be wrong: without a sound extent nothing is refused.
         return Place(str(self.path), read_crs(las), las.outer_box if las.states_extent else None)

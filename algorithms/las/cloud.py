@@ -10,7 +10,7 @@ from typing import Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from ..core.points import Frame, Points
+from ..core.points import Box, Frame, Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
 from ..crs.measurable import require_measurable
@@ -156,6 +156,13 @@ class PointCloud:
 
         over_parts(convert, length, _POINTS_A_PART, SILENT)
         return metres
+
+    @property
+    def box(self) -> Box:
+        """Smallest x and y, largest x and y, in units of the CRS; there must be a point."""
+        (east, north, _), (x0, y0, _) = self.scale, self.offset
+        (west, south), (right, top) = self.lowest, self.highest
+        return west * east + x0, south * north + y0, right * east + x0, top * north + y0
 
     def bounds(self, frame: Frame) -> tuple[float, float, float, float]:
         """Return smallest x and y, largest x and y in metres of a frame, as in `points`."""

@@ -51,7 +51,7 @@ from .given import (
     progress_of,
     target_of,
 )
-from .points import box_of, cloud_of, with_ground
+from .points import cloud_of, with_ground
 from .rasters import Collected, Raster
 from .tools import arguments_of
 
@@ -244,9 +244,8 @@ class _CloudGround(SurveyGround):
     """The ground points of a cloud in memory."""
 
     def __init__(self, cloud: PointCloud, ground: GroundClasses) -> None:
-        box = box_of(cloud)
-        tile = SimpleNamespace(path=cloud.path, count=cloud.count, outer_box=box)
-        survey: Any = SimpleNamespace(crs=cloud.crs, tiles=(tile,), box=box)
+        tile = SimpleNamespace(path=cloud.path, count=cloud.count, outer_box=cloud.box)
+        survey: Any = SimpleNamespace(crs=cloud.crs, tiles=(tile,), box=cloud.box)
         super().__init__(survey, ground)
         self._cloud = cloud
 

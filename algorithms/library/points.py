@@ -77,7 +77,7 @@ def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud
             setattr(cloud, field, _attribute(name, getattr(values, name), cloud.count))
     if not cloud.count:
         raise BareEarthError("There are no points: x, y and z are empty.")
-    require_measurable("The cloud", cloud.crs, box_of(cloud))
+    require_measurable("The cloud", cloud.crs, cloud.box)
     return count_from_one(cloud)
 
 
@@ -301,10 +301,3 @@ def _crs_of(given: Any, progress: Progress) -> Crs:
     """Return the CRS of arrays; metres if none is given."""
     text = stated_wkt(_crs_text(given))
     return (crs_of_wkt(text, progress) if text else None) or Crs()
-
-
-def box_of(cloud: PointCloud) -> tuple[float, float, float, float]:
-    """Return the smallest x and y, and the largest, in units of the CRS."""
-    (east, north, _), (x, y, _) = cloud.scale, cloud.offset
-    (west, south), (right, top) = cloud.lowest, cloud.highest
-    return west * east + x, south * north + y, right * east + x, top * north + y

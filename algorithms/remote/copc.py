@@ -42,6 +42,7 @@ from ..las.records import named
 from ..las.sources import FileState
 from ..survey.area import Area
 from ..survey.shapes import Outside, Place
+from ..survey.window import are_inside
 from .files import Range, RangeFile
 
 SUFFIX = ".copc.laz"
@@ -187,12 +188,8 @@ class CopcPart:
         """Return which points lie in the area."""
         if self.area is None:
             return np.ones(len(records), dtype=bool)
-        points, layout = named(self.layout, records), self.layout
-        x, y = (
-            np.asarray(points[name]) * layout.scale[axis] + layout.offset[axis]
-            for axis, name in enumerate("XY")
-        )
-        return self.area.contains(x, y)
+        points = named(self.layout, records)
+        return are_inside(self.layout, self.area, points["X"], points["Y"])
 
 
 def area_of(area: Area | None, place: Place, progress: Progress = SILENT) -> Area | None:

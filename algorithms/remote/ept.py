@@ -39,6 +39,7 @@ from ..las.sources import open_source
 from ..las.writing import write_changed
 from ..survey.area import Area
 from ..survey.shapes import Place
+from ..survey.window import are_inside
 from .addresses import beside, is_address, name_of, shown
 from .answers import Missing
 from .copc import EVERYWHERE, area_of, levels_of
@@ -275,11 +276,8 @@ class EptPart:
         """Return which points lie in the area."""
         if self.area is None:
             return np.ones(len(records), dtype=bool)
-        x, y = (
-            column(records, 4 * axis, "<i4") * tile.scale[axis] + tile.offset[axis]
-            for axis in (0, 1)
-        )
-        return self.area.contains(x, y)
+        x, y = (column(records, 4 * axis, "<i4") for axis in (0, 1))
+        return are_inside(tile, self.area, x, y)
 
     def _whole(self, name: str, most: int) -> bytes:
         """Return a file of the data set."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..core.points import Box
+from ..core.points import Box, box_round
 from ..core.threads import parts_of
 from ..las.cloud import PointCloud
 
@@ -51,12 +51,8 @@ class PointCounts:
 
     def see(self, part: PointCloud) -> None:
         """Extend the bounds by the points of a part."""
-        scale, offset = np.array(part.scale[:2]), np.array(part.offset[:2])
-        low, high = part.lowest * scale + offset, part.highest * scale + offset
-        if self.bounds is not None:
-            low, high = np.minimum(low, self.bounds[:2]), np.maximum(high, self.bounds[2:])
-        (west, south), (east, north) = low.tolist(), high.tolist()
-        self.bounds = west, south, east, north
+        boxes = [part.box] if self.bounds is None else [part.box, self.bounds]
+        self.bounds = box_round(np.array(boxes))
 
     def add_counts(self, **masks: np.ndarray) -> None:
         """Count the points of masks named as the attributes."""

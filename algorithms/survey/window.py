@@ -36,7 +36,7 @@ def read_window(
     """
     # Of a COPC file only the nodes of its octree that touch the rectangle are read, unless the
     # octree is damaged. LAS and LAZ files are read completely, part by part.
-    area, layout = _area_of(box), open_las(path)
+    area, layout = Area(box=box), open_las(path)
     require_packages(layout)
     if layout.is_copc and layout.unpacked is None and change is None:
         try:
@@ -54,13 +54,8 @@ def parts_in_window(
     layout: LasFile, box: Box, progress: Progress = SILENT, change: Change | None = None
 ) -> Iterator[PointCloud]:
     """Yield the same points of any file in parts of which each fits into memory."""
-    for part in _chosen(layout, _area_of(box), _in_file(layout, progress, False, change)):
+    for part in _chosen(layout, Area(box=box), _in_file(layout, progress, False, change)):
         yield replace(part, scanner_channel=None)
-
-
-def _area_of(box: Box) -> Area:
-    west, south, east, north = map(float, box)
-    return Area(box=(west, south, east, north))
 
 
 def _in_nodes(layout: LasFile, area: Area, progress: Progress, times: bool) -> Iterator[PointCloud]:
@@ -115,7 +110,7 @@ def may_touch(layout: LasFile, box: Box) -> bool:
     return not is_one or Area(box=box).may_touch(layout.outer_box)
 
 
-def _inside(layout: LasFile, area: Area, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def are_inside(layout: LasFile, area: Area, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return which places, as integers of a file, lie in an area."""
     (east, north, _), (x0, y0, _) = layout.scale, layout.offset
     return area.contains(x * east + x0, y * north + y0)
@@ -125,8 +120,8 @@ def _chosen(layout: LasFile, area: Area, parts: Iterator[PointCloud]) -> Iterato
     """Yield the points of parts that lie in an area."""
     for part in parts:
         corners = np.array([part.lowest, part.highest]).T if part.count else np.zeros((2, 0))
-        if not _inside(layout, area, *corners).all():
-            part = part.take(np.flatnonzero(_inside(layout, area, part.x, part.y)))
+        if not are_inside(layout, area, *corners).all():
+            part = part.take(np.flatnonzero(are_inside(layout, area, part.x, part.y)))
         yield part
 
 
