@@ -10,7 +10,7 @@ import time
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Iterator, NamedTuple
+from typing import Any, Callable, Iterable, Iterator, NamedTuple
 
 import numpy as np
 
@@ -153,34 +153,50 @@ class PointJob(BlockJob):
         """Do it."""
         # Files, and for each of their points the number of its block, from 1 on, or 0.
         parts: list[tuple[Path, np.ndarray]] = []
-        grid, files = self.output.grid, self.output.files
-        counts, failure, has_work = grid.step.counts(), "", False
         with self.store(share) as store:
-            for cloud in self.clouds(store, progress.part(0.0, 0.3)):
-                codes = grid.codes(cloud)
-                blocks = np.zeros(cloud.count, dtype=np.uint8)
-                for number, place in enumerate(files, start=1):
-                    blocks[codes == code(place)] = number
-                marks, wanted = grid.step.marks(cloud, counts), blocks > 0
-                if marks.wanted is not None:
-                    wanted &= marks.wanted
-                has_work |= bool((wanted & marks.selected).any())
-                store.append(cloud, marks._replace(wanted=wanted))
-                parts.append((cloud.path, blocks))
-            store.finish(progress.part(0.3, 0.35))
-            if has_work:
-                try:
-                    grid.step.work(store, share.resources, progress.part(0.35, 0.95))
-                except BareEarthError as error:
-                    failure = str(error)
+            failure = self.find(
+                self.clouds(store, progress.part(0.0, 0.3)), store, share.resources,
+                progress.part(0.3, 0.95), lambda cloud, blocks: parts.append((cloud.path, blocks)),
+            )  # fmt: skip
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
-            for number, place in enumerate(files, start=1):
+            for number, place in enumerate(self.output.files, start=1):
                 found: dict[Path, list[np.ndarray]] = {path: [] for path, _ in parts}
                 for which, (path, blocks) in enumerate(parts):
                     values = store.values(which)[blocks == number]
                     found[path].append(np.zeros_like(values) if failure else values)
                 of_files = {path: np.concatenate(some) for path, some in found.items()}
                 self.output.write(place, of_files, failure)
+
+    def find(
+        self,
+        clouds: Iterable[PointCloud],
+        store: MemoryStore | DiskStore,
+        resources: Resources,
+        progress: Progress,
+        keep: Callable[[PointCloud, np.ndarray], None],
+    ) -> str:
+        """Find the values of points in a store, and return why there are none, if so; `keep` gets
+        the points of each file, and the numbers of their blocks.
+        """
+        grid, counts, has_work = self.output.grid, self.output.grid.step.counts(), False
+        for cloud in clouds:
+            codes = grid.codes(cloud)
+            blocks = np.zeros(cloud.count, dtype=np.uint8)
+            for number, place in enumerate(self.output.files, start=1):
+                blocks[codes == code(place)] = number
+            marks, wanted = grid.step.marks(cloud, counts), blocks > 0
+            if marks.wanted is not None:
+                wanted &= marks.wanted
+            has_work |= bool((wanted & marks.selected).any())
+            store.append(cloud, marks._replace(wanted=wanted))
+            keep(cloud, blocks)
+        store.finish(progress.part(0.0, 0.08))
+        if has_work:
+            try:
+                grid.step.work(store, resources, progress.part(0.08, 1.0))
+            except BareEarthError as error:
+                return str(error)
+        return ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,24 +205,36 @@ class SinkJob(BlockJob):
 
     def run(self, share: Share, progress: Progress) -> None:
         """Do it."""
-        step, files, has_points = self.output.grid.step, self.output.files, False
-        counts = step.counts()
-        found: dict[BlockIndex, list[Any]] = {place: [] for place in files}
         with self.store(share) as store:
-            for cloud in self.clouds(store, progress.part(0.0, 0.5)):
-                marks = step.marks(cloud, counts)
-                has_points |= bool(marks.selected.any())
-                store.append(cloud, marks)
-            store.finish(progress.part(0.5, 0.6))
-            if has_points:
-                rest = progress.part(0.6, 0.95)
-                for block, result in step.work(store, share.resources, rest, self._is_wanted):
-                    found[self._place(block)].append(result)
+            clouds = self.clouds(store, progress.part(0.0, 0.5))
+            found = self.find(clouds, store, share.resources, progress.part(0.5, 0.95))
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
             # Results may still wait in the store.
-            for place, file in files.items():
+            for place, file in self.output.files.items():
                 with replacing(file) as temporary, temporary.open("wb") as stream:
-                    step.save(found[place], stream)
+                    self.output.grid.step.save(found[place], stream)
+
+    def find(
+        self,
+        clouds: Iterable[PointCloud],
+        store: MemoryStore | DiskStore,
+        resources: Resources,
+        progress: Progress,
+    ) -> dict[BlockIndex, list[Any]]:
+        """Return the results of the blocks, or of their parts, of points in a store."""
+        step, has_points = self.output.grid.step, False
+        counts = step.counts()
+        found: dict[BlockIndex, list[Any]] = {place: [] for place in self.output.files}
+        for cloud in clouds:
+            marks = step.marks(cloud, counts)
+            has_points |= bool(marks.selected.any())
+            store.append(cloud, marks)
+        store.finish(progress.part(0.0, 0.2))
+        if has_points:
+            rest = progress.part(0.2, 1.0)
+            for block, result in step.work(store, resources, rest, self._is_wanted):
+                found[self._place(block)].append(result)
+        return found
 
     def _is_wanted(self, block: Block) -> bool:
         """Return whether a block, or a part of one, is one of this job."""
