@@ -65,12 +65,15 @@ class QgisReader(WebReader):
             self._running.add(loop)
         direct = Qt.ConnectionType.DirectConnection
         reply = QgsNetworkAccessManager.instance(direct).get(request)
+        # A server that knows no ranges sends the whole file, which would fill the memory.
+        reply.setReadBufferSize(most + 1)
         try:
             reply.finished.connect(loop.quit)
-            # A server that knows no ranges sends the whole file, which would fill the memory.
-            reply.downloadProgress.connect(
-                lambda received, size: loop.quit() if max(received, size) > most else None
+            length = QNetworkRequest.KnownHeaders.ContentLengthHeader
+            reply.metaDataChanged.connect(
+                lambda: loop.quit() if (reply.header(length) or 0) > most else None
             )
+            reply.readyRead.connect(lambda: loop.quit() if reply.bytesAvailable() > most else None)
             if not reply.isFinished():
                 loop.exec()
             return self._answer(reply, check)
