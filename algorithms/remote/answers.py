@@ -45,6 +45,10 @@ class Missing(BareEarthError):
     """The server does not have the file, or does not say whether it has it."""
 
 
+class Expired(BareEarthError):
+    """The signature in an address is not, or no longer, valid."""
+
+
 class State(NamedTuple):
     """What shows whether a remote file has changed."""
 
@@ -127,9 +131,10 @@ def check_status(address: str, status: int, headers: Headers) -> None:
     host, place = host_of(address), shown(address)
     if status in _AGAIN:
         raise Unfinished(f"it answers with status {status}", _pause(headers.get("Retry-After", "")))
-    if status in (401, 403):
+    # Azure answers with 409 where nothing can be read without a signature.
+    if status in (401, 403, 409):
         if _SIGNED.search(address):
-            raise BareEarthError(
+            raise Expired(
                 f"{host} refuses {place} (status {status}): the signature in the address is wrong"
                 " or has expired. Get a new address, and run it again."
             )

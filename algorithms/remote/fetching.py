@@ -91,7 +91,7 @@ def fetch(
     with write_errors_told(waiting):
         make_work_folder(waiting)
     try:
-        with Transfers(progress) as transfers:
+        with Transfers(progress, wanted.follows) as transfers:
             progress = transfers.progress
             parts = _found(address, transfers, waiting, wanted, progress.part(0.0, 0.1))
             if len(parts) > 1 and target.suffix:

@@ -12,15 +12,18 @@ from urllib.parse import urlsplit
 from ..core.errors import BareEarthError
 from ..core.progress import PassingOn, Progress
 from .addresses import STORES, host_of
-from .answers import State, Unfinished
+from .answers import Expired, Missing, State, Unfinished
 from .connections import HttpReader
 from .object_stores import StoreReader
+from .signing import Signatures
 
 _Result = TypeVar("_Result")
 
 # Servers allow about six connections.
 _THREADS = 6
 _ATTEMPTS = 6
+# An address gets a signature so many times: one that comes may have expired already.
+_SIGNED = 2
 # Seconds before the second attempt, doubled before each further one, and the most that a server may
 # ask for.
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.25, 120.0
@@ -92,11 +95,12 @@ class _Latest(PassingOn):
 
 
 class Transfers:
-    """Requests of a run, which end with the block."""
+    """Requests of a run, which end with the block; `signs` if others may be asked for signatures."""
 
-    def __init__(self, progress: Progress) -> None:
+    def __init__(self, progress: Progress, signs: bool = False) -> None:
         self.progress = _Latest(progress)
         self._web, self._stores = _READERS[0](), StoreReader()
+        self._signatures = Signatures(self.read_whole, signs)
         self._stopped = threading.Event()
         self._threads: list[threading.Thread] = []
         self.files = contextlib.ExitStack()  # which end with the block, too
@@ -127,12 +131,12 @@ class Transfers:
     def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
         """Return bytes of a file, of the known version of it, in as many attempts as it takes."""
         reader = self._reader(address)
-        return self._patiently(address, lambda: reader.read(address, start, stop, known))
+        return self._patiently(address, lambda place: reader.read(place, start, stop, known))
 
     def read_whole(self, address: str, most: int) -> bytes:
         """Return a whole file of at most so many bytes."""
         reader = self._reader(address)
-        return self._patiently(address, lambda: reader.read_whole(address, most))
+        return self._patiently(address, lambda place: reader.read_whole(place, most))
 
     def run(
         self,
@@ -182,9 +186,9 @@ class Transfers:
 
     def _tell(self, progress: Progress | None, share: float) -> None:
         """Tell what is done, which also notices a cancel, and what the user should know."""
-        for reader in (self._web, self._stores):
-            while reader.notes:
-                self.progress.warning(reader.notes.pop(0))
+        for source in (self._web, self._stores, self._signatures):
+            while source.notes:
+                self.progress.warning(source.notes.pop(0))
         if progress is None:
             self.progress(self.progress.share)
         else:
@@ -193,15 +197,21 @@ class Transfers:
     def _reader(self, address: str) -> Reader:
         return self._stores if urlsplit(address).scheme.lower() in STORES else self._web
 
-    def _patiently(self, address: str, ask: Callable[[], _Result]) -> _Result:
+    def _patiently(self, address: str, ask: Callable[[str], _Result]) -> _Result:
         """Ask until there is an answer, at most some times."""
-        host, attempt = host_of(address), 0
+        host, attempt, signed = host_of(address), 0, 0
+        place = self._signatures.signed(address)
         while True:
             self._stopped.wait(_PACE.pause(host))
             if self._stopped.is_set():
                 raise Unfinished("cancelled")
             try:
-                return ask()
+                return ask(place)
+            except (Missing, Expired) as error:
+                signed += 1
+                if signed > _SIGNED:
+                    raise
+                place = self._signatures.sign(address, place, error)
             except Unfinished as error:
                 attempt += not error.is_stale
                 pause = error.pause or _FIRST_PAUSE * 2 ** (attempt - 1)
