@@ -30,8 +30,9 @@ def checked(address: str) -> str:
             f"{shown(address)} cannot be fetched. Give an address that begins with https://, http://,"
             " s3://, gs:// or az://."
         )
+    is_web = scheme[1].lower() in WEB  # the names of objects in stores are as they stand
     try:
-        parts = urlsplit(quote(address.strip(), safe=_SAFE))
+        parts = urlsplit(quote(address.strip(), safe=_SAFE) if is_web else address.strip())
         parts.port  # noqa: B018  a ValueError if it is no number
     except ValueError:
         parts = urlsplit("")
@@ -80,4 +81,6 @@ def referred(base: str, reference: str) -> str:
     """Return the address that a document at `base` refers to."""
     if not is_address(base) or is_address(reference) or urlsplit(base).scheme in WEB:
         return urljoin(base, reference)
-    return beside(base, reference)  # urljoin knows no stores
+    # urljoin knows no stores, and their objects no "." and "..".
+    path = urljoin(quote(urlsplit(base).path), reference)
+    return urlunsplit(urlsplit(base)._replace(path=unquote(path)))

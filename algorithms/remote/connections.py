@@ -1,7 +1,7 @@
 """Asks servers by http and https: one attempt at a time, with connections that are kept.
 
-Certificates are those of the system, proxies those of the environment or of the settings of the
-system.
+Certificates are those of the system or of SSL_CERT_FILE, proxies those of the environment or of the
+settings of the system.
 """
 
 from __future__ import annotations
@@ -276,7 +276,8 @@ def _errors_told(host: str) -> Iterator[None]:
     except ssl.SSLCertVerificationError as error:
         raise BareEarthError(
             f"The certificate of {host} is not valid for this computer ({error.verify_message})."
-            " Check the address and the date of the computer, or ask who runs the network."
+            " Check the address and the date of the computer, or ask who runs the network for the"
+            " file with its certificates, and name it in SSL_CERT_FILE."
         ) from error
     except socket.gaierror as error:
         raise Unfinished(f"no server of this name is found ({error.strerror})") from error

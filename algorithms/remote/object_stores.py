@@ -10,9 +10,12 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from ..core.errors import BareEarthError
-from .addresses import shown
+from .addresses import host_of, shown
 from .answers import Missing, State, Unfinished, changed
 
+# Options of stores, of which the next are tried where the ones before may not read: wrong keys, or
+# none, must not hide public objects of s3.
+_OPTIONS: dict[str, list[dict[str, Any]]] = {"s3": [{}, {"anon": True}]}
 _PACKAGES = {"s3": "s3fs", "gs": "gcsfs", "az": "adlfs", "abfs": "adlfs"}
 
 
@@ -22,6 +25,7 @@ class StoreReader:
     def __init__(self) -> None:
         self.requests = self.received = 0
         self.notes: list[str] = []
+        self._options: dict[str, dict[str, Any]] = {}  # that work, by scheme and bucket
         self._lock = threading.Lock()
 
     def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
@@ -56,30 +60,45 @@ class StoreReader:
         return State(int(found["size"]), str(etag), str(modified or ""))
 
     def _ask(self, address: str, name: str, **options: Any) -> Any:
-        """Call a function of the file system of a store, and tell its errors in a sentence."""
+        """Call a function of the file system of a store."""
         scheme = urlsplit(address).scheme.lower()
+        place = f"{scheme}://{host_of(address)}"
+        known = self._options.get(place)
+        for used in _OPTIONS.get(scheme, [{}]) if known is None else [known]:
+            try:
+                found = self._call(scheme, used, name, address, options)
+            except PermissionError:
+                continue
+            with self._lock:
+                if used and place not in self._options:
+                    self.notes.append(f"{place} is read without keys.")
+                self._options[place] = used
+                self.received += len(found) if isinstance(found, bytes) else 0
+            return found
+        raise Missing(
+            f"You may not read {shown(address)}. Check the address and the keys of the store."
+        )
+
+    def _call(
+        self, scheme: str, used: dict[str, Any], name: str, address: str, options: dict[str, Any]
+    ) -> Any:
+        """Call a function of a file system, and tell its errors; `PermissionError` without keys."""
+        with self._lock:
+            self.requests += 1
         try:
             import fsspec
 
-            store = fsspec.filesystem(scheme)
+            return getattr(fsspec.filesystem(scheme, **used), name)(address, **options)
         except ImportError as error:
             raise BareEarthError(
                 f"{shown(address)} needs fsspec and {_PACKAGES[scheme]}: pip install fsspec"
                 f" {_PACKAGES[scheme]}, or give an address that begins with https://."
             ) from error
-        with self._lock:
-            self.requests += 1
-        try:
-            found = getattr(store, name)(address, **options)
         except FileNotFoundError as error:
             raise Missing(f"{shown(address)} does not exist. Check the address.") from error
-        except PermissionError as error:
-            raise Missing(
-                f"You may not read {shown(address)}. Check the address and the keys of the store."
-            ) from error
-        except (OSError, TimeoutError) as error:
+        except PermissionError:
+            raise
+        except Exception as error:  # each store has its own
+            if "Credentials" in type(error).__name__:
+                raise PermissionError from error
             raise Unfinished(type(error).__name__) from error
-        if isinstance(found, bytes):
-            with self._lock:
-                self.received += len(found)
-        return found

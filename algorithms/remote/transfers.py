@@ -95,7 +95,7 @@ class _Latest(PassingOn):
 
 
 class Transfers:
-    """Requests of a run, which end with the block; `signs` if others may be asked for signatures."""
+    """Requests of a run, which end with the block; `signs` if it may ask for signatures."""
 
     def __init__(self, progress: Progress, signs: bool = False) -> None:
         self.progress = _Latest(progress)

@@ -11,7 +11,7 @@ import time
 class Server:
     """Serves bytes by path; `fault` says what is wrong with an answer to a path, by number."""
 
-    def __init__(self):
+    def __init__(self, secured=None):
         self.files, self.etags, self.asked = {}, {}, []
         self.fault = lambda number, path: ""
         self.latency, self.sent = 0.0, 0
@@ -21,11 +21,15 @@ class Server:
         self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
         self._server.daemon_threads = True
         self._server.handle_error = lambda request, address: None  # the tests end connections
+        self.scheme = "http" if secured is None else "https"
+        if secured is not None:
+            # Not for the listening socket, whose thread a client without an answer would stop.
+            self._server.get_request = lambda: _secured(self._server.socket.accept(), secured)
         self.port = self._server.server_address[1]
         threading.Thread(target=self._server.serve_forever, args=(0.02,), daemon=True).start()
 
     def address(self, path, host="127.0.0.1"):
-        return f"http://{host}:{self.port}/{path}"
+        return f"{self.scheme}://{host}:{self.port}/{path}"
 
     def add(self, path, data):
         self.files[path] = data
@@ -38,9 +42,16 @@ class Server:
         self._server.server_close()
 
 
+def _secured(accepted, context):
+    """Return a connection by TLS, which begins when the first byte is read."""
+    connection, address = accepted
+    return context.wrap_socket(connection, server_side=True, do_handshake_on_connect=False), address
+
+
 @contextlib.contextmanager
-def serving():
-    server = Server()
+def serving(secured=None):
+    """Run a server, by https if an `SSLContext` is given."""
+    server = Server(secured)
     try:
         yield server
     finally:

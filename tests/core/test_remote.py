@@ -278,7 +278,7 @@ class Store:
 def test_objects_of_stores_are_checked_as_well(tmp_path, monkeypatch, fault, words):
     fsspec = pytest.importorskip("fsspec")
     store = Store(fault)
-    monkeypatch.setattr(fsspec, "filesystem", lambda scheme: store)
+    monkeypatch.setattr(fsspec, "filesystem", lambda scheme, **options: store)
     if words is None:
         assert fetched("s3://bucket/a", tmp_path / "parts")[0] == wanted()
         return
