@@ -64,10 +64,12 @@ class StoreReader:
         scheme = urlsplit(address).scheme.lower()
         place = f"{scheme}://{host_of(address)}"
         known = self._options.get(place)
+        refusal: Exception | None = None
         for used in _OPTIONS.get(scheme, [{}]) if known is None else [known]:
             try:
                 found = self._call(scheme, used, name, address, options)
-            except PermissionError:
+            except PermissionError as error:
+                refusal = error
                 continue
             with self._lock:
                 if used and place not in self._options:
@@ -77,7 +79,7 @@ class StoreReader:
             return found
         raise Missing(
             f"You may not read {shown(address)}. Check the address and the keys of the store."
-        )
+        ) from refusal
 
     def _call(
         self, scheme: str, used: dict[str, Any], name: str, address: str, options: dict[str, Any]
