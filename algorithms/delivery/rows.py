@@ -12,7 +12,6 @@ from ..core.files import make_work_folder, split_name
 from ..core.parameters import ParameterSet
 from ..core.progress import Progress
 from ..core.temporary import patiently, remove
-from ..crs.stated import stated_wkt
 from ..engine.manifest import folders_of
 from ..engine.options import TileOutput
 from ..engine.unpacking import Unpacking
@@ -93,8 +92,8 @@ class DeliveryJob(Job):
         progress.
         """
         if self.sources.opened is None:
-            stated, part = stated_wkt(self.known["crs"]), progress.part(0.0, 0.1)
-            survey = open_survey(self.sources, progress=part, stated=stated)
+            part = progress.part(0.0, 0.1)
+            survey = open_survey(self.sources.read_as(self.known["crs"]), part)
             unpacking = Unpacking(self.unpacked, is_whole=True)
             shares = part.shares(*(tile.count for tile in survey.tiles))
             tiles = (unpacking.of(tile, share) for tile, share in zip(survey.tiles, shares))
@@ -173,7 +172,7 @@ def _find_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
     """Find the water."""
     ground, how = job.set_of(GroundClasses), job.set_of(Water)
     sources, progress = job.opened(progress)
-    water, job.summary.water = found_water(sources, ground, job.known["crs"], progress, how)
+    water, job.summary.water = found_water(sources, ground, progress, how)
     if water.bodies:
         job.found = water
         job.known["constraints"] = job.own.with_water(water.constraints, progress)

@@ -14,7 +14,6 @@ from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, PassingOn, Progress
 from ..core.temporary import remove
 from ..core.version import __version__
-from ..crs.stated import stated_wkt
 from ..engine.options import TileInput
 from ..engine.workers import Workers
 from ..survey.files import Inputs, Sources, open_survey
@@ -124,9 +123,8 @@ def _opened(
     files: Inputs, sets: Sequence[ParameterSet], inputs: Mapping[str, Any], progress: Progress
 ) -> Inputs:
     """Return the files with what they hold; refuse now what would fail after hours."""
-    stated, reading = stated_wkt(inputs["crs"]), progress.part(0.0, 0.01)
-    recursive = any(isinstance(values, TileInput) and values.recursive for values in sets)
-    survey = open_survey(files, recursive, reading, stated)
+    files = files.read_as(inputs["crs"], TileInput.among(sets).recursive)
+    survey = open_survey(files, progress.part(0.0, 0.01))
     if inputs["checkpoints"] is not None:
         inputs["checkpoints"].located(survey.place, progress)
     return files.holding(survey)

@@ -10,11 +10,10 @@ from ..core.progress import Progress
 from ..core.threads import import_early, may_use
 from ..las.cloud import survey_frame
 from ..las.crs_records import read_crs
-from ..las.lasfile import LasFile
-from ..las.opening import open_las
+from ..survey.files import Inputs
 from ..survey.shapes import Place
 from .file_points import FilePoints, TileResult, copies_all_else
-from .options import RunOptions
+from .memory import Resources
 from .step import PointStep, Step, located
 from .store import Store
 from .values import PointValues, StoreValues, with_values
@@ -25,15 +24,15 @@ _READING, _BEFORE_WRITING = 1.5, 0.92
 
 def work_on_file(
     steps: Sequence[Step],
-    source: Path | LasFile,
+    inputs: Inputs,
     target: Path | None,
-    options: RunOptions,
+    resources: Resources,
     progress: Progress,
 ) -> Any:
     """Let steps work on a LAS, LAZ or COPC file, and write its points with what they found, and
     nothing else changed; all outputs or none.
     """
-    las, resources = open_las(source, options.stated), options.resources.now()
+    las, resources = inputs.open_file(), resources.now()
     place = Place(str(las.path), read_crs(las), las.outer_box if las.states_extent else None)
     steps = [step.placed(place, progress) for step in steps]
     import_early(*(name for step in steps for name in step.imports))

@@ -9,6 +9,7 @@ from typing import Any, Callable, Mapping, NamedTuple, Sequence
 from ..core.parameters import ParameterSet
 from ..core.progress import Progress
 from ..engine.step import PointStep, Step
+from ..survey.files import Inputs
 from ..survey.ground_classes import GroundClasses
 
 # Search words of the toolbox that several tools share; each text is translated as a whole.
@@ -35,7 +36,7 @@ class Input:
     # same, in a dialog a file or a folder;
     # "address": of a remote file, or a path (text);
     # "raster": a file with a band of heights (its path, or another name that GDAL knows);
-    # "crs": the CRS of the points, if the user states it (text);
+    # "crs": the CRS of the points, if the user states it (text; "clouds" know it);
     # "area" (an `Area`) and "polygons" (what `of` makes): of tools for points only;
     # "extent": a rectangle in the CRS of the points (a `Box`);
     # "checkpoints": a layer or a table of points (`Checkpoints`);
@@ -54,8 +55,8 @@ class Input:
     advanced: bool = False
     is_last: bool = False  # whether the field is below the parameters
     # Finds the value in place of `ToFind`, where the user gives no polygons, or the word automatic:
-    # given files, which of their points are ground, their CRS if it is stated, and the progress.
-    found: Callable[[Sequence[Path], GroundClasses, str | None, Progress], Any] | None = None
+    # given files, which of their points are ground, and the progress.
+    found: Callable[[Inputs, GroundClasses, Progress], Any] | None = None
 
     @property
     def field_name(self) -> str:
