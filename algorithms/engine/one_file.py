@@ -9,12 +9,10 @@ from ..core.files import Outputs
 from ..core.progress import Progress
 from ..core.threads import import_early, may_use
 from ..las.cloud import survey_frame
-from ..las.crs_records import read_crs
 from ..survey.files import Inputs
-from ..survey.shapes import Place
 from .file_points import FilePoints, TileResult, copies_all_else
 from .memory import Resources
-from .step import PointStep, Step, located
+from .step import PointStep, Step, placed
 from .store import Store
 from .values import PointValues, StoreValues, with_values
 
@@ -33,8 +31,6 @@ def work_on_file(
     nothing else changed; all outputs or none.
     """
     las, resources = inputs.open_file(), resources.now()
-    place = Place(str(las.path), read_crs(las), las.outer_box if las.states_extent else None)
-    steps = [step.placed(place, progress) for step in steps]
     import_early(*(name for step in steps for name in step.imports))
     for_points = [step for step in steps if isinstance(step, PointStep)]
     beside = target or next(path for step in steps for _, path in step.outputs(is_survey=False))
@@ -66,7 +62,7 @@ class FileRun:
         progress: Progress,
         outputs: Outputs | None = None,
     ) -> None:
-        self.steps: list[Any] = located(steps, points.place, progress)  # in the CRS of the points
+        self.steps: list[Any] = placed(steps, points.place, progress)
         self.counts = [step.counts() for step in self.steps]  # by the steps, among the points
         self.points, self.outputs = points, outputs or Outputs()
         self.told: list[Any] = []  # what `finish` of the steps returned

@@ -20,7 +20,7 @@ from .manifest import folders_of, remove_record
 from .options import TileOutput
 from .plan import Plan
 from .sinks import run_sink
-from .step import PointStep, Step, located
+from .step import PointStep, Step, placed
 from .summary import JobCost, SurveySummary
 from .targets import check_own, check_survey, targets_of
 from .unpacking import Unpacking
@@ -64,7 +64,7 @@ def _work_sinks(steps: Sequence[Any], inputs: Inputs, progress: Progress, worker
     told, parts = None, progress.part(0.05, 1.0).shares(*(step.weight for step in steps))
     with temporary_folder(own[0][1].parent) as working:
         unpacking = _unpacking(working, survey, workers, is_whole=False)
-        for step, part in zip(located(steps, survey.place, progress), parts):
+        for step, part in zip(placed(steps, survey.place, progress), parts):
             told = run_sink(survey, working, step, workers, part, unpacking=unpacking)
     return told
 
@@ -106,12 +106,11 @@ class _SurveyRun:
         self._survey = survey = open_survey(inputs, progress.part(0.0, 0.02))
         check_survey(survey, self._folder, self._vpc, inputs if inputs.recursive else [])
         count = len(self._steps)
-        steps = located([*self._steps, *self._sinks], survey.place, progress)
+        steps = placed([*self._steps, *self._sinks], survey.place, progress)
         self._steps, self._sinks = steps[:count], steps[count:]
         self._steps[0].check_survey(survey.box)
         self._targets = targets_of(survey, self._folder, self._output.format)
         for step in self._sinks:
-            step.placed(survey.place)
             others = self._vpc, *self._targets, *self._targets.values()
             check_own(step.outputs(is_survey=True), survey, others, self._folder)
         self._inputs = {tile.path.name: tile.path for tile in survey.tiles}

@@ -213,8 +213,7 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
     step = _RastersInMemory(**{one.name: getattr(made, one.name) for one in fields(made)})
     cloud, resources = _cloud(values, sets, progress), Resources.among(sets).now()
     with may_use(resources.thread_count):
-        points = FilePoints(cloud, resources)
-        run = FileRun(points, [step.placed(points.place, progress)], progress)
+        run = FileRun(FilePoints(cloud, resources), [step], progress)
         run.work(progress)
     (rasters,) = run.told
     return {name: rasters[name] for name in names}
