@@ -74,9 +74,11 @@ class DeliveryJob(Job):
             "classes of water": content.water,
             "key points": options.key_points,
             "buildings": content.with_buildings,
-            "contours": content.contours,
             "check": options.hold_out_share or inputs["checkpoints"],
         }
+        if content.contour_metres is not None:
+            factor = 1.0 if self.survey.crs.vertical_unit == 1.0 else _FEET_A_METRE
+            values["contour_interval"] = content.contour_metres * factor
         super().__init__(sources, sets, values, {**inputs, **wanted}, summary, workers)
         self.known["roads"] = self.set_of(Selection).roads
         if not wanted["find water"]:
@@ -126,7 +128,7 @@ def _ending_of_features() -> str:
 
 def rows_of(content: Delivery) -> tuple[Row, ...]:
     """Return the rows of a delivery."""
-    rasters = {name: name for name in content.rasters}
+    drawn = {name: name for name in (*content.rasters, *["contours"] * content.contours)}
     on_ground = {name: name for name in ("roads", "constraints", "area", "raster_target")}
     quality = {"page": "quality", **({"folder": QUALITY} if content.quality else {})}
     checked = {"report": "accuracy", "table": "checkpoints", "residuals": "checkpoints"}
@@ -138,12 +140,10 @@ def rows_of(content: Delivery) -> tuple[Row, ...]:
             work=_change),
         Row("key points", "key-points", 2.0, ("key points",), work=_change),
         Row("quality", "quality", 2.0, (), {}, quality, work=_measure),
-        Row("rasters", "terrain", 2.0 + 0.4 * len(rasters), (), on_ground, rasters),
+        Row("rasters", "terrain", 2.0 + 0.4 * len(drawn), (), on_ground, drawn, work=_draw),
         Row("rasters", "terrain", 1.0, ("buildings",), on_ground, {"dsm": WITH_BUILDINGS},
             work=_draw_buildings),
         Row("rasters", "water", 0.3, ("water lines",), work=_write_water),
-        Row("contour lines", "contours", 0.3, ("contours",), {"source": "dtm"},
-            {"output": "contours"}, "interval", _draw_contours),
         Row("accuracy", "check", 1.5, ("check",), {"checkpoints": "checkpoints", "dtm": "dtm"},
             checked, "check"),
     )  # fmt: skip
@@ -224,6 +224,11 @@ def _measure(job: DeliveryJob, row: Row, progress: Progress) -> None:
     summary.cell_text = units.length(model.cells(units.horizontal).metres)
 
 
+def _draw(job: DeliveryJob, row: Row, progress: Progress) -> None:
+    """Make the rasters and the contour lines."""
+    job.summary.interval = job.run(row, progress).drawn.get("contours")
+
+
 def _draw_buildings(job: DeliveryJob, row: Row, progress: Progress) -> None:
     """Make a surface of the terrain and the buildings."""
     ground, edge = job.set_of(GroundClasses), job.set_of(SurfaceModel).max_edge
@@ -249,14 +254,6 @@ def _write_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
     polygons = job.place("features", "water") if water.bodies else None
     lines = job.place("features", "breaklines") if any(True for _ in water.lines()) else None
     water.write(polygons, lines, progress)
-
-
-def _draw_contours(job: DeliveryJob, row: Row, progress: Progress) -> Any:
-    """Draw contour lines."""
-    metres, unit = job.content.contour_metres, job.survey.crs.vertical_unit
-    if metres is not None:
-        job.values["contour_interval"] = metres * (1.0 if unit == 1.0 else _FEET_A_METRE)
-    return job.run(row, progress)
 
 
 def _files_of(done: Any) -> list[Path]:

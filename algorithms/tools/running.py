@@ -57,24 +57,26 @@ def _run_on_points(
     points = Inputs(inputs["input"]).read_as(inputs.get("crs"), TileInput.among(sets).recursive)
     check_outputs(_kinds(tool, points, outputs), points)
     given, progress = _with_found(tool, {**inputs, "input": points}, sets, progress)
-    drawn = [one for one in tool.all_outputs if one.drawn_by and one.name in outputs]
+    drawn = [output for output in tool.all_outputs if output.drawn_by and output.name in outputs]
     working, *drawing = progress.shares(9.0, *(1.0 for _ in drawn)) if drawn else [progress]
     with contextlib.ExitStack() as folders:
-        own = dict(outputs)
-        for one in drawn:
+        own, told = dict(outputs), {}
+        for output in drawn:
             # If nobody asks for what it is drawn of, that is a temporary file.
-            folder = folders.enter_context(temporary_folder(own.pop(one.name).parent))
-            own.setdefault(one.drawn_of, folder / f"{one.drawn_of}.tif")
+            folder = folders.enter_context(temporary_folder(own.pop(output.name).parent))
+            own.setdefault(output.drawn_of, folder / f"{output.drawn_of}.tif")
         steps = tool.steps(sets, given, own)
         work = Run(steps, TileOutput.among(sets), Resources.among(sets))
         done = work.work(points, own.get("output"), working, workers, own.get("vpc"))
-        written = [output for step in steps for output in step.outputs(points.is_survey)]
-        for one, part in zip(drawn, drawing):
-            source = own[one.drawn_of]
+        written = [raster for step in steps for raster in step.outputs(points.is_survey)]
+        for output, part in zip(drawn, drawing):
+            source, target = own[output.drawn_of], {"output": outputs[output.name]}
             if ("raster set", source) in written:
                 source = virtual_of(source)
-            target = {"output": outputs[one.name]}
-            _run_on_files(file_tool(one.drawn_by), {"source": source}, target, sets, part)
+            drawing_tool = file_tool(output.drawn_by)
+            told[output.name] = _run_on_files(drawing_tool, {"source": source}, target, sets, part)
+    if told:
+        object.__setattr__(done, "drawn", told)  # it is a frozen dataclass
     return done
 
 
