@@ -37,8 +37,8 @@ from ..tools.water.finding import Water
 from ..tools.water_classes import WaterClasses
 from .deliveries import WITH_BUILDINGS, Delivery
 from .folder import POINTS, QUALITY
+from .job import DeliveryJob
 from .pictures import picture_of
-from .rows import DeliveryJob
 from .summary import DeliverySummary
 
 _MOST_ROWS = 200

@@ -20,8 +20,9 @@ from ..survey.files import Inputs, Sources, open_survey
 from ..tools import POINT_TOOLS
 from .deliveries import DELIVERIES
 from .folder import PAGE, DeliveryFolder
+from .job import DeliveryJob
 from .page import delivery_html, settings_of
-from .rows import DeliveryJob, rows_of
+from .rows import rows_of
 from .summary import DeliverySummary
 
 
