@@ -39,10 +39,9 @@ class Input:
     # "crs": the CRS of the points, if the user states it (text; "clouds" know it);
     # "area" (an `Area`) and "polygons" (what `of` makes): of tools for points only;
     # "extent": a rectangle in the CRS of the points (a `Box`);
-    # "checkpoints": a layer or a table of points (`Checkpoints`);
     # "words": several words (a tuple of text);
-    # of a `MapTool` only: "constraints" (polygons and "lines"), "corrections" and "target" (the
-    # grid of the rasters).
+    # "checkpoints", "constraints", "corrections" and "target": see `input_groups.py`, whose parts
+    # can be "points", "lines", "attribute" and "text", too.
     kind: str
     # Makes the value of the field of a step from polygons, or from a raster and the progress.
     of: Callable[..., Any] = lambda value, *progress: value

@@ -1,31 +1,18 @@
-"""Fields for layers that change the terrain: breaklines, water, rivers, places without ground."""
+"""Layers that change the terrain: breaklines, water, rivers, places without ground."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from qgis.core import (
-    QgsProcessingAlgorithm,
-    QgsProcessingContext,
-    QgsProcessingParameterFeatureSource,
-)
+from qgis.core import QgsProcessingAlgorithm, QgsProcessingContext
 
 from ...algorithms.core.progress import Progress
-from ...algorithms.tools.rasters.constraints import INPUTS, Constraints
+from ...algorithms.tools.input_groups import GROUPS
+from ...algorithms.tools.rasters.constraints import Constraints
 from .. import compat
 from .inputs import CloudCrs, layer_shapes
 
 _KINDS = {"lines": compat.LINES, "polygons": compat.POLYGONS}
-
-
-def add_constraints(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the fields of the layers to a dialog, as advanced parameters."""
-    for given in INPUTS:
-        field = QgsProcessingParameterFeatureSource(
-            given.field_name, given.label, [_KINDS[given.kind]], None, True
-        )
-        field.setFlags(field.flags() | compat.ADVANCED)
-        algorithm.addParameter(field, given.field_help)
 
 
 def constraints_of(
@@ -39,7 +26,7 @@ def constraints_of(
     layers in the command line.
     """
     shapes: dict[str, Any] = {}
-    for given in INPUTS:
+    for given in GROUPS["constraints"]:
         name, kind = given.field_name, _KINDS[given.kind]
         if not compat.is_empty(parameters.get(name)):
             found = layer_shapes(algorithm, parameters, name, given.label, context, crs, kind)

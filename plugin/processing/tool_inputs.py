@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Callable, Mapping, NamedTuple
@@ -11,20 +12,23 @@ from qgis.core import (
     QgsProcessingParameterDefinition,
     QgsProcessingParameterExtent,
     QgsProcessingParameterFeatureSource,
+    QgsProcessingParameterField,
     QgsProcessingParameterRasterLayer,
     QgsProcessingParameterString,
 )
 
 from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.remote.addresses import shown
+from ...algorithms.survey.corrections import CLASS_FIELD
 from ...algorithms.tools.declaration import Input, ToFind
+from ...algorithms.tools.input_groups import GROUPS
 from .. import compat
 from ..i18n import mark
 from .area import HELPS, add_area, area_in_own_crs, area_of, area_options, target_options
 from .base import BareEarthAlgorithm
-from .checkpoints import add_checkpoints, checkpoints_of
-from .constraints import add_constraints, constraints_of
-from .corrections import add_corrections, corrections_of
+from .checkpoints import checkpoints_of
+from .constraints import constraints_of
+from .corrections import corrections_of
 from .inputs import (
     ANY_CLOUD_HELP,
     CLOUD_HELP,
@@ -42,7 +46,7 @@ from .inputs import (
     source_path,
     survey_of,
 )
-from .raster_target import add_raster_target, raster_target_of
+from .raster_target import raster_target_of
 from .remote import ADDRESS_HELP, RemoteInput, extent_of_map, remote_of
 from .stated_crs import add_crs
 
@@ -53,6 +57,12 @@ _NO_FILES = {
     "confidence": mark("The confidence is not a file. Export it as GeoTIFF first."),
 }
 _NO_FILE = mark("{} is not a file. Export it as GeoTIFF first.")
+_LAYERS = {"points": compat.POINTS, "lines": compat.LINES, "polygons": compat.POLYGONS}
+# Default and layer of the fields for attributes.
+_ATTRIBUTES = {
+    "CORRECTIONS_FIELD": (CLASS_FIELD, "CORRECTIONS"), "Z_FIELD": (None, "CHECKPOINTS"),
+    "COVER_FIELD": (None, "CHECKPOINTS"), "NAME_FIELD": (None, "CHECKPOINTS"),
+}  # fmt: skip
 
 
 class Given(NamedTuple):
@@ -90,8 +100,10 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         shown_box = extent_of_map() if algorithm.reads_addresses else None
         add_area(algorithm, advanced, HELPS.get(declared.help, {}), shown_box)
         return
-    if declared.kind == "checkpoints":
-        add_checkpoints(algorithm, declared.advanced)
+    if declared.kind in GROUPS:
+        for part in GROUPS[declared.kind]:
+            if part.label:
+                add_input(algorithm, replace(part, advanced=part.advanced or declared.advanced))
         return
     makers: dict[str, Callable[[], QgsProcessingParameterDefinition]] = {
         "cloud": lambda: PointCloudInput(name, label),
@@ -100,12 +112,16 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         "raster": lambda: QgsProcessingParameterRasterLayer(name, label, None, declared.optional),
         "extent": lambda: QgsProcessingParameterExtent(name, label, None, True),
         "words": lambda: QgsProcessingParameterString(name, label, None, False, True),
-        "polygons": lambda: QgsProcessingParameterFeatureSource(
-            name, label, [compat.POLYGONS], None, True
+        "attribute": lambda: QgsProcessingParameterField(
+            name, label, *_ATTRIBUTES[name], optional=True
         ),
     }
     helps = {"cloud": CLOUD_HELP, "clouds": ANY_CLOUD_HELP, "address": ADDRESS_HELP}
-    field = makers[declared.kind]()
+    if declared.kind in _LAYERS:
+        kinds = [_LAYERS[declared.kind]]
+        field = QgsProcessingParameterFeatureSource(name, label, kinds, None, True)
+    else:
+        field = makers[declared.kind]()
     if declared.advanced:
         field.setFlags(field.flags() | compat.ADVANCED)
     algorithm.addParameter(field, declared.field_help or helps.get(declared.kind, ""))
@@ -234,5 +250,4 @@ _READERS: dict[str, Callable[[Request, Input], Given]] = {
 # Inputs with fields of their own.
 _GROUPS: dict[str, Callable[[BareEarthAlgorithm], None]] = {
     "crs": add_crs, "files": add_clouds, "survey": add_survey,
-    "target": add_raster_target, "corrections": add_corrections, "constraints": add_constraints,
 }  # fmt: skip
