@@ -128,14 +128,12 @@ def of_group(kind: str) -> tuple[Argument, ...]:
     )
 
 
-TARGET, CONSTRAINTS, CHECKPOINTS = map(of_group, ("target", "constraints", "checkpoints"))
-(CORRECTIONS,) = of_group("corrections")
 # Constraints of functions that find the water themselves where it is automatic.
 WITH_AUTOMATIC_WATER = tuple(
     replace(argument, help=f"{argument.help}; the word automatic: the water is found first")
     if argument.name == "water"
     else argument
-    for argument in CONSTRAINTS
+    for argument in of_group("constraints")
 )
 
 

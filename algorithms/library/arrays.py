@@ -142,7 +142,7 @@ def _of_classes(
         _POINTS,
         (
             *_ATTRIBUTES, *arguments.area("classify only points in", "; points nearby help"),
-            arguments.CORRECTIONS, *_LAST,
+            *arguments.of_group("corrections"), *_LAST,
         ),
         (Selection, Resources),
         run,
@@ -230,8 +230,8 @@ def _of_terrain() -> Function:
         _POINTS,
         (
             Argument("rasters", kind, f"which rasters to make. {kinds}", ("dtm",)),
-            _GROUND, *_ATTRIBUTES, *arguments.TARGET, *arguments.area("make the rasters only in"),
-            *arguments.CONSTRAINTS, *_LAST,
+            _GROUND, *_ATTRIBUTES, *arguments.of_group("target"),
+            *arguments.area("make the rasters only in"), *arguments.of_group("constraints"), *_LAST,
         ),
         (GroundClasses, ArrayTerrain, SurfaceModel, Resources),
         _terrain,
@@ -281,7 +281,7 @@ def _of_check() -> Function:
         " are those of check() for a file with the same points.",
         _POINTS,
         (
-            _GROUND, *_ATTRIBUTES, *arguments.CHECKPOINTS,
+            _GROUND, *_ATTRIBUTES, *arguments.of_group("checkpoints"),
             Argument.of("vegetated", "words", vegetated), *_LAST,
         ),
         (Accuracy, CheckOptions, GroundClasses),

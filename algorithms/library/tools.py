@@ -26,6 +26,7 @@ from ..tools import (
     point_tool,
 )
 from ..tools.declaration import FileTool, Input, Output, ToFind, Tool
+from ..tools.input_groups import GROUPS
 from . import arguments, tool_commands
 from .arguments import REQUIRED, Argument
 from .functions import Function
@@ -129,14 +130,9 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
     """Return the arguments for an input of a tool."""
     if declared.kind == "area":
         return arguments.area(declared.help, declared.more)
-    if declared.kind == "checkpoints":
-        return arguments.CHECKPOINTS
-    if declared.kind == "corrections":
-        return (arguments.CORRECTIONS,)
-    if declared.kind == "constraints":
-        return arguments.WITH_AUTOMATIC_WATER if declared.found else arguments.CONSTRAINTS
-    if declared.kind == "target":
-        return arguments.TARGET
+    if declared.kind in GROUPS:
+        with_water = arguments.WITH_AUTOMATIC_WATER
+        return with_water if declared.found else arguments.of_group(declared.kind)
     if declared.kind == "crs":
         return (arguments.CRS,)
     if declared.kind == "clouds":

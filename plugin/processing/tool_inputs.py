@@ -18,17 +18,18 @@ from qgis.core import (
 )
 
 from ...algorithms.core.progress import SILENT, Progress
+from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.remote.addresses import shown
-from ...algorithms.survey.corrections import CLASS_FIELD
+from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
 from ...algorithms.tools.declaration import Input, ToFind
 from ...algorithms.tools.input_groups import GROUPS
+from ...algorithms.tools.rasters.constraints import Constraints
 from .. import compat
 from ..i18n import mark
-from .area import HELPS, add_area, area_in_own_crs, area_of, area_options, target_options
+from .area import HELPS, add_area, area_in_own_crs, area_of, area_options
 from .base import BareEarthAlgorithm
 from .checkpoints import checkpoints_of
-from .constraints import constraints_of
-from .corrections import corrections_of
+from .feedback import Refusal
 from .inputs import (
     ANY_CLOUD_HELP,
     CLOUD_HELP,
@@ -40,13 +41,13 @@ from .inputs import (
     box_of,
     clouds_of,
     layer_polygons,
+    layer_shapes,
     name_of,
     names_of,
     raster_of,
     source_path,
     survey_of,
 )
-from .raster_target import raster_target_of
 from .remote import ADDRESS_HELP, RemoteInput, extent_of_map, remote_of
 from .stated_crs import add_crs
 
@@ -166,18 +167,50 @@ def _area(request: Request, declared: Input) -> Given:
 
 def _target(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, _ = request
-    target = raster_target_of(algorithm, parameters, context, _crs_of(request))
-    return Given(target, target_options(target))
+    like = extent = None
+    if not compat.is_empty(parameters.get("LIKE")):
+        text = mark("The raster with the grid to use is not a file. Export it as GeoTIFF first.")
+        like = raster_of(algorithm, parameters, "LIKE", context, text).source()
+    if not compat.is_empty(parameters.get("RASTER_EXTENT")):
+        extent = box_of(algorithm, parameters, "RASTER_EXTENT", context, _crs_of(request))
+    options = {"like": like, "raster-extent": extent and tuple(map(repr, extent))}
+    return Given(RasterTarget(like, extent), options)
 
 
 def _corrections(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, progress = request
-    return Given(corrections_of(algorithm, parameters, context, _crs_of(request), progress))
+    if request.is_empty(declared):
+        return Given(NO_CORRECTIONS)
+    layer = declared.field_name
+    name = algorithm.parameterAsString(parameters, "CORRECTIONS_FIELD", context) or CLASS_FIELD
+    source = algorithm.parameterAsSource(parameters, layer, context)
+    if source is not None and source.fields().lookupField(name) < 0:
+        text = mark("The corrections have no attribute {}. Choose the one to use.")
+        raise Refusal(text, name)
+    progress.info(
+        "In the command line the corrections are missing: save them in the CRS of the points as"
+        f' corrections.geojson, their class as the attribute "{CLASS_FIELD}", and add --corrections'
+        " corrections.geojson."
+    )
+    field = algorithm, parameters, layer, "Corrections", context, _crs_of(request)
+    return Given(Corrections(*zip(*layer_shapes(*field, attribute=name))))
 
 
 def _constraints(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, progress = request
-    return Given(constraints_of(algorithm, parameters, context, _crs_of(request), progress))
+    shapes: dict[str, Any] = {}
+    for part in GROUPS[declared.kind]:
+        if not request.is_empty(part):
+            field = algorithm, parameters, part.field_name, part.label, context, _crs_of(request)
+            found = layer_shapes(*field, _LAYERS[part.kind])
+            shapes[part.name] = tuple(corners for corners, _ in found)
+    if shapes:
+        names = [name.replace("_", "-") for name in shapes]
+        progress.info(
+            "In the command line some layers are missing: save each in the CRS of the points as"
+            f" GeoJSON, and add {' '.join(f'--{name} {name}.geojson' for name in names)}."
+        )
+    return Given(Constraints(**shapes))
 
 
 def _crs_of(request: Request) -> CloudCrs:
