@@ -9,7 +9,9 @@ from ..core.files import Outputs
 from ..core.progress import Progress
 from ..core.threads import import_early, may_use
 from ..las.cloud import survey_frame
+from ..las.crs_records import read_crs
 from ..survey.files import Inputs
+from ..survey.shapes import Place
 from .file_points import FilePoints, TileResult, copies_all_else
 from .memory import Resources
 from .step import PointStep, Step, placed
@@ -31,6 +33,9 @@ def work_on_file(
     nothing else changed; all outputs or none.
     """
     las, resources = inputs.open_file(), resources.now()
+    place = Place(str(las.path), read_crs(las), las.outer_box if las.states_extent else None)
+    for step in steps:
+        step.placed(place)  # refuses, before any reading, what the header shows to be unsuitable
     import_early(*(name for step in steps for name in step.imports))
     for_points = [step for step in steps if isinstance(step, PointStep)]
     beside = target or next(path for step in steps for _, path in step.outputs(is_survey=False))
