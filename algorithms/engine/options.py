@@ -12,9 +12,7 @@ class TileInput(ParameterSet):
     """Which files are used."""
 
     recursive: bool = parameter(
-        False,
-        label="Include subfolders",
-        help="Searches each folder with all its subfolders.",
+        False, label="Include subfolders", help="Searches each folder with all its subfolders."
     )
 
 

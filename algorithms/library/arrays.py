@@ -81,9 +81,7 @@ _ATTRIBUTES = (
     _array("in_overlap", "which points lie in the overlap of flight strips", _FLAGS),
 )
 _GROUND = _array(
-    "ground",
-    "which points are ground, as ground() returns them, in place of their classes",
-    _FLAGS,
+    "ground", "which points are ground, as ground() returns them, in place of their classes", _FLAGS
 )
 _CRS = Argument(
     "crs",

@@ -100,10 +100,7 @@ def _of_file_tool(command: str) -> Function:
         command.replace("-", "_"),
         _about(FILE_TOOLS[command].help, tool.command_about),
         tuple(argument for argument in given if argument.default is REQUIRED),
-        (
-            *(argument for argument in given if argument.default is not REQUIRED),
-            arguments.PROGRESS,
-        ),
+        (*(argument for argument in given if argument.default is not REQUIRED), arguments.PROGRESS),
         tool.sets,
         run,
         _result_of(tool),

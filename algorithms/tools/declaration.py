@@ -196,10 +196,7 @@ class PointTool(Tool):
         return (Output("output", "cloud", _CLOUD_HELP, label, text, is_main=True),)
 
     def steps(
-        self,
-        sets: Sequence[ParameterSet],
-        inputs: Mapping[str, Any],
-        outputs: Mapping[str, Path],
+        self, sets: Sequence[ParameterSet], inputs: Mapping[str, Any], outputs: Mapping[str, Path]
     ) -> tuple[Step, ...]:
         """Return its step, given its sets, and inputs and outputs by their names."""
         names = {type(default): name for name, default in vars(self.step()).items()}

@@ -93,10 +93,7 @@ def _kinds(tool: Tool, points: Inputs, outputs: Mapping[str, Path]) -> Iterator[
 
 
 def _with_found(
-    tool: Tool,
-    inputs: dict[str, Any],
-    sets: Sequence[ParameterSet],
-    progress: Progress,
+    tool: Tool, inputs: dict[str, Any], sets: Sequence[ParameterSet], progress: Progress
 ) -> tuple[dict[str, Any], Progress]:
     """Return the inputs with those that are found first, and what is left of the progress."""
     # To find them can take minutes.

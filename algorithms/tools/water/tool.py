@@ -169,10 +169,7 @@ def water_of(
 
 
 def found_water(
-    sources: Inputs,
-    ground: GroundClasses,
-    progress: Progress,
-    how: Water = Water(),
+    sources: Inputs, ground: GroundClasses, progress: Progress, how: Water = Water()
 ) -> tuple[SurveyWater, WaterSummary]:
     """Find the water for what is made of classified files, and tell what was found."""
     water, summary = water_of(sources, how, ground, progress)
