@@ -54,15 +54,15 @@ def deliver(
         summary = DeliverySummary(
             str(place.path), delivery, str(place.path / PAGE), warnings=messages.warnings
         )
-        made = DeliveryFolder(working), place, unpacked
+        folders = DeliveryFolder(working), place, unpacked
         content = DELIVERIES[delivery]
-        job = DeliveryJob(content, files, sets, inputs, summary, *made, workers)
+        job = DeliveryJob(content, files, sets, inputs, summary, *folders, workers)
         summary.seconds = job.seconds
         try:
             job.work(rows_of(content), messages.part(0.01, 0.97))
         except BareEarthError as error:
             raise BareEarthError(str(error).replace(str(working), str(place.path))) from error
-        remove(made[0].waiting)
+        remove(folders[0].waiting)
         page = delivery_html(job, working)
         (working / PAGE).write_text(page, encoding="utf-8")
         shown = {"cloud": summary.cloud, **summary.layers}

@@ -207,8 +207,8 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
         "area": area_of(values), "constraints": constraints_of(values),
         "raster_target": target_of(values),
     }  # fmt: skip
-    made: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]
-    step = _RastersInMemory(**{one.name: getattr(made, one.name) for one in fields(made)})
+    drawing: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]
+    step = _RastersInMemory(**{one.name: getattr(drawing, one.name) for one in fields(drawing)})
     cloud, resources = _cloud(values, sets, progress), Resources.among(sets).now()
     with may_use(resources.thread_count):
         run = FileRun(FilePoints(cloud, resources), [step], progress)
