@@ -32,7 +32,6 @@ from ..tools.check.accuracy import Accuracy
 from ..tools.check.checking import CheckOptions, check_points
 from ..tools.check.results import Check
 from ..tools.check.survey_ground import SurveyGround
-from ..tools.declaration import Input
 from ..tools.heights import HeightOutput, HeightsOfPoints
 from ..tools.key_points import KeyPointMark
 from ..tools.rasters.output import write_rasters
@@ -53,7 +52,7 @@ from .given import (
 )
 from .points import cloud_of, with_ground
 from .rasters import Collected, Raster
-from .tools import arguments_of
+from .tools import arguments_of, input_of
 
 _TABLE = (
     "x of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a"
@@ -149,14 +148,6 @@ def _of_classes(
     )  # fmt: skip
 
 
-def _input_of(declared: Input, values: SimpleNamespace) -> Any:
-    """Return a further input of a tool: an area, or a raster."""
-    if declared.kind == "area":
-        return area_of(values)
-    path = getattr(values, declared.name)
-    return None if path is None else declared.of(path)
-
-
 def _of_tool(
     name: str, about: str, gives: Kind, value: Callable[[TileResult], Any], *fixed: ParameterSet
 ) -> Function:
@@ -165,7 +156,7 @@ def _of_tool(
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         progress = progress_of(values.progress)
-        inputs = {one.name: _input_of(one, values) for one in tool.inputs}
+        inputs = {one.name: input_of(one, values) for one in tool.inputs}
         steps = tool.steps([*sets, *fixed], inputs, {})
         cloud = _cloud(values, sets, progress)
         return value(_found(cloud, steps, Resources.among(sets).now(), progress))
