@@ -110,8 +110,8 @@ class Step:
 
 
 def placed(steps: Sequence[Any], place: Place, progress: Progress = SILENT) -> list[Any]:
-    """Return steps for points at a place; their lines and polygons are in its CRS, each transformed
-    once. Errors are those of `Geometry.located` and of the steps.
+    """Return steps for points at a place, with all lines and polygons in its CRS, each transformed
+    once; errors are those of `Geometry.located` and of the steps.
     """
     known: dict[int, Geometry] = {}
     found = []
