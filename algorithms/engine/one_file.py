@@ -10,11 +10,12 @@ from ..core.progress import Progress
 from ..core.threads import import_early, may_use
 from ..las.cloud import survey_frame
 from ..las.crs_records import read_crs
-from ..survey.files import Inputs
+from ..las.lasfile import LasFile
+from ..las.opening import open_las
 from ..survey.shapes import Place
 from .file_points import FilePoints, TileResult, copies_all_else
-from .memory import Resources
-from .step import PointStep, Step, placed
+from .options import RunOptions
+from .step import PointStep, Step, located
 from .store import Store
 from .values import PointValues, StoreValues, with_values
 
@@ -24,18 +25,17 @@ _READING, _BEFORE_WRITING = 1.5, 0.92
 
 def work_on_file(
     steps: Sequence[Step],
-    inputs: Inputs,
+    source: Path | LasFile,
     target: Path | None,
-    resources: Resources,
+    options: RunOptions,
     progress: Progress,
 ) -> Any:
     """Let steps work on a LAS, LAZ or COPC file, and write its points with what they found, and
     nothing else changed; all outputs or none.
     """
-    las, resources = inputs.open_file(), resources.now()
+    las, resources = open_las(source, options.stated), options.resources.now()
     place = Place(str(las.path), read_crs(las), las.outer_box if las.states_extent else None)
-    for step in steps:
-        step.placed(place)  # refuses, before any reading, what the header shows to be unsuitable
+    steps = [step.placed(place, progress) for step in steps]
     import_early(*(name for step in steps for name in step.imports))
     for_points = [step for step in steps if isinstance(step, PointStep)]
     beside = target or next(path for step in steps for _, path in step.outputs(is_survey=False))
@@ -67,7 +67,7 @@ class FileRun:
         progress: Progress,
         outputs: Outputs | None = None,
     ) -> None:
-        self.steps: list[Any] = placed(steps, points.place, progress)
+        self.steps: list[Any] = located(steps, points.place, progress)  # in the CRS of the points
         self.counts = [step.counts() for step in self.steps]  # by the steps, among the points
         self.points, self.outputs = points, outputs or Outputs()
         self.told: list[Any] = []  # what `finish` of the steps returned

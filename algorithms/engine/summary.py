@@ -20,10 +20,15 @@ class JobCost:
 
 
 class RunSummary:
-    """Base of what runs return, frozen dataclasses."""
+    """Base of what runs return, frozen dataclasses with a `text`; here as of a run on one file."""
 
-    # What tools told that drew outputs of those of the run, by the names of what they drew.
-    drawn: Mapping[str, Any] = MappingProxyType({})
+    vpc: str | None = None  # the virtual point cloud of many files
+    failures: Mapping[str, str] = MappingProxyType({})  # why files could not be done
+
+    @property
+    def tiles(self) -> tuple[Any, ...]:
+        """The summaries of the files."""
+        return (self,)
 
     @property
     def text(self) -> str:
@@ -35,19 +40,7 @@ class RunSummary:
         return f"{output}: {self.text}"
 
 
-class FileSummary(RunSummary):
-    """Base of what runs on one file return."""
-
-    vpc: str | None = None  # the virtual point cloud of many files
-    failures: Mapping[str, str] = MappingProxyType({})  # why files could not be done
-
-    @property
-    def tiles(self) -> tuple[Any, ...]:
-        """The summaries of the files."""
-        return (self,)
-
-
-class TileSummary(FileSummary):
+class TileSummary(RunSummary):
     """Base of the summaries of written files, which have a `name`."""
 
     class_counts: dict[int, int]  # points of each class in the output
@@ -63,7 +56,7 @@ class TileSummary(FileSummary):
 
 
 @dataclass(frozen=True)
-class SurveySummary(RunSummary):
+class SurveySummary:
     """The result of a run on a survey."""
 
     tile_count: int  # files in the survey
@@ -95,3 +88,7 @@ class SurveySummary(RunSummary):
         return (
             f"{text}: {self.ground_count:,} of {self.point_count:,} points are ground ({share:.1%})"
         )
+
+    def told(self, output: Path) -> str:
+        """Return the text with the folder of the output."""
+        return f"{output}: {self.text}"

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any, Callable, Collection, Iterable, Mapping
 
-from ..core.errors import BareEarthError
 from ..core.parameters import Declaration, ParameterSet
 from ..filters import METHODS
 from ..tools.ground.method import TileMethod
@@ -138,13 +137,8 @@ class Function:
 
     def work(self, values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
         """Fetch the points that are given by addresses, and run."""
-        found = bring_points((*self.positional, *self.keywords), values, sets)
-        try:
+        with bring_points((*self.positional, *self.keywords), values, sets):
             return self.run(values, sets)
-        except BareEarthError as error:
-            for path, address in found.items():
-                error.args = (str(error).replace(str(path), address),)
-            raise
 
     def callable(self, module: str = PACKAGE) -> Callable[..., Any]:
         """Return the function, as one of a module."""

@@ -11,14 +11,17 @@ import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple, Sequence
+from typing import Iterator, Mapping, NamedTuple, Sequence
 
+from ..core.errors import BareEarthError
 from ..core.files import describe_write_error, replacing, write_errors_told
 from ..core.progress import SILENT, Progress
+from ..crs.measurable import require_measurable
 from ..crs.system import Crs
 from ..survey.area import Area
+from ..survey.files import Inputs
 from ..survey.shapes import Place, Shapes
-from .addresses import beside, checked, name_of, shown
+from .addresses import beside, checked, is_address, name_of, shown
 from .copc import CopcPart
 from .ept import DESCRIPTION, EptPart
 from .fetching import Part, Wanted, check_size, names_of, nothing_there
@@ -145,6 +148,10 @@ def bring_here(
         shares = progress.part(0.0, 0.1).shares(*[1.0] * len(missing))
         planned = [(cloud, cloud.part(share)) for cloud, share in zip(missing, shares)]
         parts = [(cloud, part) for cloud, part in planned if part.point_count]
+        if wanted.is_measured:
+            for _, part in parts:
+                box = part.box if part.area is None else part.area.bounds
+                require_measurable(part.name, wanted.crs or part.crs, box)
         if parts:
             check_size([part for _, part in parts], wanted.most, advice, progress)
         shares = progress.part(0.1, 0.7).shares(*(part.size for _, part in parts))
@@ -160,6 +167,40 @@ def bring_here(
     for path, address in paths.items():
         progress.info(f"{address} is read from {path}.")
     return Here(paths, is_list)
+
+
+def bring_all(
+    given: Mapping[str, Sequence[str | Path]],
+    wanted: Wanted,
+    cache: Path,
+    advice: str,
+    progress: Progress,
+) -> tuple[dict[str, Inputs], dict[Path, str]]:
+    """Return the files of inputs, by their names, of which some are addresses, and what
+    `addresses_named` needs.
+    """
+    inputs, found = {}, {}
+    shares = progress.shares(*[1.0] * len(given))
+    for (name, sources), share in zip(given.items(), shares):
+        addresses = [str(source) for source in sources if is_address(str(source))]
+        if addresses:
+            here = bring_here(addresses, wanted, cache, advice, share)
+            found.update(here.paths)
+            paths = [*here.paths, *(source for source in sources if source not in addresses)]
+            # A list is a survey, however many of its files have points in the area.
+            inputs[name] = Inputs(paths, True if here.is_list else None)
+    return inputs, found
+
+
+@contextlib.contextmanager
+def addresses_named(found: Mapping[Path, str]) -> Iterator[None]:
+    """Let errors name addresses in place of files of the cache."""
+    try:
+        yield
+    except BareEarthError as error:
+        for path, address in found.items():
+            error.args = (str(error).replace(str(path), address),)
+        raise
 
 
 def clear(cache: Path) -> int:

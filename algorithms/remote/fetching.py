@@ -37,6 +37,8 @@ class Wanted:
     most: float = 2.0 * _GIGABYTE  # bytes
     skips_missing: bool = False  # whether tiles may be missing
     follows: bool = False  # whether lists may name servers that the user did not
+    crs: Crs | None = None  # of the points, if the user states it
+    is_measured: bool = False  # whether lengths in it must be those on the ground
 
 
 @dataclass(frozen=True)
