@@ -11,6 +11,7 @@ from qgis.PyQt.QtCore import QCoreApplication, QTimer, QUrl
 from qgis.PyQt.QtGui import QDesktopServices
 from qgis.PyQt.QtWidgets import QPushButton
 
+from ..algorithms.core.errors import BareEarthError
 from ..algorithms.las.backends import install_hint, missing_packages
 from .compat import QAction
 from .help_pages import address_of
@@ -62,7 +63,11 @@ class BareEarthPlugin:
     def initGui(self) -> None:
         """Add provider and menu to the QGIS window."""
         self.initProcessing()
-        entries = {tr("LAZ support…"): self.show_laz_support, tr("Documentation"): self.show_help}
+        entries = {
+            tr("LAZ support…"): self.show_laz_support,
+            tr("Remove downloaded point clouds"): self.clear_cache,
+            tr("Documentation"): self.show_help,
+        }
         for text, show in entries.items():
             action = QAction(text, self._iface.mainWindow())
             action.triggered.connect(show)
@@ -84,6 +89,18 @@ class BareEarthPlugin:
             self._dialog.installed.connect(self._remove_message)
         self._dialog.show()
         self._dialog.raise_()
+
+    def clear_cache(self) -> None:
+        """Remove what is kept of remote point clouds, and tell how much that was."""
+        from ..algorithms.remote.cache import cache_of, clear
+        from ..algorithms.remote.fetching import in_words
+
+        try:
+            text, level = tr("{} were removed from {}."), Qgis.MessageLevel.Info
+            text = text.format(in_words(clear(cache_of(None))), cache_of(None))
+        except BareEarthError as error:
+            text, level = str(error), Qgis.MessageLevel.Warning
+        self._iface.messageBar().pushMessage(_MENU, text, level)
 
     def show_help(self) -> None:
         """Open the documentation that comes with the plugin."""

@@ -4,8 +4,8 @@
 <context>
     <name>BareEarth</name>
     <message>
-        <source>.las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one path in each line. May stay empty if a folder is given.</source>
-        <translation>Dateien .las, .laz und .copc.laz, virtuelle Punktwolken (.vpc) oder Textdateien (.txt) mit einem Pfad je Zeile. Darf leer sein, wenn ein Ordner angegeben ist.</translation>
+        <source>.las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one path in each line. May stay empty if a folder is given. Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent needs of it is downloaded first.</source>
+        <translation>Dateien .las, .laz und .copc.laz, virtuelle Punktwolken (.vpc) oder Textdateien (.txt) mit einem Pfad je Zeile. Darf leer sein, wenn ein Ordner angegeben ist. Auch eine entfernte Punktwolke (COPC, EPT, VPC) oder ihre Adresse (https://...): Was die Ausdehnung von ihr braucht, wird zuerst heruntergeladen.</translation>
     </message>
     <message>
         <source>0 to 1</source>
@@ -52,6 +52,10 @@
         <translation>Ein größerer Download wird abgelehnt, bevor er beginnt. Die Fehlermeldung nennt seine Größe.</translation>
     </message>
     <message>
+        <source>A layer, a file, or an address (https://…)</source>
+        <translation>Ein Layer, eine Datei oder eine Adresse (https://…)</translation>
+    </message>
+    <message>
         <source>A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a name it is classified.vpc in their folder.</source>
         <translation>Ein Verzeichnis der klassifizierten Dateien, das QGIS 3.32 und neuer als einen Layer zeigt. Ohne Namen heißt es classified.vpc und kommt in deren Ordner.</translation>
     </message>
@@ -64,16 +68,16 @@
         <translation>Ein Punkt wird tiefes Rauschen, wenn er weiter als dies unter dem Boden liegt. Am Hang kommt der Anstieg des Bodens auf 1 m hinzu. Punkte, die ringsum Boden haben und 0,4 m oder mehr darunter liegen, werden auch tiefes Rauschen. Gilt nur, wenn tiefe Ausreißer in Klasse 7 kommen.</translation>
     </message>
     <message>
-        <source>A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text file (.txt) with one path in each line. May stay empty if a folder is given.</source>
-        <translation>Ein Punktwolken-Layer, eine Datei .las, .laz oder .copc.laz, eine virtuelle Punktwolke (.vpc) oder eine Textdatei (.txt) mit einem Pfad je Zeile. Darf leer sein, wenn ein Ordner angegeben ist.</translation>
+        <source>A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text file (.txt) with one path in each line. May stay empty if a folder is given. Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent needs of it is downloaded first.</source>
+        <translation>Ein Punktwolken-Layer, eine Datei .las, .laz oder .copc.laz, eine virtuelle Punktwolke (.vpc) oder eine Textdatei (.txt) mit einem Pfad je Zeile. Darf leer sein, wenn ein Ordner angegeben ist. Auch eine entfernte Punktwolke (COPC, EPT, VPC) oder ihre Adresse (https://...): Was die Ausdehnung von ihr braucht, wird zuerst heruntergeladen.</translation>
     </message>
     <message>
-        <source>A point cloud layer, or a .las, .laz or .copc.laz file.</source>
-        <translation>Ein Punktwolken-Layer oder eine Datei .las, .laz oder .copc.laz.</translation>
+        <source>A point cloud layer, or a .las, .laz or .copc.laz file. Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent needs of it is downloaded first.</source>
+        <translation>Ein Punktwolken-Layer oder eine Datei .las, .laz oder .copc.laz. Auch eine entfernte Punktwolke (COPC, EPT, VPC) oder ihre Adresse (https://...): Was die Ausdehnung von ihr braucht, wird zuerst heruntergeladen.</translation>
     </message>
     <message>
-        <source>A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a folder.</source>
-        <translation>Ein Punktwolken-Layer oder eine Datei .las, .laz oder .copc.laz; auch eine virtuelle Punktwolke (.vpc) oder ein Ordner.</translation>
+        <source>A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a folder. Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent needs of it is downloaded first.</source>
+        <translation>Ein Punktwolken-Layer oder eine Datei .las, .laz oder .copc.laz; auch eine virtuelle Punktwolke (.vpc) oder ein Ordner. Auch eine entfernte Punktwolke (COPC, EPT, VPC) oder ihre Adresse (https://...): Was die Ausdehnung von ihr braucht, wird zuerst heruntergeladen.</translation>
     </message>
     <message>
         <source>A point cloud layer, or the address (https://...) of a COPC file, of the ept.json of an EPT data set, of a virtual point cloud or of a STAC item. Only what lies in the extent is downloaded.</source>
@@ -686,6 +690,10 @@ Ohne Kontrollpunkte kann ein Anteil der Bodenpunkte weggelassen und gemessen wer
         <translation>Ausdehnung</translation>
     </message>
     <message>
+        <source>Extent of a remote point cloud</source>
+        <translation>Ausdehnung einer entfernten Punktwolke</translation>
+    </message>
+    <message>
         <source>Extent of the rasters</source>
         <translation>Ausdehnung der Raster</translation>
     </message>
@@ -880,6 +888,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Get lazrs</source>
         <translation>lazrs holen</translation>
+    </message>
+    <message>
+        <source>Gigabytes that may be downloaded of a remote point cloud. The log tells how many it takes before the download begins; more are refused.</source>
+        <translation>Gigabyte, die von einer entfernten Punktwolke heruntergeladen werden dürfen. Das Protokoll sagt vor dem Herunterladen, wie viele es sind; mehr werden abgelehnt.</translation>
     </message>
     <message>
         <source>Give an extent or a boundary, not both, for an address.</source>
@@ -1264,6 +1276,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
     <message>
         <source>Limit</source>
         <translation>Grenze</translation>
+    </message>
+    <message>
+        <source>Limit of the download [GB]</source>
+        <translation>Grenze des Herunterladens [GB]</translation>
     </message>
     <message>
         <source>Line of the profile</source>
@@ -1798,6 +1814,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Entfernen</translation>
     </message>
     <message>
+        <source>Remove downloaded point clouds</source>
+        <translation>Heruntergeladene Punktwolken entfernen</translation>
+    </message>
+    <message>
         <source>Remove off-terrain objects</source>
         <translation>Objekte über dem Gelände entfernen</translation>
     </message>
@@ -2280,6 +2300,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>The point cloud to check. Its class 2 counts as ground, all other classes do not.</source>
         <translation>Die Punktwolke, die geprüft wird. Ihre Klasse 2 gilt als Boden, alle anderen Klassen nicht.</translation>
+    </message>
+    <message>
+        <source>The points of a remote point cloud that lie in this rectangle are downloaded, and are all that is used. Only for point clouds that are not on this computer.</source>
+        <translation>Von einer entfernten Punktwolke werden die Punkte in diesem Rechteck heruntergeladen, und nur sie werden verwendet. Nur für Punktwolken, die nicht auf diesem Rechner sind.</translation>
     </message>
     <message>
         <source>The points, with all of their dimensions, as .copc.laz or .laz.</source>
@@ -2946,8 +2970,16 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>{} ist kein Wheel: Wählen Sie eine Datei mit der Endung .whl.</translation>
     </message>
     <message>
-        <source>{} is not on this computer. Download it as .las or .laz first.</source>
-        <translation>{} ist keine Datei auf diesem Rechner. Laden Sie sie zuerst als .las oder .laz herunter.</translation>
+        <source>{} is not on this computer: give the extent to download.</source>
+        <translation>{} ist nicht auf diesem Rechner: Geben Sie die Ausdehnung an, die heruntergeladen werden soll.</translation>
+    </message>
+    <message>
+        <source>{} lists {} point clouds that have points there, and this algorithm reads one. Choose 'Point cloud to terrain', or download them first.</source>
+        <translation>{} nennt {} Punktwolken, die dort Punkte haben, und dieser Algorithmus liest nur eine. Wählen Sie „Von der Punktwolke zum Gelände“, oder laden Sie sie zuerst herunter.</translation>
+    </message>
+    <message>
+        <source>{} were removed from {}.</source>
+        <translation>{} wurden aus {} entfernt.</translation>
     </message>
 </context>
 </TS>

@@ -4,8 +4,8 @@
 <context>
     <name>BareEarth</name>
     <message>
-        <source>.las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one path in each line. May stay empty if a folder is given.</source>
-        <translation>Fichiers .las, .laz et .copc.laz, nuages de points virtuels (.vpc), ou fichiers texte (.txt) avec un chemin par ligne. Peut rester vide si un dossier est donné.</translation>
+        <source>.las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one path in each line. May stay empty if a folder is given. Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent needs of it is downloaded first.</source>
+        <translation>Fichiers .las, .laz et .copc.laz, nuages de points virtuels (.vpc), ou fichiers texte (.txt) avec un chemin par ligne. Peut rester vide si un dossier est donné. Ou bien un nuage distant (COPC, EPT, VPC) ou son adresse (https://...) : ce que l'emprise en demande est d'abord téléchargé.</translation>
     </message>
     <message>
         <source>0 to 1</source>
@@ -52,6 +52,10 @@
         <translation>Un téléchargement plus grand est refusé avant de commencer. Le message d’erreur indique sa taille.</translation>
     </message>
     <message>
+        <source>A layer, a file, or an address (https://…)</source>
+        <translation>Une couche, un fichier ou une adresse (https://…)</translation>
+    </message>
+    <message>
         <source>A list of the classified files, which QGIS 3.32 and newer shows as one layer. Without a name it is classified.vpc in their folder.</source>
         <translation>Une liste des fichiers classés, que QGIS 3.32 et plus récent affiche comme une seule couche. Sans nom, c'est classified.vpc dans leur dossier.</translation>
     </message>
@@ -64,16 +68,16 @@
         <translation>Un point devient du bruit bas s'il se trouve plus loin que ceci sous le sol. En pente s'ajoute la montée du sol sur 1 m. Les points entourés de sol qui se trouvent 0,4 m ou plus au-dessous deviennent aussi du bruit bas. Ne sert que si les points aberrants bas vont dans la classe 7.</translation>
     </message>
     <message>
-        <source>A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text file (.txt) with one path in each line. May stay empty if a folder is given.</source>
-        <translation>Une couche de nuage de points, un fichier .las, .laz ou .copc.laz, un nuage de points virtuel (.vpc), ou un fichier texte (.txt) avec un chemin par ligne. Peut rester vide si un dossier est donné.</translation>
+        <source>A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text file (.txt) with one path in each line. May stay empty if a folder is given. Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent needs of it is downloaded first.</source>
+        <translation>Une couche de nuage de points, un fichier .las, .laz ou .copc.laz, un nuage de points virtuel (.vpc), ou un fichier texte (.txt) avec un chemin par ligne. Peut rester vide si un dossier est donné. Ou bien un nuage distant (COPC, EPT, VPC) ou son adresse (https://...) : ce que l'emprise en demande est d'abord téléchargé.</translation>
     </message>
     <message>
-        <source>A point cloud layer, or a .las, .laz or .copc.laz file.</source>
-        <translation>Une couche de nuage de points, ou un fichier .las, .laz ou .copc.laz.</translation>
+        <source>A point cloud layer, or a .las, .laz or .copc.laz file. Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent needs of it is downloaded first.</source>
+        <translation>Une couche de nuage de points, ou un fichier .las, .laz ou .copc.laz. Ou bien un nuage distant (COPC, EPT, VPC) ou son adresse (https://...) : ce que l'emprise en demande est d'abord téléchargé.</translation>
     </message>
     <message>
-        <source>A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a folder.</source>
-        <translation>Une couche de nuage de points, ou un fichier .las, .laz ou .copc.laz ; aussi un nuage de points virtuel (.vpc) ou un dossier.</translation>
+        <source>A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a folder. Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent needs of it is downloaded first.</source>
+        <translation>Une couche de nuage de points, ou un fichier .las, .laz ou .copc.laz ; aussi un nuage de points virtuel (.vpc) ou un dossier. Ou bien un nuage distant (COPC, EPT, VPC) ou son adresse (https://...) : ce que l'emprise en demande est d'abord téléchargé.</translation>
     </message>
     <message>
         <source>A point cloud layer, or the address (https://...) of a COPC file, of the ept.json of an EPT data set, of a virtual point cloud or of a STAC item. Only what lies in the extent is downloaded.</source>
@@ -686,6 +690,10 @@ Sans points de contrôle, une part des points de sol peut être mise de côté p
         <translation>Emprise</translation>
     </message>
     <message>
+        <source>Extent of a remote point cloud</source>
+        <translation>Emprise d'un nuage de points distant</translation>
+    </message>
+    <message>
         <source>Extent of the rasters</source>
         <translation>Emprise des rasters</translation>
     </message>
@@ -880,6 +888,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Get lazrs</source>
         <translation>Obtenir lazrs</translation>
+    </message>
+    <message>
+        <source>Gigabytes that may be downloaded of a remote point cloud. The log tells how many it takes before the download begins; more are refused.</source>
+        <translation>Gigaoctets qui peuvent être téléchargés d'un nuage de points distant. Le journal dit combien il en faut avant le téléchargement ; au-delà, c'est refusé.</translation>
     </message>
     <message>
         <source>Give an extent or a boundary, not both, for an address.</source>
@@ -1264,6 +1276,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
     <message>
         <source>Limit</source>
         <translation>Maximum</translation>
+    </message>
+    <message>
+        <source>Limit of the download [GB]</source>
+        <translation>Limite du téléchargement [Go]</translation>
     </message>
     <message>
         <source>Line of the profile</source>
@@ -1798,6 +1814,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Supprimer</translation>
     </message>
     <message>
+        <source>Remove downloaded point clouds</source>
+        <translation>Supprimer les nuages de points téléchargés</translation>
+    </message>
+    <message>
         <source>Remove off-terrain objects</source>
         <translation>Enlever les objets au-dessus du terrain</translation>
     </message>
@@ -2280,6 +2300,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>The point cloud to check. Its class 2 counts as ground, all other classes do not.</source>
         <translation>Le nuage de points à vérifier. Sa classe 2 compte comme sol, toutes les autres classes non.</translation>
+    </message>
+    <message>
+        <source>The points of a remote point cloud that lie in this rectangle are downloaded, and are all that is used. Only for point clouds that are not on this computer.</source>
+        <translation>Les points d'un nuage distant qui se trouvent dans ce rectangle sont téléchargés, et eux seuls sont utilisés. Seulement pour les nuages de points qui ne sont pas sur cet ordinateur.</translation>
     </message>
     <message>
         <source>The points, with all of their dimensions, as .copc.laz or .laz.</source>
@@ -2946,8 +2970,16 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>{} n'est pas un wheel : choisissez un fichier qui se termine par .whl.</translation>
     </message>
     <message>
-        <source>{} is not on this computer. Download it as .las or .laz first.</source>
-        <translation>{} n'est pas sur cet ordinateur. Téléchargez-le d'abord en .las ou .laz.</translation>
+        <source>{} is not on this computer: give the extent to download.</source>
+        <translation>{} n'est pas sur cet ordinateur : indiquez l'emprise à télécharger.</translation>
+    </message>
+    <message>
+        <source>{} lists {} point clouds that have points there, and this algorithm reads one. Choose 'Point cloud to terrain', or download them first.</source>
+        <translation>{} nomme {} nuages de points qui ont des points à cet endroit, et cet algorithme n'en lit qu'un. Choisissez « Du nuage de points au terrain », ou téléchargez-les d'abord.</translation>
+    </message>
+    <message>
+        <source>{} were removed from {}.</source>
+        <translation>{} ont été supprimés de {}.</translation>
     </message>
 </context>
 </TS>

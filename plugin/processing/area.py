@@ -13,6 +13,7 @@ from qgis.core import (
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
+from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area, Polygon
 from ...algorithms.survey.shapes import Shapes
 from ...algorithms.tools.ground.output import Output
@@ -20,6 +21,7 @@ from .. import compat
 from ..i18n import mark
 from .feedback import Refusal
 from .inputs import CloudCrs, box_of, layer_polygons, rings_of
+from .stated_crs import text_of
 
 # Name, label and help of the fields of an area.
 _AREA_FIELDS = {
@@ -61,11 +63,8 @@ def add_area(
     algorithm: QgsProcessingAlgorithm,
     advanced: Sequence[str] = ("BOUNDARY",),
     helps: Mapping[str, str] = {},
-    shown: str | None = None,
 ) -> None:
-    """Add the fields of an area to a dialog, some, by name, advanced or with other helps; a new
-    dialog shows an extent, which is no default of models and scripts.
-    """
+    """Add the fields of an area to a dialog, some, by name, advanced or with other helps."""
     extent, boundary = (label for label, _ in _AREA_FIELDS.values())
     fields = (
         QgsProcessingParameterExtent("EXTENT", extent, None, True),
@@ -74,8 +73,6 @@ def add_area(
     for field in fields:
         if field.name() in advanced:
             field.setFlags(field.flags() | compat.ADVANCED)
-        if shown is not None and field.name() == "EXTENT":
-            field.setGuiDefaultValueOverride(shown)
         text = helps.get(field.name(), _AREA_FIELDS[field.name()][1])
         algorithm.addParameter(field, text)
 
@@ -102,11 +99,13 @@ def area_of(
     return Area(box, polygons)
 
 
+def has_area(parameters: Mapping[str, Any]) -> bool:
+    """Return whether a field of `add_area` is filled."""
+    return not all(compat.is_empty(parameters.get(name)) for name in _AREA_FIELDS)
+
+
 def area_in_own_crs(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
-    context: QgsProcessingContext,
-    progress: Progress,
+    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> Area | None:
     """Return the area in the fields of `add_area` with its own CRS, for points of unknown CRS."""
     given = [name for name in _AREA_FIELDS if not compat.is_empty(parameters.get(name))]
@@ -127,19 +126,14 @@ def area_in_own_crs(
         label = _AREA_FIELDS["BOUNDARY"][0]
         polygons = layer_polygons(algorithm, parameters, "BOUNDARY", label, context, crs)
         crs = crs.value
-    progress.info(
-        "In the command line the area is missing: save it as boundary.geojson, and add --boundary"
-        " boundary.geojson."
-    )
-    return Area(None, Shapes(polygons, crs.toWkt(compat.WKT), "The area"))
+    return Area(None, Shapes(polygons, text_of(crs), "The area"))
 
 
 def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) -> None:
     """Refuse to write only the points in the area if there is no area."""
-    is_given = not all(compat.is_empty(parameters.get(name)) for name in _AREA_FIELDS)
     for values in chosen:
         if isinstance(values, Output):
-            values.check_area(is_given)
+            values.check_area(has_area(parameters))
 
 
 def area_options(area: Area | None, progress: Progress) -> dict[str, Any]:
@@ -150,3 +144,9 @@ def area_options(area: Area | None, progress: Progress) -> dict[str, Any]:
             " as boundary.geojson, and add --boundary boundary.geojson."
         )
     return {"extent": tuple(map(repr, area.box)) if area is not None and area.box else ()}
+
+
+def target_options(target: RasterTarget) -> dict[str, Any]:
+    """Return the options of the command line for the grid of rasters."""
+    extent = target.extent and tuple(map(repr, target.extent))
+    return {"like": target.like and str(target.like), "raster-extent": extent}

@@ -22,6 +22,7 @@ from ...algorithms.core.commands import shell_line
 from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.core.parameters import Declaration, ParameterSet, shown_value
 from ...algorithms.las.backends import install_hint, missing_packages
+from ...algorithms.remote.cache import addresses_named
 from ...algorithms.survey.files import Inputs
 from .. import compat
 from ..help_pages import address_of
@@ -56,19 +57,28 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     shown: tuple[str, ...] | None = None  # parameters that are not advanced; None: as declared
     stated: str | None = None  # the CRS that the user states; set before `prepare`
     layer_crs: str | None = None  # of a remote layer; set by `find_inputs`
+    is_elsewhere = False  # whether the points are remote, and not here yet
     unused: tuple[str, ...] = ()  # parameters without a field, since no output depends on them
     inputs = Inputs((), is_survey=False)  # files and folders; set by `find_inputs`
-    reads_addresses = False  # whether its input is a remote point cloud
     _has_page = False
 
     def __init__(self) -> None:
         super().__init__()
         # Of the pages: in the list of results each has the name of the input before its label.
         self._page_labels: dict[str, str] = {}
+        self.brought: dict[Path, str] = {}  # files of the cache, and their addresses
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
         """Return the declared parameters, in the order of the dialog."""
         return ()
+
+    def bring(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> None:
+        """Download what is remote, and set `brought`; runs in any thread, before `compute`."""
 
     def compute(
         self,
@@ -284,7 +294,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         before, progress = set(context.layersToLoadOnCompletion()), FeedbackProgress(feedback)
         results: dict[str, Any] = {}
         try:
-            with errors_for_qgis():
+            with errors_for_qgis(), addresses_named(self.brought):
+                self.bring(parameters, context, progress)
                 results = self.compute(parameters, context, progress)
         except Cancelled:
             feedback.pushInfo(self.cancelled)

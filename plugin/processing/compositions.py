@@ -47,9 +47,13 @@ class CompositionAlgorithm(ToolAlgorithm):
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Find the input files."""
         super().find_inputs(parameters, context)
-        self.cancelled = after_cancel(self.inputs)
         name = self._delivery(parameters, context)
         self.run_name = DELIVERIES[name].label if name else mark("terrain")
+
+    def set_inputs(self, is_list: bool = False) -> None:
+        """Set the input files, and what stays of their outputs after a cancel."""
+        super().set_inputs(is_list)
+        self.cancelled = after_cancel(self.inputs)
 
     def _delivery(self, parameters: dict[str, Any], context: QgsProcessingContext) -> str:
         """Return the name of the delivery; empty for the user's own choice of outputs."""
@@ -116,7 +120,7 @@ class CompositionAlgorithm(ToolAlgorithm):
         sets.append(TileOutput(format=point_cloud_formats()[0], overview=True))
         folder = self.parameterAsString(parameters, FOLDER, context)
         self._find_late(request)
-        words = [name, *map(str, self.inputs), folder]
+        words = [name, *self.source_words(), folder]
         progress.command(command_line("deliver", words, sets, self._options_of_inputs()))
         inputs = {name: found.value for name, found in self._given.items()}
         done = self._tool.work(self.inputs, folder, name, sets, inputs, progress)
@@ -207,7 +211,7 @@ class CompositionAlgorithm(ToolAlgorithm):
         target = str(Path(cloud).parent) if cloud.endswith(".vpc") else cloud
         options = self._options_of_inputs()
         finding = [of_type[kind] for kind in (TileMethod, Selection, Resources)]
-        words = [*map(str, self.inputs), target, *["--area-only"] * bool(self._given["area"].value)]
+        words = [*self.source_words(), target, *["--area-only"] * bool(self._given["area"].value)]
         of_points = {name: options.get(name) for name in ("crs", "extent")}
         yield command_line("classify", words, finding, of_points)
         if layers:

@@ -41,6 +41,7 @@ class FeedbackProgress(Progress):
 
     def __init__(self, feedback: QgsProcessingFeedback) -> None:
         self._feedback, self._begun = feedback, time.monotonic()
+        self._done = 0.0  # before what is reported
         self._choices: list[str] = []
         self._commands: list[str] = []
 
@@ -52,9 +53,14 @@ class FeedbackProgress(Progress):
     def report(self, fraction: float) -> None:
         """Move the bar; raise `Cancelled` if the user pressed Cancel before the end."""
         # At the end all outputs are written, so the message on cancelled runs would be wrong.
-        self._feedback.setProgress(100.0 * fraction)
+        self._feedback.setProgress(100.0 * (self._done + (1.0 - self._done) * fraction))
         if fraction < 1.0 and self._feedback.isCanceled():
             raise Cancelled
+
+    def before(self, share: float) -> Progress:
+        """Return the progress of work before all other, which gets the rest of the bar."""
+        self._done = share
+        return FeedbackProgress(self._feedback).part(0.0, share)
 
     def beyond(self) -> Progress:
         """Return a progress for work after the outputs: it can be cancelled, the bar stays full."""

@@ -35,12 +35,14 @@ from ...algorithms.core.points import Box
 from ...algorithms.crs.system import Crs
 from ...algorithms.las.crs_records import read_crs
 from ...algorithms.las.opening import open_las
+from ...algorithms.remote.addresses import is_address, shown
 from ...algorithms.survey.area import Polygon
-from ...algorithms.survey.files import Inputs, find_files, open_survey
+from ...algorithms.survey.files import find_files, open_survey
 from .. import compat
 from ..i18n import mark, tr
 from ..styles.loaded import filter_of, has_edits
 from .feedback import Refusal
+from .remote import ALSO_REMOTE, Remote, remote_at, remote_of, without_provider
 from .stated_crs import crs_of_text
 
 # As a name, so that the widget is imported only in dialogs, not in qgis_process.
@@ -48,7 +50,7 @@ _WIDGET = f"{__package__}.widgets.PointCloudWidget"
 # Help of the fields of `add_survey` and `add_clouds`.
 _FILES_HELP = (
     ".las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one"
-    " path in each line. May stay empty if a folder is given."
+    f" path in each line. May stay empty if a folder is given.{ALSO_REMOTE}"
 )
 _FOLDER_HELP = (
     "All .las, .laz and .copc.laz files in this folder are used, too. All files together are one"
@@ -57,18 +59,19 @@ _FOLDER_HELP = (
 _SURVEY_HELP = (
     "A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text"
     " file (.txt) with one path in each line. May stay empty if a folder is given."
+    f"{ALSO_REMOTE}"
 )
 _NOWHERE = mark("{} does not exist. Check the path.")
 # Help of other fields.
-CLOUD_HELP = "A point cloud layer, or a .las, .laz or .copc.laz file."
+CLOUD_HELP = f"A point cloud layer, or a .las, .laz or .copc.laz file.{ALSO_REMOTE}"
 ANY_CLOUD_HELP = (
     "A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a"
-    " folder."
+    f" folder.{ALSO_REMOTE}"
 )
 
 
 class PointCloudInput(QgsProcessingParameterPointCloudLayer):
-    """A point cloud layer, or any existing file."""
+    """A point cloud layer, any existing file, or an address."""
 
     # QGIS itself accepts only files that it can load. Without its `pdal` provider, these do not
     # include .las and .laz; with it, QGIS would index the whole file first.
@@ -84,10 +87,27 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
     def checkValueIsAcceptable(
         self, value: Any, context: QgsProcessingContext | None = None
     ) -> bool:
-        """Return whether `value` is a file, or QGIS accepts it."""
-        if isinstance(value, (str, Path)) and _file(str(value)) is not None:
+        """Return whether `value` is a file or an address, or QGIS accepts it."""
+        if isinstance(value, (str, Path)) and (is_address(str(value)) or _file(str(value))):
             return True
         return super().checkValueIsAcceptable(value, context)
+
+    # The log, the history and commands get these three. QGIS itself would ask the server for the
+    # layer at an address.
+
+    def valueAsPythonString(self, value: Any, context: QgsProcessingContext) -> str:
+        """Return a value as Python writes it, without secrets."""
+        text = _without_secrets(value, context)
+        return repr(text) if text else super().valueAsPythonString(value, context)
+
+    def valueAsJsonObject(self, value: Any, context: QgsProcessingContext) -> Any:
+        """Return a value for JSON, without secrets."""
+        return _without_secrets(value, context) or super().valueAsJsonObject(value, context)
+
+    def valueAsString(self, value: Any, context: QgsProcessingContext) -> tuple[str, bool]:
+        """Return a value for qgis_process, without secrets, and whether there is one."""
+        text = _without_secrets(value, context)
+        return (text, True) if text else super().valueAsString(value, context)
 
     def createFileFilter(self) -> str:
         """Return the file types for the button "..."; those of QGIS depend on the build."""
@@ -106,27 +126,49 @@ class SurveyInput(PointCloudInput):
         return _filter("*.las *.laz *.vpc *.txt *.LAS *.LAZ")
 
 
-def source_path(
+def _without_secrets(value: Any, context: QgsProcessingContext) -> str:
+    """Return an address without its signature, or the id of a layer that has such an address; empty
+    for other values.
+    """
+    if isinstance(value, str):
+        value = QgsProcessingUtils.mapLayerFromString(value, context, False) or value
+    if isinstance(value, QgsMapLayer):
+        return value.id() if shown(value.source()) != value.source() else ""
+    text = without_provider(value) if isinstance(value, str) else ""
+    return shown(text) if is_address(text) else ""
+
+
+def source_of(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
     name: str,
     context: QgsProcessingContext,
-) -> Path:
-    """Return the file of a `PointCloudInput` that is not empty, without loading it as a layer."""
+) -> Path | Remote:
+    """Return what is in a `PointCloudInput` that is not empty, without loading it as a layer."""
     value = parameters.get(name)
     layer = value if isinstance(value, QgsMapLayer) else None
     if layer is None:
         text = str(value) if isinstance(value, Path) else ""
         text = text or algorithm.parameterAsString(parameters, name, context)
-        path = _file(text)
-        if path is not None:
-            return path
-        layer = QgsProcessingUtils.mapLayerFromString(text, context, False)
-        if layer is None:
-            if text:
-                raise Refusal(_NOWHERE, text)
+        if not text:
             raise Refusal(mark("Choose a point cloud."))
-    return _path_of(layer)
+        return _named(text, context)
+    return _of_layer(layer)
+
+
+def _named(text: str, context: QgsProcessingContext) -> Path | Remote:
+    """Return the file, the layer of the project, or the address that a text names."""
+    path = _file(text)
+    if path is not None:
+        return path
+    text = without_provider(text)
+    # Only a layer of the project: of other texts, QGIS would make one, and ask the server.
+    layer = QgsProcessingUtils.mapLayerFromString(text, context, False)
+    if layer is not None:
+        return _of_layer(layer)
+    if is_address(text):
+        return remote_at(text)
+    raise Refusal(_NOWHERE, text)
 
 
 def add_survey(algorithm: QgsProcessingAlgorithm) -> None:
@@ -144,28 +186,33 @@ def _add_folder(algorithm: QgsProcessingAlgorithm) -> None:
 
 def survey_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
-) -> Inputs:
-    """Return the inputs in the fields of `add_survey`, at least one, which must exist."""
-    paths = []
+) -> list[Path | Remote]:
+    """Return the inputs in the fields of `add_survey`, at least one; files must exist."""
+    paths: list[Path | Remote] = []
     if not compat.is_empty(parameters.get("INPUT")):
-        paths.append(source_path(algorithm, parameters, "INPUT", context))
+        paths.append(source_of(algorithm, parameters, "INPUT", context))
     folder = algorithm.parameterAsString(parameters, "INPUT_FOLDER", context)
     if folder and not Path(folder).is_dir():
         raise Refusal(mark("{} is not a folder. Check the path."), folder)
     paths += [Path(folder)] if folder else []
     if not paths:
         raise Refusal(mark("Choose a point cloud, or a folder of them."))
-    return Inputs(paths)
+    return paths
 
 
-def name_of(path: Path) -> str:
-    """Return the name of a file or folder, without the ending for its format."""
-    return split_name(path)[0]
+def name_of(source: Path | Remote) -> str:
+    """Return the name of a file or folder without the ending for its format, or of a layer."""
+    return source.name if isinstance(source, Remote) else split_name(source)[0]
 
 
-def names_of(paths: Sequence[Path]) -> str:
-    """Return a name for the files of a run."""
-    return (tr("{} and others") if paths[1:] else "{}").format(name_of(paths[0]))
+def names_of(sources: Sequence[Path | Remote]) -> str:
+    """Return a name for the inputs of a run."""
+    return (tr("{} and others") if sources[1:] else "{}").format(name_of(sources[0]))
+
+
+def words_of(source: Path | Remote) -> str:
+    """Return an input for the command line, without secrets."""
+    return shown(source.address) if isinstance(source, Remote) else str(source)
 
 
 def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
@@ -177,16 +224,11 @@ def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
 
 def clouds_of(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
-) -> list[Path]:
-    """Return the inputs in the fields of `add_clouds`, files and folders that must exist."""
+) -> list[Path | Remote]:
+    """Return the inputs in the fields of `add_clouds`; files and folders must exist."""
     texts = algorithm.parameterAsFileList(parameters, "INPUT", context)
     texts.append(algorithm.parameterAsString(parameters, "INPUT_FOLDER", context))
-    paths = []
-    for text in filter(None, texts):
-        path = _file(text)
-        if path is None:
-            raise Refusal(_NOWHERE, text)
-        paths.append(path)
+    paths = [_named(text, context) for text in texts if text]
     if not paths:
         raise Refusal(mark("Choose point clouds, or a folder of them."))
     return paths
@@ -339,7 +381,7 @@ _KINDS = {
 }  # fmt: skip
 
 
-def _path_of(layer: QgsMapLayer) -> Path:
+def _of_layer(layer: QgsMapLayer) -> Path | Remote:
     if not isinstance(layer, QgsPointCloudLayer):
         text = mark("{} is not a point cloud. Choose a point cloud layer, or a .las or .laz file.")
         raise Refusal(text, layer.name())
@@ -349,10 +391,7 @@ def _path_of(layer: QgsMapLayer) -> Path:
     provider = layer.dataProvider().name() if layer.dataProvider() else ""
     parts = QgsProviderRegistry.instance().decodeUri(provider, layer.source())
     path = parts.get("path") or layer.source()
-    if "://" in path:
-        text = mark("{} is not on this computer. Download it as .las or .laz first.")
-        raise Refusal(text, layer.name())
-    return Path(path)
+    return remote_of(layer) if "://" in path else Path(path)
 
 
 def _filter(endings: str) -> str:

@@ -1,87 +1,90 @@
-"""The field for a remote point cloud: a layer, or an address."""
+"""Remote point clouds as inputs: layers and addresses, and which part of them is downloaded."""
 
 from __future__ import annotations
 
 import re
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from qgis.core import (
     QgsPointCloudLayer,
     QgsProcessingAlgorithm,
-    QgsProcessingContext,
-    QgsProcessingUtils,
+    QgsProcessingParameterExtent,
+    QgsProcessingParameterNumber,
     QgsProviderRegistry,
 )
 
-from ...algorithms.remote.addresses import is_address, name_of
+from ...algorithms.library.remote_points import MOST
+from ...algorithms.remote.addresses import checked, name_of
 from .. import compat
-from ..i18n import mark
 from ..network import use_for
-from .feedback import Refusal
-from .inputs import PointCloudInput
 
 ADDRESS_HELP = (
     "A point cloud layer, or the address (https://...) of a COPC file, of the ept.json of an EPT"
     " data set, of a virtual point cloud or of a STAC item. Only what lies in the extent is"
     " downloaded."
 )
-# As a name, so that the widget is imported only in dialogs, not in qgis_process.
-_WIDGET = f"{__package__}.widgets.AddressWidget"
+# Ends the help of other inputs.
+ALSO_REMOTE = (
+    " Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent"
+    " needs of it is downloaded first."
+)
+# The fields of inputs that can be remote.
+PART, LIMIT = "EXTENT", "LIMIT"
+_PART_HELP = (
+    "The points of a remote point cloud that lie in this rectangle are downloaded, and are all that"
+    " is used. Only for point clouds that are not on this computer."
+)
+_LIMIT_HELP = (
+    "Gigabytes that may be downloaded of a remote point cloud. The log tells how many it takes"
+    " before the download begins; more are refused."
+)
 # QGIS 3.40 and newer hand over such a source of a layer: its provider and its address.
 _WITH_PROVIDER = re.compile(r"(copc|ept|vpc|pdal)://(?=[a-z][a-z0-9]+://)")
-
-
-class RemoteInput(PointCloudInput):
-    """A point cloud layer, or the address or path of a file."""
-
-    def __init__(self, *arguments: Any) -> None:
-        super().__init__(*arguments)
-        self.setMetadata({"widget_wrapper": {"class": _WIDGET}})
-
-    def clone(self) -> RemoteInput:
-        """Return a copy."""
-        return RemoteInput(self)
-
-    def checkValueIsAcceptable(
-        self, value: Any, context: QgsProcessingContext | None = None
-    ) -> bool:
-        """Return whether `value` is an address, a file, or QGIS accepts it."""
-        if isinstance(value, str) and is_address(value):
-            return True
-        return super().checkValueIsAcceptable(value, context)
 
 
 class Remote(NamedTuple):
     """A remote point cloud."""
 
     address: str
-    crs: str | None  # of its layer, as well-known text; None if it is not known
     name: str
+    crs: str | None = None  # of its layer, as well-known text; None if it is not known
 
 
-def remote_of(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
-    name: str,
-    context: QgsProcessingContext,
-) -> Remote:
-    """Return the cloud in a field, and let it be read with its login; in the main thread."""
-    layer = parameters.get(name)
-    if not isinstance(layer, QgsPointCloudLayer):
-        text = _WITH_PROVIDER.sub("", algorithm.parameterAsString(parameters, name, context))
-        # Only a layer of the project: of other texts, QGIS would make one, and ask the server.
-        layer = QgsProcessingUtils.mapLayerFromString(text, context, False)
-        if not isinstance(layer, QgsPointCloudLayer):
-            if not text:
-                raise Refusal(mark("Choose a point cloud."))
-            use_for(text, "")
-            return Remote(text, None, _stem(text))
+def remote_at(address: str, login: str = "") -> Remote:
+    """Return the point cloud at an address, and let it be read; in the main thread."""
+    address = checked(address)
+    use_for(address, login)
+    return Remote(address, name_of(address).partition(".")[0])
+
+
+def remote_of(layer: QgsPointCloudLayer) -> Remote:
+    """Return what a layer shows, and let it be read with its login; in the main thread."""
     parts = QgsProviderRegistry.instance().decodeUri(layer.providerType(), layer.source())
-    address = str(parts.get("path") or layer.source())
     # Before QGIS 4.0, layers of point clouds had no login.
-    use_for(address, str(parts.get("authcfg") or ""))
+    remote = remote_at(str(parts.get("path") or layer.source()), str(parts.get("authcfg") or ""))
     crs = layer.crs().toWkt(compat.WKT) if layer.crs().isValid() else None
-    return Remote(address, crs, layer.name())
+    return Remote(remote.address, layer.name(), crs)
+
+
+def without_provider(source: str) -> str:
+    """Return the address in the source of a layer."""
+    return _WITH_PROVIDER.sub("", source)
+
+
+def add_remote(algorithm: QgsProcessingAlgorithm, has_area: bool) -> None:
+    """Add the fields for remote inputs to a dialog, as advanced parameters."""
+    fields = [
+        QgsProcessingParameterNumber(
+            LIMIT, "Limit of the download [GB]", compat.NUMBER, MOST, True, 0.0, 100_000.0
+        )
+    ]
+    helps = {LIMIT: _LIMIT_HELP, PART: _PART_HELP}
+    if not has_area:
+        label = "Extent of a remote point cloud"
+        fields.insert(0, QgsProcessingParameterExtent(PART, label, None, True))
+    for field in fields:
+        field.setFlags(field.flags() | compat.ADVANCED)
+        algorithm.addParameter(field, helps[field.name()])
 
 
 def extent_of_map() -> str | None:
@@ -93,8 +96,3 @@ def extent_of_map() -> str | None:
     box, crs = iface.mapCanvas().extent(), iface.mapCanvas().mapSettings().destinationCrs()
     edges = box.xMinimum(), box.xMaximum(), box.yMinimum(), box.yMaximum()
     return f"{','.join(map(repr, edges))} [{crs.authid()}]"
-
-
-def _stem(text: str) -> str:
-    """Return the name of a file without its ending."""
-    return name_of(text).partition(".")[0]

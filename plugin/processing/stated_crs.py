@@ -39,9 +39,12 @@ def stated_crs_of(
     crs = algorithm.parameterAsCrs(parameters, _NAME, context)
     if not crs.isValid():
         raise Refusal(mark("{} is no known CRS. Choose one from the list."), parameters[_NAME])
-    if crs.authid().startswith("EPSG:"):
-        return crs.authid()
-    return crs.toWkt(compat.WKT)
+    return text_of(crs)
+
+
+def text_of(crs: QgsCoordinateReferenceSystem) -> str:
+    """Return a known CRS as code, or else as well-known text."""
+    return crs.authid() if crs.authid().startswith("EPSG:") else crs.toWkt(compat.WKT)
 
 
 def crs_of_text(text: str) -> QgsCoordinateReferenceSystem:

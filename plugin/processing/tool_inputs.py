@@ -2,34 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Callable, Mapping, NamedTuple
+from typing import Any, Callable, Mapping, NamedTuple, Sequence
 
 from qgis.core import (
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterExtent,
     QgsProcessingParameterFeatureSource,
-    QgsProcessingParameterField,
     QgsProcessingParameterRasterLayer,
     QgsProcessingParameterString,
 )
 
 from ...algorithms.core.progress import SILENT, Progress
-from ...algorithms.rasters.cell_grid import RasterTarget
-from ...algorithms.remote.addresses import shown
-from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
+from ...algorithms.survey.area import Area
 from ...algorithms.tools.declaration import Input, ToFind
-from ...algorithms.tools.input_groups import GROUPS
-from ...algorithms.tools.rasters.constraints import Constraints
 from .. import compat
 from ..i18n import mark
-from .area import HELPS, add_area, area_in_own_crs, area_of, area_options
+from .area import HELPS, add_area, area_in_own_crs, area_of, area_options, target_options
 from .base import BareEarthAlgorithm
-from .checkpoints import checkpoints_of
-from .feedback import Refusal
+from .checkpoints import add_checkpoints, checkpoints_of
+from .constraints import add_constraints, constraints_of
+from .corrections import add_corrections, corrections_of
 from .inputs import (
     ANY_CLOUD_HELP,
     CLOUD_HELP,
@@ -41,14 +36,14 @@ from .inputs import (
     box_of,
     clouds_of,
     layer_polygons,
-    layer_shapes,
-    name_of,
     names_of,
     raster_of,
-    source_path,
+    source_of,
     survey_of,
+    words_of,
 )
-from .remote import ADDRESS_HELP, RemoteInput, extent_of_map, remote_of
+from .raster_target import add_raster_target, raster_target_of
+from .remote import ADDRESS_HELP, Remote
 from .stated_crs import add_crs
 
 # What is said of rasters that are no files, by the names of their inputs.
@@ -58,12 +53,6 @@ _NO_FILES = {
     "confidence": mark("The confidence is not a file. Export it as GeoTIFF first."),
 }
 _NO_FILE = mark("{} is not a file. Export it as GeoTIFF first.")
-_LAYERS = {"points": compat.POINTS, "lines": compat.LINES, "polygons": compat.POLYGONS}
-# Default and layer of the fields for attributes.
-_ATTRIBUTES = {
-    "CORRECTIONS_FIELD": (CLASS_FIELD, "CORRECTIONS"), "Z_FIELD": (None, "CHECKPOINTS"),
-    "COVER_FIELD": (None, "CHECKPOINTS"), "NAME_FIELD": (None, "CHECKPOINTS"),
-}  # fmt: skip
 
 
 class Given(NamedTuple):
@@ -75,6 +64,7 @@ class Given(NamedTuple):
     arguments: tuple[str, ...] = ()
     paths: tuple[Path, ...] = ()
     name: str = ""
+    remotes: tuple[Remote, ...] = ()  # point clouds that are not on this computer
 
 
 class Request(NamedTuple):
@@ -98,31 +88,24 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         return
     if declared.kind == "area":
         advanced = ("EXTENT", "BOUNDARY") if declared.advanced else ("BOUNDARY",)
-        shown_box = extent_of_map() if algorithm.reads_addresses else None
-        add_area(algorithm, advanced, HELPS.get(declared.help, {}), shown_box)
+        add_area(algorithm, advanced, HELPS.get(declared.help, {}))
         return
-    if declared.kind in GROUPS:
-        for part in GROUPS[declared.kind]:
-            if part.label:
-                add_input(algorithm, replace(part, advanced=part.advanced or declared.advanced))
+    if declared.kind == "checkpoints":
+        add_checkpoints(algorithm, declared.advanced)
         return
     makers: dict[str, Callable[[], QgsProcessingParameterDefinition]] = {
         "cloud": lambda: PointCloudInput(name, label),
         "clouds": lambda: SurveyInput(name, label),
-        "address": lambda: RemoteInput(name, label),
+        "address": lambda: PointCloudInput(name, label),
         "raster": lambda: QgsProcessingParameterRasterLayer(name, label, None, declared.optional),
         "extent": lambda: QgsProcessingParameterExtent(name, label, None, True),
         "words": lambda: QgsProcessingParameterString(name, label, None, False, True),
-        "attribute": lambda: QgsProcessingParameterField(
-            name, label, *_ATTRIBUTES[name], optional=True
+        "polygons": lambda: QgsProcessingParameterFeatureSource(
+            name, label, [compat.POLYGONS], None, True
         ),
     }
     helps = {"cloud": CLOUD_HELP, "clouds": ANY_CLOUD_HELP, "address": ADDRESS_HELP}
-    if declared.kind in _LAYERS:
-        kinds = [_LAYERS[declared.kind]]
-        field = QgsProcessingParameterFeatureSource(name, label, kinds, None, True)
-    else:
-        field = makers[declared.kind]()
+    field = makers[declared.kind]()
     if declared.advanced:
         field.setFlags(field.flags() | compat.ADVANCED)
     algorithm.addParameter(field, declared.field_help or helps.get(declared.kind, ""))
@@ -135,82 +118,67 @@ def given(request: Request, declared: Input) -> Given:
 
 def _cloud(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, _ = request
-    path = source_path(algorithm, parameters, declared.field_name, context)
-    value = [path] if declared.kind == "clouds" else path
-    return Given(value, {}, (str(path),), (path,), name_of(path))
+    source = source_of(algorithm, parameters, declared.field_name, context)
+    return _of_sources([source], is_one=declared.kind == "cloud")
 
 
 def _address(request: Request, declared: Input) -> Given:
-    algorithm, parameters, context, _ = request
-    remote = remote_of(algorithm, parameters, declared.field_name, context)
-    algorithm.layer_crs = remote.crs
-    return Given(remote.address, {}, (shown(remote.address),), (), remote.name)
+    found = _cloud(request, declared)
+    return found._replace(value=found.remotes[0].address if found.remotes else str(found.paths[0]))
 
 
 def _files(request: Request, declared: Input) -> Given:
-    paths = clouds_of(request.algorithm, request.parameters, request.context)
-    return Given(paths, {}, tuple(map(str, paths)), tuple(paths), names_of(paths))
+    return _of_sources(clouds_of(request.algorithm, request.parameters, request.context))
 
 
 def _survey(request: Request, declared: Input) -> Given:
-    paths = survey_of(request.algorithm, request.parameters, request.context)
-    return Given(paths, {}, tuple(map(str, paths)), tuple(paths), names_of(paths))
+    return _of_sources(survey_of(request.algorithm, request.parameters, request.context))
+
+
+def _of_sources(sources: Sequence[Path | Remote], is_one: bool = False) -> Given:
+    """Return what is given by point clouds; remote ones are no values before they are here."""
+    remotes = tuple(source for source in sources if isinstance(source, Remote))
+    paths = tuple(source for source in sources if isinstance(source, Path))
+    value = next(iter(paths), None) if is_one else list(paths)
+    return Given(value, {}, tuple(map(words_of, sources)), paths, names_of(sources), remotes)
 
 
 def _area(request: Request, declared: Input) -> Given:
-    algorithm, parameters, context, progress = request
-    if algorithm.reads_addresses and algorithm.layer_crs is None:
-        return Given(area_in_own_crs(algorithm, parameters, context, progress))
-    area = area_of(algorithm, parameters, context, _crs_of(request))
-    return Given(area, area_options(area, progress))
+    area, is_known = part_of(request)
+    if not is_known:
+        request.progress.info(
+            "In the command line the area is missing: save it as boundary.geojson, and add"
+            " --boundary boundary.geojson."
+        )
+        return Given(area)
+    return Given(area, area_options(area, request.progress))
+
+
+def part_of(request: Request) -> tuple[Area | None, bool]:
+    """Return the area, and whether it is in the CRS of the points; it has its own CRS while that of
+    remote points is not known.
+    """
+    algorithm, parameters, context, _ = request
+    if algorithm.is_elsewhere and not (algorithm.stated or algorithm.layer_crs):
+        area = area_in_own_crs(algorithm, parameters, context)
+        return area, area is None or not area.polygons
+    return area_of(algorithm, parameters, context, _crs_of(request)), True
 
 
 def _target(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, _ = request
-    like = extent = None
-    if not compat.is_empty(parameters.get("LIKE")):
-        text = mark("The raster with the grid to use is not a file. Export it as GeoTIFF first.")
-        like = raster_of(algorithm, parameters, "LIKE", context, text).source()
-    if not compat.is_empty(parameters.get("RASTER_EXTENT")):
-        extent = box_of(algorithm, parameters, "RASTER_EXTENT", context, _crs_of(request))
-    options = {"like": like, "raster-extent": extent and tuple(map(repr, extent))}
-    return Given(RasterTarget(like, extent), options)
+    target = raster_target_of(algorithm, parameters, context, _crs_of(request))
+    return Given(target, target_options(target))
 
 
 def _corrections(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, progress = request
-    if request.is_empty(declared):
-        return Given(NO_CORRECTIONS)
-    layer = declared.field_name
-    name = algorithm.parameterAsString(parameters, "CORRECTIONS_FIELD", context) or CLASS_FIELD
-    source = algorithm.parameterAsSource(parameters, layer, context)
-    if source is not None and source.fields().lookupField(name) < 0:
-        text = mark("The corrections have no attribute {}. Choose the one to use.")
-        raise Refusal(text, name)
-    progress.info(
-        "In the command line the corrections are missing: save them in the CRS of the points as"
-        f' corrections.geojson, their class as the attribute "{CLASS_FIELD}", and add --corrections'
-        " corrections.geojson."
-    )
-    field = algorithm, parameters, layer, "Corrections", context, _crs_of(request)
-    return Given(Corrections(*zip(*layer_shapes(*field, attribute=name))))
+    return Given(corrections_of(algorithm, parameters, context, _crs_of(request), progress))
 
 
 def _constraints(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, progress = request
-    shapes: dict[str, Any] = {}
-    for part in GROUPS[declared.kind]:
-        if not request.is_empty(part):
-            field = algorithm, parameters, part.field_name, part.label, context, _crs_of(request)
-            found = layer_shapes(*field, _LAYERS[part.kind])
-            shapes[part.name] = tuple(corners for corners, _ in found)
-    if shapes:
-        names = [name.replace("_", "-") for name in shapes]
-        progress.info(
-            "In the command line some layers are missing: save each in the CRS of the points as"
-            f" GeoJSON, and add {' '.join(f'--{name} {name}.geojson' for name in names)}."
-        )
-    return Given(Constraints(**shapes))
+    return Given(constraints_of(algorithm, parameters, context, _crs_of(request), progress))
 
 
 def _crs_of(request: Request) -> CloudCrs:
@@ -283,4 +251,5 @@ _READERS: dict[str, Callable[[Request, Input], Given]] = {
 # Inputs with fields of their own.
 _GROUPS: dict[str, Callable[[BareEarthAlgorithm], None]] = {
     "crs": add_crs, "files": add_clouds, "survey": add_survey,
+    "target": add_raster_target, "corrections": add_corrections, "constraints": add_constraints,
 }  # fmt: skip

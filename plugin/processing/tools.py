@@ -28,18 +28,31 @@ from ...algorithms.tools.heights import HEIGHT_DIMENSION
 from .. import compat
 from ..i18n import mark, tr
 from ..styles import layers
+from .area import has_area
 from .base import BareEarthAlgorithm, command_line
 from .classified import show_class_raster
-from .feedback import FeedbackProgress
+from .feedback import FeedbackProgress, Refusal
 from .inputs import ignored_filter
 from .outputs import after_cancel, do_not_load, point_cloud_formats
-from .tool_inputs import Given, Request, add_input, given
+from .remote import LIMIT, add_remote
+from .tool_inputs import Given, Request, add_input, given, part_of
 
 # Inputs of these kinds, which name the run, are found first; these are read when the work begins.
-_FILES = ("cloud", "clouds", "files", "survey", "raster", "address")
+_CLOUDS = ("cloud", "clouds", "files", "survey")
+_FILES = (*_CLOUDS, "raster", "address")
 _LATE = ("checkpoints", "polygons")
+# Inputs of these kinds say which part of remote points is needed.
+_PARTS = ("area", "extent")
 # Outputs of these kinds are files of points.
 _POINTS = ("cloud", "points")
+# Metres round the area that are downloaded as well, if the ground filter does not look farther.
+_AROUND = 200.0
+# What to do if it is too much.
+_ADVICE = "Choose a smaller extent"
+_MANY = mark(
+    "{} lists {} point clouds that have points there, and this algorithm reads one. Choose 'Point"
+    " cloud to terrain', or download them first."
+)
 # Titles of the layers of classes, by what a tool for points shows.
 _TITLES = {"classes": layers.CLASSES, "key points": mark("key points")}
 # Of the numbers of many files; all others are added up.
@@ -58,7 +71,6 @@ class ToolAlgorithm(BareEarthAlgorithm):
         self._inputs = [declared for declared in tool.all_inputs if declared.label]
         self._outputs = [output for output in tool.all_outputs if output.label]
         self._given: dict[str, Given] = {}
-        self.reads_addresses = any(declared.kind == "address" for declared in self._inputs)
 
     def createInstance(self) -> ToolAlgorithm:
         """Return another instance."""
@@ -88,6 +100,9 @@ class ToolAlgorithm(BareEarthAlgorithm):
         for declared in self._inputs:
             if declared.is_last:
                 add_input(self, declared)
+        kinds = {declared.kind for declared in self._inputs}
+        if kinds.intersection(_CLOUDS):
+            add_remote(self, has_area=not kinds.isdisjoint(_PARTS))
         for output in self._outputs:
             field = _field_of(output)
             if output.advanced:  # QGIS shows it below the other outputs: it folds only inputs away
@@ -107,10 +122,23 @@ class ToolAlgorithm(BareEarthAlgorithm):
             for declared in self._inputs
             if declared.kind in _FILES
         }
+        remotes = [remote for found in self._given.values() for remote in found.remotes]
+        kind = next(declared.kind for declared in self._inputs if declared.kind in _FILES)
+        self.is_elsewhere = kind == "address" or bool(remotes)
+        self.layer_crs = next((remote.crs for remote in remotes if remote.crs), None)
+        if remotes and kind != "address" and not has_area(parameters):
+            raise Refusal(
+                mark("{} is not on this computer: give the extent to download."), remotes[0].name
+            )
+        self.set_inputs()
+        self.subject = next(found.name for found in self._given.values() if found.name)
+
+    def set_inputs(self, is_list: bool = False) -> None:
+        """Set the input files, as far as they are here; a list of files is a survey."""
         paths = [path for found in self._given.values() for path in found.paths]
         kind = next(declared.kind for declared in self._inputs if declared.kind in _FILES)
-        self.inputs = Inputs(paths, {"cloud": False, "address": False, "files": True}.get(kind))
-        self.subject = next(found.name for found in self._given.values() if found.name)
+        is_survey = {"cloud": False, "address": False, "files": True}.get(kind, is_list or None)
+        self.inputs = Inputs(paths, is_survey if paths else False)
 
     def prepare(
         self,
@@ -120,14 +148,66 @@ class ToolAlgorithm(BareEarthAlgorithm):
     ) -> None:
         """Find the inputs, and warn of a filter that is ignored."""
         super().prepare(parameters, context, progress)
-        request = Request(self, parameters, context, progress)
         for declared in self._inputs:
-            if declared.kind not in (*_FILES, *_LATE):
-                self._given[declared.name] = given(request, declared)
             if declared.kind in ("cloud", "clouds") and ignored_filter(
                 self, parameters, declared.field_name, context
             ):
                 progress.warning("The layer's filter is not applied: all points are read.")
+        # Of remote points the CRS is not known before they are here.
+        if not any(map(self._is_far, self._given)):
+            self._find_rest(Request(self, parameters, context, progress))
+
+    def _is_far(self, name: str) -> bool:
+        """Return whether an input, by its name, is points that have to be downloaded first."""
+        kind = next(declared.kind for declared in self._inputs if declared.name == name)
+        return kind != "address" and bool(self._given[name].remotes)
+
+    def _find_rest(self, request: Request) -> None:
+        """Find what is given beside files."""
+        for declared in self._inputs:
+            if declared.kind not in (*_FILES, *_LATE):
+                self._given[declared.name] = given(request, declared)
+
+    def bring(
+        self,
+        parameters: dict[str, Any],
+        context: QgsProcessingContext,
+        progress: FeedbackProgress,
+    ) -> None:
+        """Download the needed part of remote points, and find what is given beside them."""
+        self.brought.clear()
+        far = {name: found for name, found in self._given.items() if self._is_far(name)}
+        request = Request(self, parameters, context, progress)
+        area = part_of(request)[0] if far else None
+        if area is None:
+            return
+        # Imported here, so that QGIS starts faster.
+        from ...algorithms.library.remote_points import SHARE, reach_of, stated_crs
+        from ...algorithms.remote.cache import Surroundings, bring_all, cache_of
+        from ...algorithms.remote.fetching import Wanted
+
+        # Without a field for an area, the part is taken as the whole.
+        is_of_area = any(declared.kind in _PARTS for declared in self._inputs)
+        margin = max(_AROUND, reach_of(self.chosen(parameters, context))) if is_of_area else 0.0
+        crs, limit = stated_crs(self.stated), self.parameterAsDouble(parameters, LIMIT, context)
+        part = Surroundings(area.box, area.polygons, margin, crs)
+        wanted = Wanted(part, most=limit * 1e9, crs=crs, is_measured=True)
+        sources: dict[str, list[str | Path]] = {
+            name: [*(remote.address for remote in found.remotes), *found.paths]
+            for name, found in far.items()
+        }
+        place = cache_of(None), _ADVICE, progress.before(SHARE)
+        here, found_at = bring_all(sources, wanted, *place)
+        self.brought.update(found_at)
+        for name, paths in here.items():
+            is_one = next(one.kind == "cloud" for one in self._inputs if one.name == name)
+            if is_one and len(paths) > 1:
+                raise Refusal(_MANY, far[name].name, len(paths))
+            value = paths[0] if is_one else paths
+            self._given[name] = far[name]._replace(value=value, paths=tuple(paths))
+        self.is_elsewhere = False
+        self.set_inputs(any(paths.is_survey for paths in here.values()))
+        self._find_rest(request)
 
     def compute(
         self,
@@ -189,8 +269,13 @@ class ToolAlgorithm(BareEarthAlgorithm):
 
     def _words(self, paths: dict[str, str]) -> list[str]:
         """Return the arguments of the command without a flag."""
-        words = [word for found in self._given.values() for word in found.arguments]
-        return words + [paths[output.name] for output in self._outputs if output.is_main]
+        return self.source_words() + [
+            paths[output.name] for output in self._outputs if output.is_main
+        ]
+
+    def source_words(self) -> list[str]:
+        """Return the arguments of the command for files."""
+        return [word for found in self._given.values() for word in found.arguments]
 
     def _options(self, paths: dict[str, str]) -> dict[str, Any]:
         """Return the options of the command for inputs and outputs."""
@@ -267,9 +352,9 @@ class PointToolAlgorithm(ToolAlgorithm):
         """Return the sets of the tool, and resources."""
         return (*self._tool.sets_of_dialog, Resources)
 
-    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
-        """Find the input files."""
-        super().find_inputs(parameters, context)
+    def set_inputs(self, is_list: bool = False) -> None:
+        """Set the input files, and what stays of their outputs after a cancel."""
+        super().set_inputs(is_list)
         self.cancelled = after_cancel(self.inputs)
 
     def work(

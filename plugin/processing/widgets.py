@@ -14,6 +14,7 @@ from qgis.core import (
     QgsProcessingParameterDefinition,
     QgsProcessingParameterFile,
     QgsProcessingParameters,
+    QgsProcessingParameterString,
     QgsProject,
 )
 from qgis.gui import (
@@ -31,11 +32,13 @@ from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QWidget
 
 from ...algorithms.delivery.parameters import NO_DELIVERY
+from ...algorithms.remote.addresses import is_address
 from .. import compat
 from ..i18n import tr
 from ..styles.loaded import file_of
 from .choices import LABELS, ChoiceParameter, value_of, values_of
 from .compositions import DELIVERY, FOLDER
+from .remote import PART, extent_of_map
 
 _STATE = Qt.ItemDataRole.CheckStateRole
 # A box with choices is at least so many letters wide.
@@ -70,11 +73,11 @@ class CheckWidget:
 
 
 class PointCloudWidget:
-    """Makes the widget of a point cloud, which accepts files in the model designer, too."""
+    """Makes the widget of a point cloud, which accepts files and texts in the model designer."""
 
     # QGIS itself only offers inputs that are layers there. Without its `pdal` provider, these
-    # cannot be .las and .laz files. In a dialog for one run, a cloud of the project is chosen at
-    # first.
+    # cannot be .las and .laz files; texts are addresses. In a dialog for one run, a cloud of the
+    # project is chosen at first.
 
     def __new__(cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: Any) -> Any:
         """Return a widget, not an instance of this class."""
@@ -83,19 +86,10 @@ class PointCloudWidget:
         if not _is_designer(dialog):
             return _usual_widget(parameter, dialog)
         widget = _designer_widget(parameter, dialog)
-        # Adds inputs that are files; outputs that are files are already in the list.
-        widget.populateSources([QgsProcessingParameterFile.typeName()], [], [])
+        # Adds inputs that are files or texts; outputs that are files are already in the list.
+        kinds = QgsProcessingParameterFile, QgsProcessingParameterString
+        widget.populateSources([kind.typeName() for kind in kinds], [], [])
         return widget
-
-
-class AddressWidget:
-    """Makes the widget of a remote point cloud: an address is typed, or a layer chosen."""
-
-    def __new__(cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: Any) -> Any:
-        """Return a widget, not an instance of this class."""
-        if _kind(dialog) == QgsProcessingGui.WidgetType.Standard and not _is_designer(dialog):
-            return _AddressBox(parameter, _kind(dialog), dialog)
-        return PointCloudWidget(parameter, dialog)
 
 
 def _is_designer(dialog: QWidget) -> bool:
@@ -259,17 +253,29 @@ class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
 
 
 class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
-    """The box of QGIS for a layer or file, first of which is a point cloud of the project."""
+    """The box of QGIS for a layer or file, in which an address can be typed; first of all it shows
+    a point cloud of the project.
+    """
+
+    # For a remote one, the extent of the map is shown in the field for the extent.
 
     def createWidget(self) -> QWidget:
         """Return the box, which offers point clouds only."""
         box = QgsProcessingMapLayerComboBox(self.parameterDefinition(), self.type())
         box.setWidgetContext(self.widgetContext())
-        # In QGIS 3.22 it would offer all layers, and choose one of them.
-        for child in box.findChildren(QComboBox):  # this class, since PyQt does not know the other
-            sip.cast(child, QgsMapLayerComboBox).setFilters(compat.POINT_CLOUDS)
         self._suggested: str | None = None
+        self._extent: QgsAbstractProcessingParameterWidgetWrapper | None = None
+        self._shown: Any = None  # the suggested extent
+        names = _names_in(box)
+        # In QGIS 3.22 it would offer all layers, and choose one of them.
+        sip.cast(names, QgsMapLayerComboBox).setFilters(compat.POINT_CLOUDS)
+        names.setEditable(True)
+        _show_choice(names)
+        names.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
+        names.setCompleter(None)
+        names.lineEdit().setPlaceholderText(tr("A layer, a file, or an address (https://…)"))
         box.valueChanged.connect(lambda: self.widgetValueHasChanged.emit(self))
+        names.editTextChanged.connect(lambda _: self.widgetValueHasChanged.emit(self))
         return box
 
     @property
@@ -288,21 +294,51 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
         if self.wrappedWidget() is None:
             return
         if self._suggested is None and compat.is_null(value):
-            layer = _cloud_of(self.widgetContext().project())
-            value = self._suggested = layer.id() if layer else ""
+            layers = _clouds(self.widgetContext().project())
+            if self.parameterDefinition().name() == "ADDRESS":  # of what is to be downloaded
+                layers = [layer for layer in layers if file_of(layer) is None]
+            value = self._suggested = layers[0].id() if layers else ""
         self._suggested = self._suggested or ""
         self._box.setValue(value or None, context)
+        _show_choice(_names_in(self._box))
 
     def widgetValue(self) -> Any:
-        """Return the layer or file."""
-        return self._box.value()
+        """Return the layer or file, or what is typed."""
+        value = self._box.value()
+        return value.strip() if isinstance(value, str) else value
 
     def postInitialize(self, wrappers: list[QgsAbstractProcessingParameterWidgetWrapper]) -> None:
-        """Take the suggestion back if the user chooses a folder, which would be used beside it."""
+        """Take the suggestion back if the user chooses a folder, which would be used beside it, and
+        let the extent follow the point cloud.
+        """
         super().postInitialize(wrappers)
         for wrapper in wrappers:
             if wrapper.parameterDefinition().name() == "INPUT_FOLDER":
                 wrapper.widgetValueHasChanged.connect(self._take_back)
+            if wrapper.parameterDefinition().name() == PART:
+                self._extent = wrapper
+        self.widgetValueHasChanged.connect(self._suggest_extent)
+        self._suggest_extent()
+
+    def _suggest_extent(self, *_: Any) -> None:
+        """Show the extent of the map for remote points, unless the user gave one."""
+        if self._extent is None:
+            return
+        shown, context = self._extent.parameterValue(), QgsProcessingContext()
+        if not self._is_remote():
+            if shown and shown == self._shown:
+                self._extent.setParameterValue(None, context)
+        elif not shown and (extent := extent_of_map()):
+            self._extent.setParameterValue(extent, context)
+            self._shown = self._extent.parameterValue()
+
+    def _is_remote(self) -> bool:
+        value = self.widgetValue()
+        if isinstance(value, str) and is_address(value):
+            return True
+        project = self.widgetContext().project() or QgsProject.instance()
+        layer = project.mapLayer(str(value or ""))
+        return isinstance(layer, QgsPointCloudLayer) and file_of(layer) is None
 
     def _take_back(self, folder: QgsAbstractProcessingParameterWidgetWrapper) -> None:
         is_suggestion = bool(self._suggested) and self._box.value() == self._suggested
@@ -310,40 +346,9 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
             self._box.setLayer(None)
 
 
-class _AddressBox(QgsAbstractProcessingParameterWidgetWrapper):
-    """A box for an address, which offers the remote point clouds of the project."""
-
-    def createWidget(self) -> QWidget:
-        """Return the box, with the active layer chosen if it is remote."""
-        box = _narrow(QComboBox())
-        box.setEditable(True)
-        box.lineEdit().setPlaceholderText("https://")
-        for layer in _clouds(self.widgetContext().project()):
-            if file_of(layer) is None:
-                box.addItem(layer.name(), layer.id())
-        box.setCurrentIndex(0 if box.count() else -1)
-        box.currentTextChanged.connect(lambda _: self.widgetValueHasChanged.emit(self))
-        return box
-
-    def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
-        """Show an address, or choose a layer, also those of an earlier run."""
-        box = self.wrappedWidget()
-        if box is not None and not compat.is_null(value):
-            place = box.findData(value)
-            box.setCurrentIndex(place)
-            if place < 0:
-                box.setEditText(str(value))
-
-    def widgetValue(self) -> Any:
-        """Return the id of the layer, or the address."""
-        box = self.wrappedWidget()
-        place = box.findText(box.currentText())
-        return box.itemData(place) if place >= 0 else box.currentText().strip()
-
-
-def _cloud_of(project: QgsProject | None) -> QgsPointCloudLayer | None:
-    """Return the active layer if it is a point cloud on this computer, else the uppermost one."""
-    return next((layer for layer in _clouds(project) if file_of(layer)), None)
+def _names_in(box: QgsProcessingMapLayerComboBox) -> QComboBox:
+    """Return the list of layers and files in a box of QGIS."""
+    return box.findChildren(QComboBox)[0]  # of this class, since PyQt does not know its own
 
 
 def _clouds(project: QgsProject | None) -> list[QgsPointCloudLayer]:
@@ -354,6 +359,11 @@ def _clouds(project: QgsProject | None) -> list[QgsPointCloudLayer]:
     active = [iface.activeLayer()] if iface is not None else []
     layers = dict.fromkeys([*active, *project.layerTreeRoot().layerOrder()])
     return [layer for layer in layers if isinstance(layer, QgsPointCloudLayer)]
+
+
+def _show_choice(names: QComboBox) -> None:
+    """Show a chosen layer without its CRS, as QGIS wants it in a box in which one can type."""
+    names.setEditText(names.itemText(names.currentIndex()))
 
 
 def _narrow(box: QComboBox) -> QComboBox:

@@ -13,6 +13,7 @@ from qgis.core import (
 )
 
 from ... import __version__
+from ...algorithms.remote.addresses import shown
 from .. import compat
 from ..i18n import tr
 
@@ -55,8 +56,8 @@ def _text(value: Any, context: QgsProcessingContext) -> str:
     if isinstance(value, str):
         layer = QgsProcessingUtils.mapLayerFromString(value, context, False)
     if isinstance(layer, QgsMapLayer):
-        return f"{layer.name()} ({layer.publicSource()})"
-    return str(value)
+        return f"{layer.name()} ({shown(layer.publicSource())})"
+    return shown(str(value))  # of an address, without its signature
 
 
 def describe(layer: QgsMapLayer, title: str, origin: Origin) -> None:

@@ -29,7 +29,7 @@ SHARED_PARAMETERS = [
     "THREADS", "MEMORY",
     "CORRECTIONS", "CORRECTIONS_FIELD",
     "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
-    "OUTPUT", "DTM", "HILLSHADE", "EXPLANATION",
+    "LIMIT", "OUTPUT", "DTM", "HILLSHADE", "EXPLANATION",
 ]  # fmt: skip
 SHARED_OUTPUTS = [
     "OUTPUT", "DTM", "HILLSHADE", "EXPLANATION",
@@ -59,7 +59,7 @@ PARAMETERS = {
         "ACCURACY_CLASS", "SURVEY_ERROR",
         "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
-        "CHECKPOINTS", "Z_FIELD", "COVER_FIELD", "NAME_FIELD",
+        "CHECKPOINTS", "Z_FIELD", "COVER_FIELD", "NAME_FIELD", "LIMIT",
         "DELIVERY_FOLDER",
         "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
     ],
@@ -90,30 +90,30 @@ PARAMETERS = {
         "MAX_EDGE", "RASTER_PER_FILE",
         "THREADS", "MEMORY", "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
-        "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
+        "LIMIT", "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE",
     ],
     "bareearth:heightaboveground": [
         "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP", "OUTPUT_AS", "THREADS", "MEMORY", "DTM",
-        "OUTPUT",
+        "EXTENT", "LIMIT", "OUTPUT",
     ],
     "bareearth:classifyaboveground": [
         "INPUT", "CRS", "ABOVE_GROUND", "MEDIUM_HEIGHT", "HIGH_HEIGHT", "LOW_HEIGHT", "BUILDINGS",
         "BUILDING_AREA", "BUILDING_HEIGHT", "MARK_BRIDGES", "MARK_HIGH_NOISE", "RECLASSIFY",
-        "GROUND_CLASSES", "OVERLAP", "THREADS", "MEMORY", "OUTPUT",
+        "GROUND_CLASSES", "OVERLAP", "THREADS", "MEMORY", "EXTENT", "LIMIT", "OUTPUT",
     ],
     "bareearth:modelkeypoints": [
         "INPUT", "CRS",
         "TOLERANCE_ABOVE", "TOLERANCE_BELOW", "GRID_SIZE",
         "GROUND_CLASSES", "OVERLAP", "MARK_AS", "KEY_CLASS",
-        "THREADS", "MEMORY", "OUTPUT",
+        "THREADS", "MEMORY", "EXTENT", "LIMIT", "OUTPUT",
     ],
     "bareearth:water": [
         "INPUT", "CRS", "MIN_AREA", "MIN_WIDTH", "WATER_CELL", "GROUND_CLASSES", "OVERLAP",
-        "OUTPUT", "BREAKLINES",
+        "EXTENT", "LIMIT", "OUTPUT", "BREAKLINES",
     ],
     "bareearth:waterclasses": [
         "INPUT", "WATER", "CRS", "SHORE_DISTANCE", "WATER_CLASS", "IGNORED_CLASS",
-        "GROUND_CLASSES", "OVERLAP", "THREADS", "MEMORY", "OUTPUT",
+        "GROUND_CLASSES", "OVERLAP", "THREADS", "MEMORY", "EXTENT", "LIMIT", "OUTPUT",
     ],
     "bareearth:terrainmodel": [
         "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP",
@@ -122,26 +122,28 @@ PARAMETERS = {
         "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE", "PIT_FREE",
         "RASTER_PER_FILE", "THREADS", "MEMORY", "EXTENT", "BOUNDARY",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
-        "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE",
+        "LIMIT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE",
     ],
     "bareearth:comparesettings": [
-        "INPUT", "EXTENT", "CRS", "SETTINGS", "CONTEXT", "PROFILE", "THREADS", "MEMORY", "OUTPUT",
+        "INPUT", "EXTENT", "CRS", "SETTINGS", "CONTEXT", "PROFILE", "THREADS", "MEMORY", "LIMIT",
+        "OUTPUT",
     ],
     "bareearth:assess": [
         "CLASSIFIED", "REFERENCE", "CRS", "GROUND_CLASSES", "IGNORED_CLASSES", "MAP_CELL_SIZE",
-        "REPORT", "ERROR_MAP",
+        "EXTENT", "LIMIT", "REPORT", "ERROR_MAP",
     ],
     "bareearth:check": [
         "INPUT", "CHECKPOINTS", "Z_FIELD", "COVER_FIELD", "NAME_FIELD", "DTM", "CRS",
         "ACCURACY_CLASS", "SURVEY_ERROR", "MAX_EDGE", "MIN_CONFIDENCE", "HOLD_OUT",
-        "GROUND_CLASSES", "OVERLAP", "VEGETATED", "CONFIDENCE", "OUTPUT", "REPORT",
+        "GROUND_CLASSES", "OVERLAP", "VEGETATED", "CONFIDENCE", "EXTENT", "LIMIT", "OUTPUT",
+        "REPORT",
     ],
     "bareearth:fetch": [
         "ADDRESS", "EXTENT", "BOUNDARY", "RESOLUTION", "LIMIT", "SKIP_MISSING", "FOLLOW", "OUTPUT",
     ],
     "bareearth:quality": [
         "INPUT", "CRS", "SPECIFICATION", "CELL_SIZE", "VOID_DISTANCE", "GROUND_CLASSES", "OVERLAP",
-        "PAGE", "FOLDER",
+        "EXTENT", "LIMIT", "PAGE", "FOLDER",
     ],
     "bareearth:relief": [
         "INPUT", "KINDS", "RELIEF_RADIUS", "RELIEF_SMOOTHING",

@@ -7,14 +7,17 @@ from qgis.core import (
     QgsCoordinateReferenceSystem,
     QgsCoordinateTransform,
     QgsPointCloudLayer,
+    QgsProcessingContext,
     QgsProject,
     QgsProviderRegistry,
     QgsRectangle,
 )
+from qgis.gui import QgsMapCanvas
+from qgis.PyQt.QtWidgets import QComboBox
 from remote_server import serving
 from support import ALGORITHM, remove
 
-FETCH = "bareearth:fetch"
+FETCH, ONE_STEP = "bareearth:fetch", "bareearth:pointcloudtoterrain"
 needs_copc = pytest.mark.skipif(
     "copc" not in QgsProviderRegistry.instance().providerList(), reason="shows no point clouds"
 )
@@ -112,7 +115,7 @@ def test_part_of_a_layer_is_downloaded(registry, address, corner, tmp_path, log)
     try:
         wrapper = dialog.mainWidget().wrappers["ADDRESS"]
         assert wrapper.parameterValue() == layer.id()
-        assert wrapper.wrappedWidget().currentText() == "far away"
+        assert names_in(dialog, "ADDRESS").currentText().startswith("far away")
     finally:
         remove(dialog)
     QgsProject.instance().clear()
@@ -130,17 +133,19 @@ def test_a_refusal_of_the_server_is_one_sentence(server, address, tmp_path, log)
     assert not list(tmp_path.glob("part*"))
 
 
-def test_a_new_dialog_shows_the_extent_of_the_map(registry, monkeypatch):
-    from processing.gui.AlgorithmDialog import AlgorithmDialog
+@pytest.fixture
+def canvas(monkeypatch):
+    """The map of a window, which shows the west of the scene."""
     from qgis import utils
-    from qgis.gui import QgsMapCanvas
 
     canvas = QgsMapCanvas()
     canvas.setDestinationCrs(QgsCoordinateReferenceSystem("EPSG:25832"))
-    canvas.resize(300, 200)
-    canvas.setExtent(QgsRectangle(500_000.0, 5_700_000.0, 500_300.0, 5_700_200.0))
+    canvas.resize(300, 600)
+    canvas.setExtent(QgsRectangle(500_000.0, 5_700_000.0, 500_040.0, 5_700_080.0))
 
     class Window:
+        active = None
+
         def mapCanvas(self):
             return canvas
 
@@ -148,23 +153,56 @@ def test_a_new_dialog_shows_the_extent_of_the_map(registry, monkeypatch):
             return None
 
         def activeLayer(self):
-            return None
+            return self.active
 
     monkeypatch.setattr(utils, "iface", Window())
-    algorithm = registry.createAlgorithmById(FETCH)
-    field = algorithm.parameterDefinition("EXTENT")
-    assert field.defaultValue() is None  # of models and scripts
-    assert field.guiDefaultValueOverride().endswith("[EPSG:25832]")
+    yield canvas
     monkeypatch.undo()
-    dialog = AlgorithmDialog(algorithm)
-    try:
-        wrappers = dialog.mainWidget().wrappers
-        assert str(wrappers["EXTENT"].parameterValue()).startswith("500")
-        # No layer is remote, so that an address is typed.
-        box = wrappers["ADDRESS"].wrappedWidget()
-        assert box.isEditable() and not box.currentText()
-        box.setEditText(" https://example.org/a.copc.laz ")
-        assert wrappers["ADDRESS"].parameterValue() == "https://example.org/a.copc.laz"
-    finally:
+    remove(canvas)
+
+
+@pytest.fixture
+def dialog_of(registry):
+    from processing.gui.AlgorithmDialog import AlgorithmDialog
+
+    opened = []
+
+    def dialog_of(name):
+        opened.append(AlgorithmDialog(registry.createAlgorithmById(name)))
+        return opened[-1]
+
+    yield dialog_of
+    for dialog in opened:
         remove(dialog)
-        remove(canvas)
+
+
+def field_of(dialog, name):
+    return dialog.mainWidget().wrappers[name]
+
+
+def names_in(dialog, name="INPUT"):
+    return field_of(dialog, name).wrappedWidget().findChildren(QComboBox)[0]
+
+
+@pytest.mark.parametrize("name, field", [(FETCH, "ADDRESS"), (ONE_STEP, "INPUT")])
+def test_an_address_is_typed_and_the_extent_is_that_of_the_map(canvas, dialog_of, name, field):
+    dialog = dialog_of(name)
+    extent = field_of(dialog, "EXTENT")
+    assert not extent.parameterValue()
+    names_in(dialog, field).setEditText(" https://example.org/a.copc.laz ")
+    values = dialog.createProcessingParameters()
+    assert values[field] == "https://example.org/a.copc.laz"
+    west, _, _, north = map(float, values["EXTENT"].partition(" ")[0].split(","))
+    assert west <= 500_000.0 and north >= 5_700_080.0 and values["EXTENT"].endswith("[EPSG:25832]")
+    # Of a file on this computer all points are used.
+    names_in(dialog, field).setEditText("/tmp/a.laz")
+    assert not extent.parameterValue()
+
+
+def test_an_extent_of_the_user_stays(canvas, dialog_of):
+    dialog = dialog_of(ONE_STEP)
+    own = "500010,500020,5700010,5700020 [EPSG:25832]"
+    field_of(dialog, "EXTENT").setParameterValue(own, QgsProcessingContext())
+    for text in ("https://example.org/a.copc.laz", "/tmp/a.laz"):
+        names_in(dialog).setEditText(text)
+        assert field_of(dialog, "EXTENT").parameterValue().startswith("500010")
