@@ -11,15 +11,7 @@ from typing import TYPE_CHECKING, Any, Sequence
 
 from ..core.errors import BareEarthError, UsageError
 from ..remote.addresses import is_address, name_of
-from ..tools import (
-    COMPOSITIONS,
-    FILE_TOOLS,
-    MAP_TOOLS,
-    POINT_TOOLS,
-    Listed,
-    any_tool,
-    file_tool,
-)
+from ..tools import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS, Listed, any_tool, file_tool
 from .options import DONE, FAILED, Command, add_json, add_parameters, chosen
 from .terminal import Terminal, tell
 
@@ -39,7 +31,7 @@ _KEYWORD = re.compile(r"`([a-z_]+)`")  # in texts of the library
 _BOX = ("XMIN", "YMIN", "XMAX", "YMAX")
 _HELP = {
     "scheduler": "with many files: the address of a Dask scheduler, such as tcp://host:8786, whose"
-    " workers do the work; without it, processes of this computer do it",
+    " workers do the work; without it, processes of this computer do it"
 }
 
 

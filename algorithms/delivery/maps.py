@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Mapping, Sequence
 
@@ -15,8 +15,8 @@ from ..survey.files import Inputs
 from ..survey.outputs import check_outputs, place
 from ..tools import map_tool
 from ..tools.contours import Interval
-from ..tools.rasters.rows import RASTERS
-from .table import Job, Row
+from ..tools.ground.output import Output as Written
+from ..tools.running import run
 
 _KINDS = {"cloud": "cloud", "contours": "features"}
 # The longest first, since it ends as the second does.
@@ -28,41 +28,10 @@ class MapSummary:
     """What a run made."""
 
     cloud: Path  # the classified file, or the virtual point cloud of them
-    point_count: int = 0  # those of the area if there is one
-    ground_count: int = 0
-    class_counts: dict[int, int] = field(default_factory=dict)
-    contour_interval: Interval | None = None  # None if no contour lines were wanted
-
-
-class MapJob(Job):
-    """Single outputs while they are made."""
-
-    summary: MapSummary
-
-    def place(self, kind: str, name: str) -> Path | None:
-        """Return where an output waits for its name."""
-        return self.known.get(name)
-
-
-def _rows() -> tuple[Row, ...]:
-    """Return the rows; rasters are made in the same run as the classes."""
-    limits = {declared.name: declared.name for declared in map_tool("classify").inputs}
-    rasters = {name: name for name in RASTERS}
-    return (
-        Row("classes", "classify", 9.0, (), limits, rasters, work=_classify),
-        Row("contour lines", "contours", 1.0, ("contours",), {"source": "dtm"},
-            {"output": "contours"}, "contour_interval"),
-    )  # fmt: skip
-
-
-def _classify(job: MapJob, row: Row, progress: Progress) -> None:
-    """Classify the ground, and make the rasters."""
-    summary, is_survey = job.summary, job.sources.is_survey
-    done = job.run(row, progress, output=job.known["cloud"])
-    summary.ground_count, summary.class_counts = done.ground_count, done.class_counts
-    summary.point_count = done.point_count if is_survey else done.area_count
-    if is_survey:
-        summary.cloud = Path(done.vpc)
+    point_count: int  # those of the area if there is one
+    ground_count: int
+    class_counts: dict[int, int]
+    contour_interval: Interval | None  # None if no contour lines were wanted
 
 
 def make_maps(
@@ -77,25 +46,30 @@ def make_maps(
     """
     folders = [path.parent for path in outputs.values()]
     beside = next((folder for folder in folders if folder.is_dir()), Path(tempfile.gettempdir()))
+    sets = [*sets, Written(area_only=inputs["area"] is not None)]
     with temporary_folder(beside) as waiting, Outputs() as pending:
-        check_outputs(
-            [(_KINDS.get(name, "raster"), path) for name, path in outputs.items()], sources
-        )
-        summary = MapSummary(outputs.get("cloud", waiting / "cloud.las"))
-        known = {**inputs, "cloud": summary.cloud, "contours": None}
-        for name, path in outputs.items():
-            if name != "cloud":
-                known[name] = place(pending, _KINDS.get(name, "raster"), path)
-            elif not sources.is_survey:
-                known[name] = pending.file(path)
-        if known["contours"]:
-            known.setdefault("dtm", waiting / "dtm.tif")
+        kinds = {name: _KINDS.get(name, "raster") for name in outputs}
+        check_outputs([(kinds[name], path) for name, path in outputs.items()], sources)
+        cloud = outputs.get("cloud", waiting / "cloud.las")
         if sources.is_survey:
-            known["cloud"], tiles = _folder_of(summary.cloud)
+            target, tiles = _folder_of(cloud)
             sets = [*sets, tiles]
-        values = {"area_only": inputs["area"] is not None}
-        MapJob(sources, sets, values, known, summary).work(_rows(), progress)
-    return summary
+        else:
+            target = pending.file(cloud) if "cloud" in outputs else cloud
+        places = {
+            name: place(pending, kinds[name], path)
+            for name, path in outputs.items()
+            if name != "cloud"
+        }
+        tool, given = map_tool("classify"), {**inputs, "input": sources}
+        done = run(tool, given, {**places, "output": target}, sets, progress)
+    return MapSummary(
+        Path(done.vpc or cloud),
+        done.point_count if sources.is_survey else done.area_count,
+        done.ground_count,
+        done.class_counts,
+        done.drawn.get("contours"),
+    )
 
 
 def _folder_of(cloud: Path) -> tuple[Path, TileOutput]:

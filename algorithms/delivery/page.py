@@ -11,18 +11,7 @@ from ..core.parameters import ParameterSet, shown_value
 from ..core.words import counted
 from ..filters import method_of
 from ..las.class_names import named_class
-from ..report.page import (
-    Html,
-    element,
-    link,
-    listed,
-    map_of,
-    maps,
-    page,
-    paragraph,
-    section,
-    table,
-)
+from ..report.page import Html, element, link, listed, map_of, maps, page, paragraph, section, table
 from ..report.units import Units
 from ..survey.selection import Selection
 from ..tools.above_ground.classes import ThenAboveGround
@@ -37,8 +26,8 @@ from ..tools.water.finding import Water
 from ..tools.water_classes import WaterClasses
 from .deliveries import WITH_BUILDINGS, Delivery
 from .folder import POINTS, QUALITY
+from .job import DeliveryJob
 from .pictures import picture_of
-from .rows import DeliveryJob
 from .summary import DeliverySummary
 
 _MOST_ROWS = 200
@@ -208,9 +197,7 @@ def _settings(job: DeliveryJob) -> Html:
     rows.append(("Made on", date.today().isoformat()))
     files = [(_broken(tile.path.name), f"{tile.count:,}") for tile in tiles]
     return section(
-        "How it was made",
-        table(rows, is_named=True),
-        table(files, ("Input", "Points"), "lr"),
+        "How it was made", table(rows, is_named=True), table(files, ("Input", "Points"), "lr")
     )
 
 

@@ -5,21 +5,16 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Mapping, Sequence
+from typing import Any
 
 from ..core.errors import BareEarthError
 from ..core.files import make_work_folder, split_name
-from ..core.parameters import ParameterSet
 from ..core.progress import Progress
 from ..core.temporary import patiently, remove
-from ..crs.stated import stated_wkt
 from ..engine.manifest import folders_of
 from ..engine.options import TileOutput
-from ..engine.unpacking import Unpacking
-from ..engine.workers import Workers
 from ..grids.dense_surface import VERTICES_A_SIDE
 from ..report.units import Units
-from ..survey.feature_files import feature_writer
 from ..survey.files import Inputs, open_survey
 from ..survey.ground_classes import GroundClasses
 from ..survey.overview import overview_of
@@ -28,106 +23,19 @@ from ..tools.rasters.fixed_terrain import parts_of
 from ..tools.rasters.parameters import SurfaceModel, TerrainModel
 from ..tools.rasters.step import MakeRasters
 from ..tools.water.finding import Water
-from ..tools.water.tool import SurveyWater, found_water, given_water
+from ..tools.water.tool import found_water, given_water
 from .deliveries import WITH_BUILDINGS, Delivery
-from .folder import QUALITY, DeliveryFolder
-from .parameters import AS_DELIVERY, DeliveryOptions, DeliveryTerrain
-from .summary import DeliverySummary
-from .table import Job, Row
+from .folder import QUALITY
+from .job import DeliveryJob
+from .parameters import DeliveryTerrain
+from .table import Row
 
 _BUILDING = 6
-# Contour lines in a CRS whose heights are feet: so many feet are about half a metre.
-_FEET_A_METRE = 4.0
-_ENDINGS = {"raster": ".tif", "page": ".html", "table": ".csv", "folder": ""}
-
-
-class DeliveryJob(Job):
-    """A delivery while it is made, in a folder where its outputs wait for their places."""
-
-    summary: DeliverySummary
-
-    def __init__(
-        self,
-        content: Delivery,
-        sources: Inputs,  # opened
-        sets: Sequence[ParameterSet],
-        inputs: Mapping[str, Any],  # of the user
-        summary: DeliverySummary,
-        working: DeliveryFolder,
-        folder: DeliveryFolder,  # where many files are made, as finished ones stay after a cancel
-        unpacked: Path,  # a folder for records that are decompressed
-        workers: Workers | None,  # for many files
-    ) -> None:
-        self.content, self.is_survey = content, sources.is_survey
-        self.survey = open_survey(sources)  # of the raw files
-        self.working, self.folder, self.unpacked = working, folder, unpacked
-        self.files: list[Path] = []  # of points, at their places
-        self.waiting: list[Path] = []  # take the places of `files` at the end
-        self.found: SurveyWater | None = None
-        self.own, options = inputs["constraints"], DeliveryOptions.among(sets)
-        self.specification = options.specification
-        if self.specification == AS_DELIVERY:
-            self.specification = content.specification
-        values = content.values_with(self.specification)
-        values.update(area_only=inputs["area"] is not None, hold_out=options.hold_out_share)
-        wanted = {
-            "find water": content.water and not self.own.water,
-            "classes of water": content.water,
-            "key points": options.key_points,
-            "buildings": content.with_buildings,
-            "contours": content.contours,
-            "check": options.hold_out_share or inputs["checkpoints"],
-        }
-        super().__init__(sources, sets, values, {**inputs, **wanted}, summary, workers)
-        self.known["roads"] = self.set_of(Selection).roads
-        if not wanted["find water"]:
-            self.know_water()
-
-    @property
-    def cloud(self) -> Path:
-        """The classified file, or the virtual point cloud of many."""
-        return self.sources[0]
-
-    def opened(self, progress: Progress) -> tuple[Inputs, Progress]:
-        """Return the points, opened and decompressed once for all rows, and what is left of the
-        progress.
-        """
-        if self.sources.opened is None:
-            stated, part = stated_wkt(self.known["crs"]), progress.part(0.0, 0.1)
-            survey = open_survey(self.sources, progress=part, stated=stated)
-            unpacking = Unpacking(self.unpacked, is_whole=True)
-            shares = part.shares(*(tile.count for tile in survey.tiles))
-            tiles = (unpacking.of(tile, share) for tile, share in zip(survey.tiles, shares))
-            self.sources = self.sources.holding(replace(survey, tiles=tuple(tiles)))
-            progress = progress.part(0.1, 1.0)
-        return self.sources, progress
-
-    def know_water(self) -> None:
-        """Let further rows know the water, found or given, after which nothing more is found."""
-        constraints, own = self.known["constraints"], self.own
-        self.known["outlines"] = constraints.water_outlines
-        self.known["water lines"] = self.found or own.water or own.breaklines
-
-    def place(self, kind: str, name: str) -> Path:
-        """Return where an output waits, and list it if a map shows it."""
-        path = self.working.path / f"{name}{_ENDINGS.get(kind, _ending_of_features())}"
-        if kind in ("raster", "features"):
-            self.known[name] = self.summary.layers[name] = str(path)
-        return path
-
-
-def _ending_of_features() -> str:
-    """Return the ending of a GeoPackage if it can be written."""
-    try:
-        feature_writer(Path("x.gpkg"))
-    except BareEarthError:
-        return ".geojson"
-    return ".gpkg"
 
 
 def rows_of(content: Delivery) -> tuple[Row, ...]:
     """Return the rows of a delivery."""
-    rasters = {name: name for name in content.rasters}
+    drawn = {name: name for name in (*content.rasters, *["contours"] * content.contours)}
     on_ground = {name: name for name in ("roads", "constraints", "area", "raster_target")}
     quality = {"page": "quality", **({"folder": QUALITY} if content.quality else {})}
     checked = {"report": "accuracy", "table": "checkpoints", "residuals": "checkpoints"}
@@ -139,12 +47,10 @@ def rows_of(content: Delivery) -> tuple[Row, ...]:
             work=_change),
         Row("key points", "key-points", 2.0, ("key points",), work=_change),
         Row("quality", "quality", 2.0, (), {}, quality, work=_measure),
-        Row("rasters", "terrain", 2.0 + 0.4 * len(rasters), (), on_ground, rasters),
+        Row("rasters", "terrain", 2.0 + 0.4 * len(drawn), (), on_ground, drawn, work=_draw),
         Row("rasters", "terrain", 1.0, ("buildings",), on_ground, {"dsm": WITH_BUILDINGS},
             work=_draw_buildings),
         Row("rasters", "water", 0.3, ("water lines",), work=_write_water),
-        Row("contour lines", "contours", 0.3, ("contours",), {"source": "dtm"},
-            {"output": "contours"}, "interval", _draw_contours),
         Row("accuracy", "check", 1.5, ("check",), {"checkpoints": "checkpoints", "dtm": "dtm"},
             checked, "check"),
     )  # fmt: skip
@@ -173,7 +79,7 @@ def _find_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
     """Find the water."""
     ground, how = job.set_of(GroundClasses), job.set_of(Water)
     sources, progress = job.opened(progress)
-    water, job.summary.water = found_water(sources, ground, job.known["crs"], progress, how)
+    water, job.summary.water = found_water(sources, ground, progress, how)
     if water.bodies:
         job.found = water
         job.known["constraints"] = job.own.with_water(water.constraints, progress)
@@ -225,6 +131,11 @@ def _measure(job: DeliveryJob, row: Row, progress: Progress) -> None:
     summary.cell_text = units.length(model.cells(units.horizontal).metres)
 
 
+def _draw(job: DeliveryJob, row: Row, progress: Progress) -> None:
+    """Make the rasters and the contour lines."""
+    job.summary.interval = job.run(row, progress).drawn.get("contours")
+
+
 def _draw_buildings(job: DeliveryJob, row: Row, progress: Progress) -> None:
     """Make a surface of the terrain and the buildings."""
     ground, edge = job.set_of(GroundClasses), job.set_of(SurfaceModel).max_edge
@@ -250,14 +161,6 @@ def _write_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
     polygons = job.place("features", "water") if water.bodies else None
     lines = job.place("features", "breaklines") if any(True for _ in water.lines()) else None
     water.write(polygons, lines, progress)
-
-
-def _draw_contours(job: DeliveryJob, row: Row, progress: Progress) -> Any:
-    """Draw contour lines."""
-    metres, unit = job.content.contour_metres, job.survey.crs.vertical_unit
-    if metres is not None:
-        job.values["contour_interval"] = metres * (1.0 if unit == 1.0 else _FEET_A_METRE)
-    return job.run(row, progress)
 
 
 def _files_of(done: Any) -> list[Path]:

@@ -14,15 +14,15 @@ from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, PassingOn, Progress
 from ..core.temporary import remove
 from ..core.version import __version__
-from ..crs.stated import stated_wkt
 from ..engine.options import TileInput
 from ..engine.workers import Workers
 from ..survey.files import Inputs, Sources, open_survey
 from ..tools import POINT_TOOLS
 from .deliveries import DELIVERIES
 from .folder import PAGE, DeliveryFolder
+from .job import DeliveryJob
 from .page import delivery_html, settings_of
-from .rows import DeliveryJob, rows_of
+from .rows import rows_of
 from .summary import DeliverySummary
 
 
@@ -54,15 +54,15 @@ def deliver(
         summary = DeliverySummary(
             str(place.path), delivery, str(place.path / PAGE), warnings=messages.warnings
         )
-        made = DeliveryFolder(working), place, unpacked
+        folders = DeliveryFolder(working), place, unpacked
         content = DELIVERIES[delivery]
-        job = DeliveryJob(content, files, sets, inputs, summary, *made, workers)
+        job = DeliveryJob(content, files, sets, inputs, summary, *folders, workers)
         summary.seconds = job.seconds
         try:
             job.work(rows_of(content), messages.part(0.01, 0.97))
         except BareEarthError as error:
             raise BareEarthError(str(error).replace(str(working), str(place.path))) from error
-        remove(made[0].waiting)
+        remove(folders[0].waiting)
         page = delivery_html(job, working)
         (working / PAGE).write_text(page, encoding="utf-8")
         shown = {"cloud": summary.cloud, **summary.layers}
@@ -124,9 +124,8 @@ def _opened(
     files: Inputs, sets: Sequence[ParameterSet], inputs: Mapping[str, Any], progress: Progress
 ) -> Inputs:
     """Return the files with what they hold; refuse now what would fail after hours."""
-    stated, reading = stated_wkt(inputs["crs"]), progress.part(0.0, 0.01)
-    recursive = any(isinstance(values, TileInput) and values.recursive for values in sets)
-    survey = open_survey(files, recursive, reading, stated)
+    files = files.read_as(inputs["crs"], TileInput.among(sets).recursive)
+    survey = open_survey(files, progress.part(0.0, 0.01))
     if inputs["checkpoints"] is not None:
         inputs["checkpoints"].located(survey.place, progress)
     return files.holding(survey)

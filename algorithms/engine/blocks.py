@@ -164,11 +164,7 @@ class Blocks:
         return counts
 
     def contents(
-        self,
-        block: Block,
-        store: Store,
-        progress: Progress = SILENT,
-        known_or: str | None = None,
+        self, block: Block, store: Store, progress: Progress = SILENT, known_or: str | None = None
     ) -> BlockPoints:
         """Return the points of a block and its buffer relative to its `corner`; for `known_or`, see
         `Store.read`.

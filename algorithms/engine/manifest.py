@@ -46,10 +46,7 @@ def stamp_of(path: Path) -> Stamp:
 
 
 def fingerprint_of(
-    grids: Sequence[BlockGrid],
-    tile: Path,
-    sources: Iterable[Stamp],
-    target: Path,
+    grids: Sequence[BlockGrid], tile: Path, sources: Iterable[Stamp], target: Path
 ) -> Fingerprint:
     """Return everything that an output depends on: the steps with their blocks, the input, the
     files that affect it (`sources`), and its name.
@@ -63,19 +60,12 @@ def fingerprint_of(
 
 
 def block_file(
-    grids: Sequence[BlockGrid],
-    folder: Path,
-    place: BlockIndex,
-    sources: Iterable[Stamp],
+    grids: Sequence[BlockGrid], folder: Path, place: BlockIndex, sources: Iterable[Stamp]
 ) -> Path:
     """Return the file for the result of a block of the last of some grids; its name depends on all
     that the result depends on.
     """
-    content = {
-        "steps": _settings(grids),
-        "place": list(place),
-        "files": list(sources),
-    }
+    content = {"steps": _settings(grids), "place": list(place), "files": list(sources)}
     return folder / f"{short_name(json.dumps(content, sort_keys=True).encode())}.npz"
 
 

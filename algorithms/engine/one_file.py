@@ -10,12 +10,11 @@ from ..core.progress import Progress
 from ..core.threads import import_early, may_use
 from ..las.cloud import survey_frame
 from ..las.crs_records import read_crs
-from ..las.lasfile import LasFile
-from ..las.opening import open_las
+from ..survey.files import Inputs
 from ..survey.shapes import Place
 from .file_points import FilePoints, TileResult, copies_all_else
-from .options import RunOptions
-from .step import PointStep, Step, located
+from .memory import Resources
+from .step import PointStep, Step, placed
 from .store import Store
 from .values import PointValues, StoreValues, with_values
 
@@ -25,17 +24,18 @@ _READING, _BEFORE_WRITING = 1.5, 0.92
 
 def work_on_file(
     steps: Sequence[Step],
-    source: Path | LasFile,
+    inputs: Inputs,
     target: Path | None,
-    options: RunOptions,
+    resources: Resources,
     progress: Progress,
 ) -> Any:
     """Let steps work on a LAS, LAZ or COPC file, and write its points with what they found, and
     nothing else changed; all outputs or none.
     """
-    las, resources = open_las(source, options.stated), options.resources.now()
+    las, resources = inputs.open_file(), resources.now()
     place = Place(str(las.path), read_crs(las), las.outer_box if las.states_extent else None)
-    steps = [step.placed(place, progress) for step in steps]
+    for step in steps:
+        step.placed(place)  # refuses, before any reading, what the header shows to be unsuitable
     import_early(*(name for step in steps for name in step.imports))
     for_points = [step for step in steps if isinstance(step, PointStep)]
     beside = target or next(path for step in steps for _, path in step.outputs(is_survey=False))
@@ -67,7 +67,7 @@ class FileRun:
         progress: Progress,
         outputs: Outputs | None = None,
     ) -> None:
-        self.steps: list[Any] = located(steps, points.place, progress)  # in the CRS of the points
+        self.steps: list[Any] = placed(steps, points.place, progress)
         self.counts = [step.counts() for step in self.steps]  # by the steps, among the points
         self.points, self.outputs = points, outputs or Outputs()
         self.told: list[Any] = []  # what `finish` of the steps returned

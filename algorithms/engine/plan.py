@@ -111,8 +111,7 @@ class Plan:
         self.kept: list[Any] = []  # summaries of the outputs that an earlier run finished
         self.failures: dict[Path, str] = {}  # why files cannot be done
         self.seen = dataclasses.replace(
-            survey,
-            tiles=tuple(t for t in survey.tiles if not any(step.skips(t) for step in steps)),
+            survey, tiles=tuple(t for t in survey.tiles if not any(step.skips(t) for step in steps))
         )
         # files of which no point is to be written, by their headers
         self.empty_count = len(survey.tiles) - len(self.seen.tiles)

@@ -8,11 +8,12 @@ from typing import Any
 
 from ..core.progress import SILENT, Progress
 from ..survey.files import Inputs
+from .memory import Resources
 from .one_file import work_on_file
-from .options import RunOptions
+from .options import TileOutput
 from .step import Step
 from .survey_run import work_on_survey
-from .workers import Workers
+from .workers import Threads, Workers
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,8 @@ class Run:
     """Steps, each of which sees the points with what those before it have found."""
 
     steps: tuple[Step, ...]
-    options: RunOptions = field(default_factory=RunOptions)
+    output: TileOutput = field(default_factory=TileOutput)  # of many files
+    resources: Resources = field(default_factory=Resources)
 
     def work(
         self,
@@ -36,5 +38,6 @@ class Run:
         # `target` is None if no step finds a value for each point. The workers are by default
         # threads of this process, and the virtual point cloud is by default in the folder.
         if not inputs.is_survey:
-            return work_on_file(self.steps, inputs.file, target, self.options, progress)
-        return work_on_survey(self.steps, inputs, target, self.options, progress, workers, vpc)
+            return work_on_file(self.steps, inputs, target, self.resources, progress)
+        workers = workers or Threads(self.resources)
+        return work_on_survey(self.steps, inputs, target, self.output, progress, workers, vpc)

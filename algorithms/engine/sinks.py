@@ -39,7 +39,6 @@ def run_sink(
     # The results of blocks go to an existing folder that all workers see. Those that a run left
     # there when it was cancelled or killed are not made again if nothing has changed.
     results = results or Results(survey)
-    step = step.placed(survey.place, progress)
     frame = survey_frame(survey.crs, step.origin)
     reading, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
     step = step.seeing(results.parts(unpacking, reading), frame, reading)

@@ -109,9 +109,9 @@ class Step:
         return {"step": type(self).__name__, **_plain(self)}
 
 
-def located(steps: Sequence[Any], place: Place, progress: Progress = SILENT) -> list[Any]:
-    """Return steps whose lines and polygons are in the CRS of the points, each transformed once;
-    errors are those of `Geometry.located`.
+def placed(steps: Sequence[Any], place: Place, progress: Progress = SILENT) -> list[Any]:
+    """Return steps for points at a place, with all lines and polygons in its CRS, each transformed
+    once; errors are those of `Geometry.located` and of the steps.
     """
     known: dict[int, Geometry] = {}
     found = []
@@ -123,7 +123,8 @@ def located(steps: Sequence[Any], place: Place, progress: Progress = SILENT) -> 
                 if id(value) not in known:
                     known[id(value)] = value.located(place, progress)
                 changed[name] = known[id(value)]
-        found.append(dataclasses.replace(step, **changed) if changed else step)
+        step = dataclasses.replace(step, **changed) if changed else step
+        found.append(step.placed(place, progress))
     return found
 
 

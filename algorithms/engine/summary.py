@@ -20,15 +20,10 @@ class JobCost:
 
 
 class RunSummary:
-    """Base of what runs return, frozen dataclasses with a `text`; here as of a run on one file."""
+    """Base of what runs return, frozen dataclasses."""
 
-    vpc: str | None = None  # the virtual point cloud of many files
-    failures: Mapping[str, str] = MappingProxyType({})  # why files could not be done
-
-    @property
-    def tiles(self) -> tuple[Any, ...]:
-        """The summaries of the files."""
-        return (self,)
+    # What tools told that drew outputs of those of the run, by the names of what they drew.
+    drawn: Mapping[str, Any] = MappingProxyType({})
 
     @property
     def text(self) -> str:
@@ -40,7 +35,19 @@ class RunSummary:
         return f"{output}: {self.text}"
 
 
-class TileSummary(RunSummary):
+class FileSummary(RunSummary):
+    """Base of what runs on one file return."""
+
+    vpc: str | None = None  # the virtual point cloud of many files
+    failures: Mapping[str, str] = MappingProxyType({})  # why files could not be done
+
+    @property
+    def tiles(self) -> tuple[Any, ...]:
+        """The summaries of the files."""
+        return (self,)
+
+
+class TileSummary(FileSummary):
     """Base of the summaries of written files, which have a `name`."""
 
     class_counts: dict[int, int]  # points of each class in the output
@@ -56,7 +63,7 @@ class TileSummary(RunSummary):
 
 
 @dataclass(frozen=True)
-class SurveySummary:
+class SurveySummary(RunSummary):
     """The result of a run on a survey."""
 
     tile_count: int  # files in the survey
@@ -88,7 +95,3 @@ class SurveySummary:
         return (
             f"{text}: {self.ground_count:,} of {self.point_count:,} points are ground ({share:.1%})"
         )
-
-    def told(self, output: Path) -> str:
-        """Return the text with the folder of the output."""
-        return f"{output}: {self.text}"

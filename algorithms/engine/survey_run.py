@@ -17,23 +17,23 @@ from ..survey.files import Inputs, Survey, open_survey
 from ..survey.vpc import write_vpc
 from .job_queue import JobQueue
 from .manifest import folders_of, remove_record
-from .options import RunOptions
+from .options import TileOutput
 from .plan import Plan
 from .sinks import run_sink
-from .step import PointStep, Step, located
+from .step import PointStep, Step, placed
 from .summary import JobCost, SurveySummary
 from .targets import check_own, check_survey, targets_of
 from .unpacking import Unpacking
-from .workers import Threads, Workers
+from .workers import Workers
 
 
 def work_on_survey(
     steps: Sequence[Step],
     inputs: Inputs,
     folder: Path | None,
-    options: RunOptions,
+    output: TileOutput,
     progress: Progress,
-    workers: Workers | None = None,
+    workers: Workers,
     vpc: Path | None = None,
 ) -> Any:
     """Let steps work on many files as one survey, each on what those before it found, and write the
@@ -42,29 +42,21 @@ def work_on_survey(
     # The results are those of one file with all points. A file that cannot be processed does not
     # stop the others, but an error says if none can be processed, and `FinishedFilesStay` if the
     # user asked to stop.
-    workers = workers or Threads(options.resources)
     if folder is None:
-        return _work_sinks(steps, inputs, options, progress, workers)
-    run = _SurveyRun(folder, steps, options, vpc)
+        return _work_sinks(steps, inputs, progress, workers)
+    run = _SurveyRun(folder, steps, output, vpc)
     with _finished_files_stay():
         run.open(inputs, progress)
         run.work(workers, progress.part(0.02, 0.98))
         return run.finish(progress)
 
 
-def _work_sinks(
-    steps: Sequence[Any],
-    inputs: Inputs,
-    options: RunOptions,
-    progress: Progress,
-    workers: Workers,
-) -> Any:
+def _work_sinks(steps: Sequence[Any], inputs: Inputs, progress: Progress, workers: Workers) -> Any:
     """Let sinks work on many files, each of which writes all of its outputs or none; return what
     the last tells.
     """
     own = [output for step in steps for output in step.outputs(is_survey=True)]
-    recursive, stated = options.files.recursive, options.stated
-    survey = open_survey(inputs, recursive, progress.part(0.0, 0.05), stated)
+    survey = open_survey(inputs, progress.part(0.0, 0.05))
     require_measurable("The survey", survey.crs, survey.box)
     check_own(own, survey, [tile.path for tile in survey.tiles])
     for tile in survey.broken:
@@ -72,7 +64,7 @@ def _work_sinks(
     told, parts = None, progress.part(0.05, 1.0).shares(*(step.weight for step in steps))
     with temporary_folder(own[0][1].parent) as working:
         unpacking = _unpacking(working, survey, workers, is_whole=False)
-        for step, part in zip(located(steps, survey.place, progress), parts):
+        for step, part in zip(placed(steps, survey.place, progress), parts):
             told = run_sink(survey, working, step, workers, part, unpacking=unpacking)
     return told
 
@@ -90,9 +82,9 @@ class _SurveyRun:
     """A run of steps on many files; the parameters are those of `work_on_survey`."""
 
     def __init__(
-        self, folder: Path, steps: Sequence[Step], options: RunOptions, vpc: Path | None
+        self, folder: Path, steps: Sequence[Step], output: TileOutput, vpc: Path | None
     ) -> None:
-        self._folder, self._options = folder, options
+        self._folder, self._output = folder, output
         # Steps that find values for points, and then what is made of these.
         self._steps: list[Any] = [step for step in steps if isinstance(step, PointStep)]
         self._sinks: list[Any] = [step for step in steps if not isinstance(step, PointStep)]
@@ -111,16 +103,14 @@ class _SurveyRun:
                 raise BareEarthError(
                     f"Input and output are the same file, {source}. Choose another output."
                 )
-        recursive, stated = self._options.files.recursive, self._options.stated
-        self._survey = survey = open_survey(inputs, recursive, progress.part(0.0, 0.02), stated)
-        check_survey(survey, self._folder, self._vpc, inputs if recursive else [])
+        self._survey = survey = open_survey(inputs, progress.part(0.0, 0.02))
+        check_survey(survey, self._folder, self._vpc, inputs if inputs.recursive else [])
         count = len(self._steps)
-        steps = located([*self._steps, *self._sinks], survey.place, progress)
+        steps = placed([*self._steps, *self._sinks], survey.place, progress)
         self._steps, self._sinks = steps[:count], steps[count:]
         self._steps[0].check_survey(survey.box)
-        self._targets = targets_of(survey, self._folder, self._options.tiles.format)
+        self._targets = targets_of(survey, self._folder, self._output.format)
         for step in self._sinks:
-            step.placed(survey.place)
             others = self._vpc, *self._targets, *self._targets.values()
             check_own(step.outputs(is_survey=True), survey, others, self._folder)
         self._inputs = {tile.path.name: tile.path for tile in survey.tiles}
@@ -128,7 +118,7 @@ class _SurveyRun:
 
     def work(self, workers: Workers, progress: Progress) -> None:
         """Do what is to be done, in a folder of which no other run makes use meanwhile."""
-        resume, (_, records, waiting) = self._options.tiles.resume, folders_of(self._folder)
+        resume, (_, records, waiting) = self._output.resume, folders_of(self._folder)
         plan = Plan(self._survey, self._targets, self._steps, waiting, progress.part(0.0, 0.02))
         with write_errors_told(self._folder):
             self._folder.mkdir(parents=True, exist_ok=True)
@@ -158,7 +148,7 @@ class _SurveyRun:
             self._tell(queue.done, progress)
         if self._done and self._sinks:
             paths = [self._folder / summary.name for summary in self._done]
-            written = open_survey(paths, progress=progress.quiet(), stated=self._survey.stated)
+            written = open_survey(Inputs(paths).read_as(self._survey.stated), progress.quiet())
             results, rest = plan.results(written), progress.part(end, 1.0)
             for step, part in zip(self._sinks, rest.shares(*(s.weight for s in self._sinks))):
                 run_sink(written, waiting, step, workers, part, results, unpacking)
@@ -183,7 +173,6 @@ class _SurveyRun:
 
     def finish(self, progress: Progress) -> SurveySummary:
         """Report the files that are left out, and list the others in a virtual point cloud."""
-        options = self._options
         reasons = {str(path): reason for path, reason in sorted(self._failures.values())}
         for path, reason in reasons.items():
             progress.warning(f"{path} is left out. {reason}")
@@ -199,8 +188,8 @@ class _SurveyRun:
                 " area."
             )
         paths = [self._folder / summary.name for summary in self._done]
-        part = progress.part(0.98, 1.0)
-        write_vpc(self._vpc, paths, part, options.tiles.overview, options.stated)
+        part, stated = progress.part(0.98, 1.0), self._survey.stated
+        write_vpc(self._vpc, paths, part, self._output.overview, stated)
         unknown = self._failures.keys() - self._inputs.keys()
         return SurveySummary(
             tile_count=len(self._inputs) - self._empty_count + len(unknown),

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from ..survey.vector_files import FORMATS
 from ..tools.check.reading import FORMATS as POINT_FORMATS
-from ..tools.rasters.constraints import INPUTS
+from ..tools.input_groups import GROUPS
 
 REQUIRED = inspect.Parameter.empty
 _PATH, _LITERAL = "str | PathLike[str]", "Literal[{}]"
@@ -114,55 +114,26 @@ REMOTE = (
 VPC = path(
     "vpc", "with many files: the virtual point cloud that lists the results, by default in OUTPUT"
 )
-TARGET = (
-    path(
-        "like",
-        "a raster in the CRS of the points, such as dem.tif: all rasters get its CRS, cell size,"
-        " position of the cells, and extent; it replaces the cell size",
-    ),
-    Argument.of(
-        "raster_extent",
-        "extent",
-        "xmin, ymin, xmax, ymax: the rasters cover this rectangle in the CRS of the points,"
-        " widened to whole cells, which stay where they are; all points are used",
-    ),
-)
-CONSTRAINTS = tuple(
-    Argument.of(given.name, given.kind, given.help.format(formats=FORMATS)) for given in INPUTS
-)
+
+
+def of_group(kind: str) -> tuple[Argument, ...]:
+    """Return the arguments for an input that has several."""
+    formats = {"formats": FORMATS, "point_formats": POINT_FORMATS}
+    return tuple(
+        Argument.of(
+            part.name, "path" if part.kind == "raster" else part.kind, part.help.format(**formats)
+        )
+        for part in GROUPS[kind]
+        if part.help
+    )
+
+
 # Constraints of functions that find the water themselves where it is automatic.
 WITH_AUTOMATIC_WATER = tuple(
     replace(argument, help=f"{argument.help}; the word automatic: the water is found first")
     if argument.name == "water"
     else argument
-    for argument in CONSTRAINTS
-)
-CORRECTIONS = Argument.of(
-    "corrections",
-    "polygons",
-    "polygons in which you know the class; the attribute 'class' holds it, and it replaces the"
-    " result of the filter",
-)
-CHECKPOINTS = (
-    Argument.of(
-        "checkpoints",
-        "points",
-        f"points that were surveyed on the ground ({POINT_FORMATS}), or their x, y and z in the"
-        " CRS of the points",
-    ),
-    Argument.of(
-        "columns",
-        "text",
-        "the columns or attributes of the checkpoints, by name or by number from 1 on, such as"
-        " x=E,y=N,z=H,cover=Class,type=Use,name=ID; those that are not given are recognised by"
-        " their names",
-    ),
-    Argument.of(
-        "checkpoints_crs",
-        "text",
-        "the CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file"
-        " states, or the CRS of the points",
-    ),
+    for argument in of_group("constraints")
 )
 
 

@@ -32,7 +32,6 @@ from ..tools.check.accuracy import Accuracy
 from ..tools.check.checking import CheckOptions, check_points
 from ..tools.check.results import Check
 from ..tools.check.survey_ground import SurveyGround
-from ..tools.declaration import Input
 from ..tools.heights import HeightOutput, HeightsOfPoints
 from ..tools.key_points import KeyPointMark
 from ..tools.rasters.output import write_rasters
@@ -53,7 +52,7 @@ from .given import (
 )
 from .points import cloud_of, with_ground
 from .rasters import Collected, Raster
-from .tools import arguments_of
+from .tools import arguments_of, input_of
 
 _TABLE = (
     "x of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a"
@@ -81,9 +80,7 @@ _ATTRIBUTES = (
     _array("in_overlap", "which points lie in the overlap of flight strips", _FLAGS),
 )
 _GROUND = _array(
-    "ground",
-    "which points are ground, as ground() returns them, in place of their classes",
-    _FLAGS,
+    "ground", "which points are ground, as ground() returns them, in place of their classes", _FLAGS
 )
 _CRS = Argument(
     "crs",
@@ -142,21 +139,13 @@ def _of_classes(
         _POINTS,
         (
             *_ATTRIBUTES, *arguments.area("classify only points in", "; points nearby help"),
-            arguments.CORRECTIONS, *_LAST,
+            *arguments.of_group("corrections"), *_LAST,
         ),
         (Selection, Resources),
         run,
         gives=gives,
         has_method=True,
     )  # fmt: skip
-
-
-def _input_of(declared: Input, values: SimpleNamespace) -> Any:
-    """Return a further input of a tool: an area, or a raster."""
-    if declared.kind == "area":
-        return area_of(values)
-    path = getattr(values, declared.name)
-    return None if path is None else declared.of(path)
 
 
 def _of_tool(
@@ -167,7 +156,7 @@ def _of_tool(
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         progress = progress_of(values.progress)
-        inputs = {one.name: _input_of(one, values) for one in tool.inputs}
+        inputs = {one.name: input_of(one, values) for one in tool.inputs}
         steps = tool.steps([*sets, *fixed], inputs, {})
         cloud = _cloud(values, sets, progress)
         return value(_found(cloud, steps, Resources.among(sets).now(), progress))
@@ -209,12 +198,11 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
         "area": area_of(values), "constraints": constraints_of(values),
         "raster_target": target_of(values),
     }  # fmt: skip
-    made: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]
-    step = _RastersInMemory(**{one.name: getattr(made, one.name) for one in fields(made)})
+    drawing: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]
+    step = _RastersInMemory(**{one.name: getattr(drawing, one.name) for one in fields(drawing)})
     cloud, resources = _cloud(values, sets, progress), Resources.among(sets).now()
     with may_use(resources.thread_count):
-        points = FilePoints(cloud, resources)
-        run = FileRun(points, [step.placed(points.place, progress)], progress)
+        run = FileRun(FilePoints(cloud, resources), [step], progress)
         run.work(progress)
     (rasters,) = run.told
     return {name: rasters[name] for name in names}
@@ -231,8 +219,8 @@ def _of_terrain() -> Function:
         _POINTS,
         (
             Argument("rasters", kind, f"which rasters to make. {kinds}", ("dtm",)),
-            _GROUND, *_ATTRIBUTES, *arguments.TARGET, *arguments.area("make the rasters only in"),
-            *arguments.CONSTRAINTS, *_LAST,
+            _GROUND, *_ATTRIBUTES, *arguments.of_group("target"),
+            *arguments.area("make the rasters only in"), *arguments.of_group("constraints"), *_LAST,
         ),
         (GroundClasses, ArrayTerrain, SurfaceModel, Resources),
         _terrain,
@@ -282,7 +270,7 @@ def _of_check() -> Function:
         " are those of check() for a file with the same points.",
         _POINTS,
         (
-            _GROUND, *_ATTRIBUTES, *arguments.CHECKPOINTS,
+            _GROUND, *_ATTRIBUTES, *arguments.of_group("checkpoints"),
             Argument.of("vegetated", "words", vegetated), *_LAST,
         ),
         (Accuracy, CheckOptions, GroundClasses),

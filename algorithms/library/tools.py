@@ -26,6 +26,7 @@ from ..tools import (
     point_tool,
 )
 from ..tools.declaration import FileTool, Input, Output, ToFind, Tool
+from ..tools.input_groups import GROUPS
 from . import arguments, tool_commands
 from .arguments import REQUIRED, Argument
 from .functions import Function
@@ -91,7 +92,7 @@ def _of_file_tool(command: str) -> Function:
         given += arguments.REMOTE
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
-        inputs = {declared.name: _input(declared, values) for declared in tool.inputs}
+        inputs = {declared.name: input_of(declared, values) for declared in tool.inputs}
         outputs = _outputs_of(tool, values)
         return run_tool(tool, inputs, outputs, sets, progress_of(values.progress))
 
@@ -99,10 +100,7 @@ def _of_file_tool(command: str) -> Function:
         command.replace("-", "_"),
         _about(FILE_TOOLS[command].help, tool.command_about),
         tuple(argument for argument in given if argument.default is REQUIRED),
-        (
-            *(argument for argument in given if argument.default is not REQUIRED),
-            arguments.PROGRESS,
-        ),
+        (*(argument for argument in given if argument.default is not REQUIRED), arguments.PROGRESS),
         tool.sets,
         run,
         _result_of(tool),
@@ -129,14 +127,9 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
     """Return the arguments for an input of a tool."""
     if declared.kind == "area":
         return arguments.area(declared.help, declared.more)
-    if declared.kind == "checkpoints":
-        return arguments.CHECKPOINTS
-    if declared.kind == "corrections":
-        return (arguments.CORRECTIONS,)
-    if declared.kind == "constraints":
-        return arguments.WITH_AUTOMATIC_WATER if declared.found else arguments.CONSTRAINTS
-    if declared.kind == "target":
-        return arguments.TARGET
+    if declared.kind in GROUPS:
+        with_water = arguments.WITH_AUTOMATIC_WATER
+        return with_water if declared.found else arguments.of_group(declared.kind)
     if declared.kind == "crs":
         return (arguments.CRS,)
     if declared.kind == "clouds":
@@ -150,13 +143,21 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
     return (Argument.of(declared.name, kind, help, REQUIRED if is_required else None),)
 
 
-def _input(declared: Input, values: SimpleNamespace) -> Any:
-    """Return an input of a tool for files, as its work takes it."""
-    if declared.kind == "checkpoints":
-        return checkpoints_of(values)
-    if declared.kind == "area":
-        return area_of(values)
+def input_of(declared: Input, values: SimpleNamespace) -> Any:
+    """Return an input of a tool, as its work or its run gets it."""
+    can_be_found = declared.found is not None or declared.kind == "constraints"
+    is_found = can_be_found and is_automatic(values.water)
+    if is_found and declared.found is None:
+        is_command = getattr(values, "in_processes", False)
+        how = "'bare-earth terrain --water automatic'"
+        how = how if is_command else 'terrain() and its water="automatic"'
+        raise UsageError(f"Water is found in classified points: make the rasters with {how}.")
+    if declared.kind in _READERS:
+        given = _READERS[declared.kind](values)
+        return ToFind(given) if is_found else given
     value = getattr(values, declared.name)
+    if declared.kind == "polygons":
+        return ToFind() if is_found else declared.of(polygons_of(value))
     if declared.kind == "clouds":
         return Inputs(value)
     if declared.kind == "words":
@@ -165,7 +166,7 @@ def _input(declared: Input, values: SimpleNamespace) -> Any:
         return value
     if declared.kind == "extent":
         return tuple(map(float, value))
-    return Path(value) if declared.kind == "cloud" else str(value)
+    return Path(value) if declared.kind == "cloud" else declared.of(str(value))
 
 
 def _of_point_tool(command: str) -> Function:
@@ -193,7 +194,7 @@ def _run_on_points(tool: Tool, values: SimpleNamespace, sets: list[Any]) -> Any:
     outputs = _outputs_of(tool, values)
     points = inputs_of(values, getattr(tool, "is_survey", False))
     inputs: dict[str, Any] = {"input": points, "crs": values.crs}
-    inputs.update((declared.name, _tool_input(declared, values)) for declared in tool.inputs)
+    inputs.update((declared.name, input_of(declared, values)) for declared in tool.inputs)
     workers = workers_of(values, Resources.among(sets))
     return run(tool, inputs, outputs, sets, progress_of(values.progress), workers)
 
@@ -264,21 +265,3 @@ def _outputs_of(tool: Tool, values: SimpleNamespace) -> dict[str, Path | None]:
     names = {output.name: _name_of(output) for output in tool.all_outputs}
     names = {"output": "output", "vpc": "vpc", **names}
     return {name: path_of(getattr(values, option, None)) for name, option in names.items()}
-
-
-def _tool_input(declared: Input, values: SimpleNamespace) -> Any:
-    """Return a further input of a tool for points as its run has it."""
-    if declared.kind == "raster":
-        path = getattr(values, declared.name)
-        return None if path is None else declared.of(path)
-    can_be_found = declared.found is not None or declared.kind == "constraints"
-    is_found = can_be_found and is_automatic(values.water)
-    if is_found and declared.found is None:
-        is_command = getattr(values, "in_processes", False)
-        how = "'bare-earth terrain --water automatic'"
-        how = how if is_command else 'terrain() and its water="automatic"'
-        raise UsageError(f"Water is found in classified points: make the rasters with {how}.")
-    if declared.kind in _READERS:
-        given = _READERS[declared.kind](values)
-        return ToFind(given) if is_found else given
-    return ToFind() if is_found else declared.of(polygons_of(getattr(values, declared.name)))

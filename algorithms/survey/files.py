@@ -7,7 +7,7 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Iterable, Iterator, Tuple, Union
+from typing import Any, Iterable, Iterator, Tuple, Union
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from ..core.errors import BareEarthError
 from ..core.points import Box, box_round
 from ..core.progress import SILENT, Notes, Progress
 from ..crs.matching import described, has_same_units, is_other_datum, is_same_crs, is_same_map
-from ..crs.stated import HOW
+from ..crs.stated import HOW, stated_wkt
 from ..crs.system import Crs
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
@@ -36,9 +36,13 @@ _MOST_NAMES = 3
 
 
 class Inputs(Tuple[Path, ...]):
-    """The files, folders and lists that a user gives: one file, or a survey of many."""
+    """The files, folders and lists that a user gives, one file or a survey of many, and how they
+    are read.
+    """
 
     is_survey: bool
+    recursive: bool = False  # whether folders are searched with all their subfolders
+    stated: str | None = None  # the CRS in place of that of the files, as for `open_las`
     opened: Survey | None = None  # what they hold, if that is known
 
     def __new__(cls, sources: Sources, is_survey: bool | None = None) -> Inputs:
@@ -50,16 +54,22 @@ class Inputs(Tuple[Path, ...]):
         new.is_survey = not is_file if is_survey is None else is_survey
         return new
 
+    def read_as(self, stated: str | None, recursive: bool = False) -> Inputs:
+        """Return the same inputs, read in another way."""
+        return self._with(stated=stated, recursive=recursive)
+
     def holding(self, survey: Survey) -> Inputs:
         """Return the same inputs, whose files need not be opened again."""
+        return self._with(opened=survey)
+
+    def _with(self, **changed: Any) -> Inputs:
         new = Inputs(self, self.is_survey)
-        new.opened = survey
+        vars(new).update({**vars(self), **changed})
         return new
 
-    @property
-    def file(self) -> Path | LasFile:
-        """The only file."""
-        return self[0] if self.opened is None else self.opened.tiles[0]
+    def open_file(self) -> LasFile:
+        """Open the only file."""
+        return open_las(self[0], self.stated) if self.opened is None else self.opened.tiles[0]
 
 
 @dataclass(frozen=True)
@@ -105,19 +115,15 @@ class Survey:
         return [self.tiles[number] for number in np.flatnonzero(touches)]
 
 
-def open_survey(
-    sources: Sources,
-    recursive: bool = False,
-    progress: Progress = SILENT,
-    stated: str | None = None,
-) -> Survey:
+def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
     """Find the files of a survey in sources as of `find_files`, and read their headers; refuse a
     survey if nothing can be read, or the files differ in CRS or units.
     """
     inputs = Inputs(sources)
     if inputs.opened is not None:
         return inputs.opened
-    paths = find_files(inputs, recursive, progress)
+    stated = stated_wkt(inputs.stated)
+    paths = find_files(inputs, inputs.recursive, progress)
     files = [path for path in inputs if not path.is_dir()]
     named = set(map(_key, find_files(files, may_be_none=True)))
     notes, tiles, found, broken = Notes(), [], [], []

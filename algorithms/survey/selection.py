@@ -82,10 +82,7 @@ class Selection(ParameterSet):
     overlap: str = parameter(
         "use",
         label="Points of overlap",
-        choices={
-            "use": "Take part as others do",
-            "leave-out": "Leave out; they keep their class",
-        },
+        choices={"use": "Take part as others do", "leave-out": "Leave out; they keep their class"},
         advanced=True,
         help="Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in"
         " older files. If strips do not fit together, leave them out: ground, and rasters made in"
@@ -268,10 +265,7 @@ class Selection(ParameterSet):
         return () if self.from_classes else ROADS
 
     def known_ground(
-        self,
-        cloud: PointCloud,
-        within: np.ndarray | None = None,
-        by_hand: ByHand | None = None,
+        self, cloud: PointCloud, within: np.ndarray | None = None, by_hand: ByHand | None = None
     ) -> np.ndarray:
         """Return which points are known ground, only among those within if given."""
         known = is_one_of(cloud.classification, self.seed_classes or ())

@@ -20,17 +20,7 @@ from ..core.progress import SILENT, Progress
 from ..las.class_names import CLASSES
 from ..rasters.geotiff import NODATA, RasterGrid
 from ..rasters.writing import write_geotiff
-from ..report.page import (
-    Html,
-    element,
-    keys,
-    lines,
-    map_of,
-    page,
-    paragraph,
-    section,
-    table,
-)
+from ..report.page import Html, element, keys, lines, map_of, page, paragraph, section, table
 from ..report.pictures import LONGEST_SIDE, Picture, Relief
 from ..report.units import Units, percent
 from ..survey.common_points import match_files
@@ -365,10 +355,7 @@ TOOL = FileTool(
     " rejected. Type II error: the share of all other points that was accepted as ground. The"
     " report is a web page with a map.",
     page="assess",
-    words=(
-        CLOUD,
-        "ground,accuracy,quality,error,validation,kappa,confusion matrix,reference",
-    ),
+    words=(CLOUD, "ground,accuracy,quality,error,validation,kappa,confusion matrix,reference"),
     numbers=(
         ("POINT_COUNT", "Points"),
         ("TYPE_1_ERROR", "Type I error [%]"),

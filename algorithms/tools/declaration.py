@@ -9,6 +9,7 @@ from typing import Any, Callable, Mapping, NamedTuple, Sequence
 from ..core.parameters import ParameterSet
 from ..core.progress import Progress
 from ..engine.step import PointStep, Step
+from ..survey.files import Inputs
 from ..survey.ground_classes import GroundClasses
 
 # Search words of the toolbox that several tools share; each text is translated as a whole.
@@ -35,13 +36,12 @@ class Input:
     # same, in a dialog a file or a folder;
     # "address": of a remote file, or a path (text);
     # "raster": a file with a band of heights (its path, or another name that GDAL knows);
-    # "crs": the CRS of the points, if the user states it (text);
+    # "crs": the CRS of the points, if the user states it (text; "clouds" know it);
     # "area" (an `Area`) and "polygons" (what `of` makes): of tools for points only;
     # "extent": a rectangle in the CRS of the points (a `Box`);
-    # "checkpoints": a layer or a table of points (`Checkpoints`);
     # "words": several words (a tuple of text);
-    # of a `MapTool` only: "constraints" (polygons and "lines"), "corrections" and "target" (the
-    # grid of the rasters).
+    # "checkpoints", "constraints", "corrections" and "target": see `input_groups.py`, whose parts
+    # can be "points", "lines", "attribute" and "text", too.
     kind: str
     # Makes the value of the field of a step from polygons, or from a raster and the progress.
     of: Callable[..., Any] = lambda value, *progress: value
@@ -54,8 +54,8 @@ class Input:
     advanced: bool = False
     is_last: bool = False  # whether the field is below the parameters
     # Finds the value in place of `ToFind`, where the user gives no polygons, or the word automatic:
-    # given files, which of their points are ground, their CRS if it is stated, and the progress.
-    found: Callable[[Sequence[Path], GroundClasses, str | None, Progress], Any] | None = None
+    # given files, which of their points are ground, and the progress.
+    found: Callable[[Inputs, GroundClasses, Progress], Any] | None = None
 
     @property
     def field_name(self) -> str:
@@ -196,10 +196,7 @@ class PointTool(Tool):
         return (Output("output", "cloud", _CLOUD_HELP, label, text, is_main=True),)
 
     def steps(
-        self,
-        sets: Sequence[ParameterSet],
-        inputs: Mapping[str, Any],
-        outputs: Mapping[str, Path],
+        self, sets: Sequence[ParameterSet], inputs: Mapping[str, Any], outputs: Mapping[str, Path]
     ) -> tuple[Step, ...]:
         """Return its step, given its sets, and inputs and outputs by their names."""
         names = {type(default): name for name, default in vars(self.step()).items()}

@@ -94,11 +94,7 @@ def files_of(output: Path, sets: Sequence[ParameterSet]) -> dict[str, Path]:
 
 
 def _strips(
-    raster: Raster,
-    row: Row,
-    model: TerrainModel,
-    nodata: float,
-    progress: Progress,
+    raster: Raster, row: Row, model: TerrainModel, nodata: float, progress: Progress
 ) -> Iterator[np.ndarray]:
     """Yield the relief of a raster, some rows at a time."""
     (count, columns), how = raster.whole, How(raster.cell_metres, model)

@@ -11,7 +11,8 @@ from typing import Any, Iterator, Mapping, Sequence
 from ..core.files import Outputs, new_folder, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
-from ..engine.options import RunOptions
+from ..engine.memory import Resources
+from ..engine.options import TileInput, TileOutput
 from ..engine.run import Run
 from ..engine.workers import Workers
 from ..rasters.virtual import virtual_of
@@ -53,27 +54,29 @@ def _run_on_points(
     workers: Workers | None,
 ) -> Any:
     """Let the steps of a tool work, and then the tools that draw further outputs of theirs."""
-    points = Inputs(inputs["input"])
+    points = Inputs(inputs["input"]).read_as(inputs.get("crs"), TileInput.among(sets).recursive)
     check_outputs(_kinds(tool, points, outputs), points)
     given, progress = _with_found(tool, {**inputs, "input": points}, sets, progress)
-    drawn = [one for one in tool.all_outputs if one.drawn_by and one.name in outputs]
+    drawn = [output for output in tool.all_outputs if output.drawn_by and output.name in outputs]
     working, *drawing = progress.shares(9.0, *(1.0 for _ in drawn)) if drawn else [progress]
     with contextlib.ExitStack() as folders:
-        own = dict(outputs)
-        for one in drawn:
+        own, told = dict(outputs), {}
+        for output in drawn:
             # If nobody asks for what it is drawn of, that is a temporary file.
-            folder = folders.enter_context(temporary_folder(own.pop(one.name).parent))
-            own.setdefault(one.drawn_of, folder / f"{one.drawn_of}.tif")
+            folder = folders.enter_context(temporary_folder(own.pop(output.name).parent))
+            own.setdefault(output.drawn_of, folder / f"{output.drawn_of}.tif")
         steps = tool.steps(sets, given, own)
-        work = Run(steps, RunOptions.of(sets, inputs.get("crs")))
+        work = Run(steps, TileOutput.among(sets), Resources.among(sets))
         done = work.work(points, own.get("output"), working, workers, own.get("vpc"))
-        written = [output for step in steps for output in step.outputs(points.is_survey)]
-        for one, part in zip(drawn, drawing):
-            source = own[one.drawn_of]
+        written = [raster for step in steps for raster in step.outputs(points.is_survey)]
+        for output, part in zip(drawn, drawing):
+            source, target = own[output.drawn_of], {"output": outputs[output.name]}
             if ("raster set", source) in written:
                 source = virtual_of(source)
-            target = {"output": outputs[one.name]}
-            _run_on_files(file_tool(one.drawn_by), {"source": source}, target, sets, part)
+            drawing_tool = file_tool(output.drawn_by)
+            told[output.name] = _run_on_files(drawing_tool, {"source": source}, target, sets, part)
+    if told:
+        object.__setattr__(done, "drawn", told)  # it is a frozen dataclass
     return done
 
 
@@ -90,10 +93,7 @@ def _kinds(tool: Tool, points: Inputs, outputs: Mapping[str, Path]) -> Iterator[
 
 
 def _with_found(
-    tool: Tool,
-    inputs: dict[str, Any],
-    sets: Sequence[ParameterSet],
-    progress: Progress,
+    tool: Tool, inputs: dict[str, Any], sets: Sequence[ParameterSet], progress: Progress
 ) -> tuple[dict[str, Any], Progress]:
     """Return the inputs with those that are found first, and what is left of the progress."""
     # To find them can take minutes.
@@ -101,7 +101,7 @@ def _with_found(
         value = inputs.get(declared.name)
         if isinstance(value, ToFind) and declared.found is not None:
             ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
-            found = declared.found(inputs["input"], ground, inputs.get("crs"), part)
+            found = declared.found(inputs["input"], ground, part)
             if value.given is not None:
                 found = value.given.with_water(found, part)
             inputs, progress = {**inputs, declared.name: found}, progress.part(0.4, 1.0)
@@ -120,7 +120,8 @@ def _run_on_files(
     given.update({output.name: None for output in tool.outputs}, **inputs)
     for declared in tool.inputs:
         if declared.kind == "clouds":
-            given[declared.name] = Inputs(given[declared.name] or ())
+            points = Inputs(given[declared.name] or ())
+            given[declared.name] = points.read_as(given.pop("crs", None))
     wanted = [
         (output, paths[output.name], output.paths(paths[output.name], sets))
         for output in tool.outputs

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Sequence
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.records import check_class
 from ..survey.area import Area, Polygon
+from ..survey.files import Inputs
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..survey.kept_classes import IGNORED_GROUND
 from ..survey.shapes import Geometry, Place, located
@@ -83,13 +83,11 @@ class WaterPolygons(Geometry):
 NO_WATER = WaterPolygons()
 
 
-def _found(
-    sources: Sequence[Path], ground: GroundClasses, crs: str | None, progress: Progress
-) -> WaterPolygons:
+def _found(sources: Inputs, ground: GroundClasses, progress: Progress) -> WaterPolygons:
     """Return the water that is found in classified files, with the default values."""
     from .water.tool import found_water
 
-    water, _ = found_water(sources, ground, crs, progress)
+    water, _ = found_water(sources, ground, progress)
     return WaterPolygons(tuple(water.outlines))
 
 

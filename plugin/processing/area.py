@@ -13,7 +13,6 @@ from qgis.core import (
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
-from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area, Polygon
 from ...algorithms.survey.shapes import Shapes
 from ...algorithms.tools.ground.output import Output
@@ -144,9 +143,3 @@ def area_options(area: Area | None, progress: Progress) -> dict[str, Any]:
             " as boundary.geojson, and add --boundary boundary.geojson."
         )
     return {"extent": tuple(map(repr, area.box)) if area is not None and area.box else ()}
-
-
-def target_options(target: RasterTarget) -> dict[str, Any]:
-    """Return the options of the command line for the grid of rasters."""
-    extent = target.extent and tuple(map(repr, target.extent))
-    return {"like": target.like and str(target.like), "raster-extent": extent}

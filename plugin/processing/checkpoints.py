@@ -1,4 +1,4 @@
-"""Fields for checkpoints: a layer of points, or a table."""
+"""Checkpoints: a layer of points, or a table."""
 
 from __future__ import annotations
 
@@ -12,9 +12,6 @@ from qgis.core import (
     QgsPoint,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
-    QgsProcessingParameterDefinition,
-    QgsProcessingParameterFeatureSource,
-    QgsProcessingParameterField,
 )
 
 from ...algorithms.core.progress import Progress
@@ -26,54 +23,9 @@ from ..i18n import mark
 from .feedback import Refusal
 from .inputs import CloudCrs, features_of
 
-_LAYER, _CONFIDENCE, _VEGETATED = "CHECKPOINTS", "CONFIDENCE", "VEGETATED"
-# The role of the attribute in each field, and the label and the help of the field.
-_FIELDS = {
-    "Z_FIELD": (
-        "z",
-        "Height of the checkpoints",
-        "The attribute with the heights, in the unit of the heights of the points. Empty: z of the"
-        " points, or an attribute with a usual name, such as H or elevation.",
-    ),
-    "COVER_FIELD": (
-        "cover",
-        "Land cover of the checkpoints",
-        "The attribute with the land cover, such as forest or NVA. Points on vegetated land are"
-        " reported apart, and those of type Control are left out. Empty: an attribute with a usual"
-        " name, such as class.",
-    ),
-    "NAME_FIELD": (
-        "name",
-        "Name of the checkpoints",
-        "The attribute with the names. Empty: an attribute with a usual name, such as id, or else"
-        " numbers from 1 on.",
-    ),
-}
-_VISIBLE = ("Z_FIELD", "COVER_FIELD")
-
-
-def add_checkpoints(algorithm: QgsProcessingAlgorithm, advanced: bool = False) -> None:
-    """Add the fields of the layer to a dialog, all of them as advanced ones if wanted."""
-    layer = QgsProcessingParameterFeatureSource(_LAYER, "Checkpoints", [compat.POINTS], None, True)
-    text = (
-        "Points that were surveyed on the ground, of any CRS, or a table (.csv) in the CRS of the"
-        " point cloud. May stay empty if points are held out."
-    )
-    _add(algorithm, layer, text, not advanced)
-    for name, (_, label, text) in _FIELDS.items():
-        field = QgsProcessingParameterField(name, label, None, _LAYER, optional=True)
-        _add(algorithm, field, text, name in _VISIBLE and not advanced)
-
-
-def _add(
-    algorithm: QgsProcessingAlgorithm,
-    field: QgsProcessingParameterDefinition,
-    text: str,
-    is_visible: bool = False,
-) -> None:
-    if not is_visible:
-        field.setFlags(field.flags() | compat.ADVANCED)
-    algorithm.addParameter(field, text)
+_LAYER = "CHECKPOINTS"
+# The roles of attributes, by their fields.
+_ROLES = {"Z_FIELD": "z", "COVER_FIELD": "cover", "NAME_FIELD": "name"}
 
 
 def checkpoints_of(
@@ -90,7 +42,7 @@ def checkpoints_of(
         return None, {}
     chosen = {
         role: name
-        for field, (role, _, _) in _FIELDS.items()
+        for field, role in _ROLES.items()
         if (name := algorithm.parameterAsString(parameters, field, context))
     }
     columns = ",".join(f"{role}={name}" for role, name in chosen.items())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Callable, Mapping, NamedTuple, Sequence
@@ -11,20 +12,24 @@ from qgis.core import (
     QgsProcessingParameterDefinition,
     QgsProcessingParameterExtent,
     QgsProcessingParameterFeatureSource,
+    QgsProcessingParameterField,
     QgsProcessingParameterRasterLayer,
     QgsProcessingParameterString,
 )
 
 from ...algorithms.core.progress import SILENT, Progress
+from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area
+from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
 from ...algorithms.tools.declaration import Input, ToFind
+from ...algorithms.tools.input_groups import GROUPS
+from ...algorithms.tools.rasters.constraints import Constraints
 from .. import compat
 from ..i18n import mark
-from .area import HELPS, add_area, area_in_own_crs, area_of, area_options, target_options
+from .area import HELPS, add_area, area_in_own_crs, area_of, area_options
 from .base import BareEarthAlgorithm
-from .checkpoints import add_checkpoints, checkpoints_of
-from .constraints import add_constraints, constraints_of
-from .corrections import add_corrections, corrections_of
+from .checkpoints import checkpoints_of
+from .feedback import Refusal
 from .inputs import (
     ANY_CLOUD_HELP,
     CLOUD_HELP,
@@ -36,13 +41,13 @@ from .inputs import (
     box_of,
     clouds_of,
     layer_polygons,
+    layer_shapes,
     names_of,
     raster_of,
     source_of,
     survey_of,
     words_of,
 )
-from .raster_target import add_raster_target, raster_target_of
 from .remote import ADDRESS_HELP, Remote
 from .stated_crs import add_crs
 
@@ -53,6 +58,12 @@ _NO_FILES = {
     "confidence": mark("The confidence is not a file. Export it as GeoTIFF first."),
 }
 _NO_FILE = mark("{} is not a file. Export it as GeoTIFF first.")
+_LAYERS = {"points": compat.POINTS, "lines": compat.LINES, "polygons": compat.POLYGONS}
+# Default and layer of the fields for attributes.
+_ATTRIBUTES = {
+    "CORRECTIONS_FIELD": (CLASS_FIELD, "CORRECTIONS"), "Z_FIELD": (None, "CHECKPOINTS"),
+    "COVER_FIELD": (None, "CHECKPOINTS"), "NAME_FIELD": (None, "CHECKPOINTS"),
+}  # fmt: skip
 
 
 class Given(NamedTuple):
@@ -90,8 +101,10 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         advanced = ("EXTENT", "BOUNDARY") if declared.advanced else ("BOUNDARY",)
         add_area(algorithm, advanced, HELPS.get(declared.help, {}))
         return
-    if declared.kind == "checkpoints":
-        add_checkpoints(algorithm, declared.advanced)
+    if declared.kind in GROUPS:
+        for part in GROUPS[declared.kind]:
+            if part.label:
+                add_input(algorithm, replace(part, advanced=part.advanced or declared.advanced))
         return
     makers: dict[str, Callable[[], QgsProcessingParameterDefinition]] = {
         "cloud": lambda: PointCloudInput(name, label),
@@ -100,12 +113,16 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         "raster": lambda: QgsProcessingParameterRasterLayer(name, label, None, declared.optional),
         "extent": lambda: QgsProcessingParameterExtent(name, label, None, True),
         "words": lambda: QgsProcessingParameterString(name, label, None, False, True),
-        "polygons": lambda: QgsProcessingParameterFeatureSource(
-            name, label, [compat.POLYGONS], None, True
+        "attribute": lambda: QgsProcessingParameterField(
+            name, label, *_ATTRIBUTES[name], optional=True
         ),
     }
     helps = {"cloud": CLOUD_HELP, "clouds": ANY_CLOUD_HELP, "address": ADDRESS_HELP}
-    field = makers[declared.kind]()
+    if declared.kind in _LAYERS:
+        kinds = [_LAYERS[declared.kind]]
+        field = QgsProcessingParameterFeatureSource(name, label, kinds, None, True)
+    else:
+        field = makers[declared.kind]()
     if declared.advanced:
         field.setFlags(field.flags() | compat.ADVANCED)
     algorithm.addParameter(field, declared.field_help or helps.get(declared.kind, ""))
@@ -167,18 +184,50 @@ def part_of(request: Request) -> tuple[Area | None, bool]:
 
 def _target(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, _ = request
-    target = raster_target_of(algorithm, parameters, context, _crs_of(request))
-    return Given(target, target_options(target))
+    like = extent = None
+    if not compat.is_empty(parameters.get("LIKE")):
+        text = mark("The raster with the grid to use is not a file. Export it as GeoTIFF first.")
+        like = raster_of(algorithm, parameters, "LIKE", context, text).source()
+    if not compat.is_empty(parameters.get("RASTER_EXTENT")):
+        extent = box_of(algorithm, parameters, "RASTER_EXTENT", context, _crs_of(request))
+    options = {"like": like, "raster-extent": extent and tuple(map(repr, extent))}
+    return Given(RasterTarget(like, extent), options)
 
 
 def _corrections(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, progress = request
-    return Given(corrections_of(algorithm, parameters, context, _crs_of(request), progress))
+    if request.is_empty(declared):
+        return Given(NO_CORRECTIONS)
+    layer = declared.field_name
+    name = algorithm.parameterAsString(parameters, "CORRECTIONS_FIELD", context) or CLASS_FIELD
+    source = algorithm.parameterAsSource(parameters, layer, context)
+    if source is not None and source.fields().lookupField(name) < 0:
+        text = mark("The corrections have no attribute {}. Choose the one to use.")
+        raise Refusal(text, name)
+    progress.info(
+        "In the command line the corrections are missing: save them in the CRS of the points as"
+        f' corrections.geojson, their class as the attribute "{CLASS_FIELD}", and add --corrections'
+        " corrections.geojson."
+    )
+    field = algorithm, parameters, layer, "Corrections", context, _crs_of(request)
+    return Given(Corrections(*zip(*layer_shapes(*field, attribute=name))))
 
 
 def _constraints(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, progress = request
-    return Given(constraints_of(algorithm, parameters, context, _crs_of(request), progress))
+    shapes: dict[str, Any] = {}
+    for part in GROUPS[declared.kind]:
+        if not request.is_empty(part):
+            field = algorithm, parameters, part.field_name, part.label, context, _crs_of(request)
+            found = layer_shapes(*field, _LAYERS[part.kind])
+            shapes[part.name] = tuple(corners for corners, _ in found)
+    if shapes:
+        names = [name.replace("_", "-") for name in shapes]
+        progress.info(
+            "In the command line some layers are missing: save each in the CRS of the points as"
+            f" GeoJSON, and add {' '.join(f'--{name} {name}.geojson' for name in names)}."
+        )
+    return Given(Constraints(**shapes))
 
 
 def _crs_of(request: Request) -> CloudCrs:
@@ -251,5 +300,4 @@ _READERS: dict[str, Callable[[Request, Input], Given]] = {
 # Inputs with fields of their own.
 _GROUPS: dict[str, Callable[[BareEarthAlgorithm], None]] = {
     "crs": add_crs, "files": add_clouds, "survey": add_survey,
-    "target": add_raster_target, "corrections": add_corrections, "constraints": add_constraints,
 }  # fmt: skip

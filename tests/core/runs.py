@@ -16,7 +16,7 @@ from bare_earth import Cancelled, Progress
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.temporary import is_temporary
 from bare_earth.algorithms.engine.memory_store import MemoryStore
-from bare_earth.algorithms.engine.options import RunOptions, TileOutput
+from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.engine.run import Run
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.las.return_numbers import MULTI_RETURN, SeveralReturns
@@ -69,7 +69,7 @@ def classify_tiles(
     """Classify many files with workers and blocks that users cannot choose."""
     inputs = Inputs(sources, is_survey=True)
     ground, *others = map_tool("classify").steps([parameters, points], {"input": inputs}, {})
-    run = Run((replace(ground, cut=blocks), *others), RunOptions(tiles=output))
+    run = Run((replace(ground, cut=blocks), *others), output)
     return run.work(inputs, folder, progress, workers)
 
 

@@ -21,7 +21,7 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import FinishedFilesStay, OutputInUse
 from bare_earth.algorithms.delivery.deliveries import DELIVERIES, STATED
 from bare_earth.algorithms.delivery.parameters import DeliveryWater
-from bare_earth.algorithms.delivery.table import Job
+from bare_earth.algorithms.delivery.table import Settings
 from bare_earth.algorithms.grids.lines import along
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
@@ -332,7 +332,7 @@ def test_water_that_was_found_gives_classes_in_one_file_and_in_two(made):
 def set_of(kind, delivery, specification, *sets):
     """Return the parameters of a tool in a delivery, given what the user gave."""
     values = DELIVERIES[delivery].values_with(specification)
-    return Job([], sets, values, {}, None).set_of(kind)
+    return Settings(sets, values).set_of(kind)
 
 
 def test_classes_of_water_are_those_that_the_specification_knows():

@@ -4,7 +4,7 @@ import struct
 import pytest
 
 from bare_earth import BareEarthError
-from bare_earth.algorithms.survey.files import find_files, open_survey
+from bare_earth.algorithms.survey.files import Inputs, find_files, open_survey
 from bare_earth.algorithms.survey.vpc import write_vpc
 
 FEET = 'PROJCS["feet",GEOGCS["g",UNIT["degree",0.0174]],UNIT["US survey foot",0.30480060960]]'
@@ -180,7 +180,7 @@ def test_heights_of_another_datum_or_unit_are_refused_and_a_crs_helps(las, other
     told = str(error.value)
     assert "site + NZVD2016 height in metre, height metre: b.las" in told and "c.las" in told
     assert "--crs EPSG:25832+7837" in told
-    given = open_survey([las.folder], stated=one)
+    given = open_survey(Inputs([las.folder]).read_as(one))
     assert given.crs.datum.epsg == 1169
 
 
@@ -241,7 +241,7 @@ def test_a_copy_beside_a_file_of_a_folder_is_left_out_and_it_is_told(las):
     tile(las, "d.laz")
     tile(las, "d.copc.laz", side=99.0)
     heard = las.Heard()
-    survey = open_survey([las.folder], recursive=True, progress=heard)
+    survey = open_survey(Inputs([las.folder]).read_as(None, recursive=True), heard)
     assert names(each.path for each in survey.tiles) == [
         "a.laz", "b.las", "a.copc.laz", "c.copc.laz", "c.laz", "d.copc.laz", "d.laz",
     ]  # fmt: skip

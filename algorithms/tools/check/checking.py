@@ -17,6 +17,7 @@ from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
 from ...report.units import round_length
 from ...survey.feature_files import FORMATS as LAYERS
+from ...survey.files import Inputs
 from ...survey.ground_classes import GroundClasses
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, TIN, FileTool, Input, Output
 from .accuracy import Accuracy, Figures, statement
@@ -69,10 +70,9 @@ class CheckOptions(ParameterSet):
 
 
 def check_points(
-    sources: Sequence[Path] | SurveyGround,
+    sources: Inputs | SurveyGround,
     checkpoints: Checkpoints | None = None,
     dtm: str | None = None,
-    crs: str | None = None,
     vegetated: Sequence[str] | None = None,  # words of land covers; none: those that are known
     confidence: str | None = None,
     report: Path | None = None,
@@ -96,7 +96,7 @@ def check_points(
     if isinstance(sources, SurveyGround):
         points = sources
     else:
-        points = SurveyGround.of(sources, ground, progress.part(0.0, 0.05), crs)
+        points = SurveyGround.of(sources, ground, progress.part(0.0, 0.05))
     middle, found, left = 0.95 if share is None else 0.5, None, None
     if checkpoints is not None:
         found = residuals_of(

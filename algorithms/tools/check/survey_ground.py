@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Callable, Iterator, NamedTuple, Sequence
+from typing import Callable, Iterator, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from ...grids.tin import Tin
 from ...las.cloud import PointCloud, survey_frame
 from ...las.lasfile import LasFile
 from ...las.reading import read_parts
-from ...survey.files import Survey, open_survey
+from ...survey.files import Sources, Survey, open_survey
 from ...survey.ground_classes import GroundClasses, GroundCounts
 from ...survey.shapes import Place
 
@@ -63,14 +63,10 @@ class SurveyGround:
 
     @classmethod
     def of(
-        cls,
-        sources: Sequence[Path],
-        ground: GroundClasses,
-        progress: Progress = SILENT,
-        stated: str | None = None,
+        cls, sources: Sources, ground: GroundClasses, progress: Progress = SILENT
     ) -> SurveyGround:
         """Open the files, of which all must be readable: one that is not looks like a void."""
-        survey = open_survey(sources, progress=progress, stated=stated)
+        survey = open_survey(sources, progress)
         if survey.broken:
             raise BareEarthError(survey.broken[0].reason)
         return cls(survey, ground)

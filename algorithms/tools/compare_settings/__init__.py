@@ -46,7 +46,6 @@ class TrialSummary:
 def compare(
     sources: Inputs,
     extent: Box | None,
-    crs: str | None,
     page: Path,
     options: TrialOptions = TrialOptions(),
     resources: Resources = Resources(),
@@ -57,7 +56,7 @@ def compare(
     reach = max(setting.method.reach(setting.parameters) for setting in settings)
     context = min(reach, USUAL_CONTEXT) if options.context is None else options.context
     with may_use(resources.thread_count):
-        window = read_points(sources, extent, context, progress.part(0.0, 0.4), crs)
+        window = read_points(sources, extent, context, progress.part(0.0, 0.4))
         if not fits_in_memory(window.count, resources):
             raise BareEarthError(
                 f"The window and what lies round it have {window.count:,} points, more than fit"
@@ -71,7 +70,7 @@ def compare(
         ends, first = options.profile, outcomes[0]
         line = line_between(window, ends) if ends else line_across(window, outcomes)
         figures = [
-            figures_of(window, outcome, first, outcome.setting.commands(sources, crs))
+            figures_of(window, outcome, first, outcome.setting.commands(sources))
             for outcome in outcomes
         ]
         notes, profile = _notes(window.units, context, reach), Profile(window, line, first)

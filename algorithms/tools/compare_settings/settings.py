@@ -35,7 +35,7 @@ class Setting(NamedTuple):
         """The parameters of the method."""
         return self.method.parameters(preset=self.preset)
 
-    def commands(self, paths: Inputs, crs: str | None) -> tuple[str, str]:
+    def commands(self, paths: Inputs) -> tuple[str, str]:
         """Return what runs the setting on all points of a file, or inputs of a survey: in a shell,
         and in the Python console of QGIS, which is empty if there is no such call.
         """
@@ -44,7 +44,7 @@ class Setting(NamedTuple):
         target = paths[0].with_name(output)
         words = ["bare-earth", "classify", *map(str, paths), str(target)]
         words += ["--method", self.method.name, "--preset", self.preset]
-        shell = shell_line(words + (["--crs", crs] if crs else []))
+        shell = shell_line(words + (["--crs", paths.stated] if paths.stated else []))
         # QGIS has another current folder.
         sources, output = [str(path.absolute()) for path in paths], str(target.absolute())
         values: dict[str, Any]
@@ -58,8 +58,8 @@ class Setting(NamedTuple):
             }  # fmt: skip
         else:
             return shell, ""
-        if crs:
-            values["CRS"] = crs
+        if paths.stated:
+            values["CRS"] = paths.stated
         return shell, f"processing.run({algorithm!r}, {values!r})"
 
 

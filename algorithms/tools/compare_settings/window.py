@@ -21,7 +21,6 @@ from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ...las.cloud import PointCloud, survey_frame
 from ...las.crs_records import read_crs
 from ...las.lasfile import LasFile
-from ...las.opening import open_las
 from ...report.units import Units
 from ...survey.area import Area
 from ...survey.files import Inputs, open_survey
@@ -149,19 +148,17 @@ class Window:
         return float(inside.mean()) if inside.size else 0.0
 
 
-def read_points(
-    inputs: Inputs, box: Box | None, context: float, progress: Progress, stated: str | None
-) -> Window:
+def read_points(inputs: Inputs, box: Box | None, context: float, progress: Progress) -> Window:
     """Read the points in a window, in units of the CRS, or in the middle of the survey, which a
     message tells, and in `context` metres round it.
     """
     # An error says if the window is invalid, too wide or empty.
     area, reading = None if box is None else Area(tuple(map(float, box))), progress
     if not inputs.is_survey:
-        las = open_las(inputs[0], stated)
+        las = inputs.open_file()
         files, crs, extent = [las], read_crs(las), las.box
     else:
-        survey = open_survey(inputs, progress=progress.part(0.0, 0.1), stated=stated)
+        survey = open_survey(inputs, progress.part(0.0, 0.1))
         files, crs, extent = survey.tiles, survey.crs, survey.box
         reading = progress.quiet()  # the messages were given
     require_measurable("The survey", crs, extent)

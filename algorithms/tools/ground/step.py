@@ -19,7 +19,7 @@ from ...engine.blocks import Blocks
 from ...engine.memory import Resources
 from ...engine.step import Allocate, PointResult, PointStep, with_classes
 from ...engine.store import Marks, Store
-from ...engine.summary import RunSummary, TileSummary
+from ...engine.summary import FileSummary, TileSummary
 from ...filters import method_of
 from ...las.cloud import PointCloud
 from ...las.edits import Edits
@@ -38,7 +38,7 @@ from .output import Output
 
 
 @dataclass(frozen=True)
-class Summary(RunSummary):
+class Summary(FileSummary):
     """The result of a classification; without an area, all points are in it."""
 
     point_count: int

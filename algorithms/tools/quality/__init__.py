@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterable, Mapping
+from typing import Mapping
 
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter
@@ -13,7 +13,7 @@ from ...core.points import Frame
 from ...core.progress import SILENT, Progress
 from ...las.cloud import survey_frame
 from ...las.reading import read_parts
-from ...survey.files import Survey, open_survey
+from ...survey.files import Inputs, Survey, open_survey
 from ...survey.ground_classes import GroundClasses
 from ...survey.repeated_points import RepeatedPoints
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, FileTool, Output
@@ -59,10 +59,9 @@ class QualityOptions(ParameterSet):
 
 
 def measure_quality(
-    sources: Iterable[Path],
+    sources: Inputs,
     page: Path | None = None,
     folder: Mapping[str, Path] | None = None,
-    crs: str | None = None,
     options: QualityOptions = QualityOptions(),
     ground: GroundClasses = GroundClasses(),
     progress: Progress = SILENT,
@@ -71,7 +70,7 @@ def measure_quality(
     rasters, given by their names.
     """
     # The files are read twice, part by part. Cells are in memory, or on disk if there are many.
-    survey = open_survey(sources, progress=progress.part(0.0, 0.02), stated=crs)
+    survey = open_survey(sources, progress.part(0.0, 0.02))
     if survey.broken:
         raise BareEarthError(survey.broken[0].reason)
     frame = survey_frame(survey.crs)

@@ -13,7 +13,7 @@ from ...las.cloud import PointCloud, survey_frame
 from ...las.reading import read_parts
 from ...rasters.geotiff import RasterGrid
 from ...rasters.writing import write_geotiff
-from ...survey.files import Survey, open_survey
+from ...survey.files import Inputs, Survey, open_survey
 from ...survey.kept_classes import GROUND
 
 NO_CLASS = 255
@@ -67,7 +67,7 @@ def write_class_raster(
     """
     # The side of a cell is in metres, or in units of the CRS with `in_units`; it is larger if there
     # would be too many cells. `crs` is as for `open_las`.
-    survey = open_survey([source], stated=crs)
+    survey = open_survey(Inputs([source]).read_as(crs))
     cell_size *= survey.crs.horizontal_unit if in_units else 1.0
     grid = _grid_of(survey, cell_size)
     cells = ClassCells(grid.rows * grid.columns, ground_class)

@@ -12,7 +12,6 @@ from ...grids.lines import along
 from ...las.cloud import PointCloud
 from ...survey.area import Area, Polygon
 from ...survey.shapes import Geometry, Place, located
-from ..declaration import Input
 
 # Ground points up to so many metres from a line or border give its height.
 NEAR = 10.0
@@ -25,46 +24,6 @@ _GIVEN = {
     "rivers": ("the rivers", NEAR),
     "no_ground": ("the polygons without ground", None),
 }
-
-# The fields of `Constraints`, as users give them.
-INPUTS = (
-    Input(
-        "breaklines",
-        "lines",
-        help="lines that no triangle of the terrain crosses; z is in the unit of heights of the"
-        " points, and a line without z gets the height of the nearest ground point on each side"
-        " ({formats})",
-        label="Breaklines",
-        field_help="Lines that no triangle of the terrain crosses: edges of walls, dykes and"
-        " terraces. A line with z has this height. Without z, each side of the line has the height"
-        " of the nearest ground point on that side.",
-    ),
-    Input(
-        "water",
-        "polygons",
-        help="polygons of water; each is flattened to one level ({formats})",
-        label="Water",
-        field_help="Polygons of water. Each is flattened to one level, that of the ground along its"
-        " border.",
-    ),
-    Input(
-        "rivers",
-        "lines",
-        help="lines along which the level of the water polygons falls ({formats})",
-        label="Rivers",
-        field_help="Lines along which the level of the water polygons falls. They may be drawn in"
-        " either direction.",
-    ),
-    Input(
-        "no_ground",
-        "polygons",
-        help="polygons in which the terrain uses no ground points, such as bridges and roofs"
-        " ({formats})",
-        label="No ground here",
-        field_help="Polygons in which the terrain uses no ground points, such as bridges and roofs."
-        " The classes of the points do not change.",
-    ),
-)
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from ...core.errors import BareEarthError
 from ...core.files import Outputs, new_folder
 from ...core.points import Box, Frame, box_in_words, box_round
 from ...core.progress import SILENT, Progress
-from ...engine.summary import RunSummary
+from ...engine.summary import FileSummary
 from ...grids.cell_window import CellWindow
 from ...rasters.cell_grid import (
     MOST_CELLS,
@@ -38,7 +38,7 @@ WriteCells = Callable[[Path, Rows, RasterGrid, float, Progress, str], None]
 
 
 @dataclass(frozen=True)
-class RasterSize(RunSummary):
+class RasterSize(FileSummary):
     """The size of rasters, and the points that terrain and surface were made from."""
 
     ground_count: int

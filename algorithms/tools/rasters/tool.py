@@ -12,6 +12,7 @@ from ...engine.memory import Resources
 from ...engine.options import TileInput
 from ...rasters.cell_grid import ANYWHERE
 from ...survey.feature_files import FORMATS
+from ...survey.files import Inputs
 from ...survey.ground_classes import GroundClasses
 from ..contours import Contours
 from ..declaration import CANOPY, CLOUD, RASTER, TERRAIN, TIN, Input, MapTool, Output
@@ -71,11 +72,9 @@ def _steps(
     return (step,)
 
 
-def _found(
-    sources: Sequence[Path], ground: GroundClasses, crs: str | None, progress: Progress
-) -> Constraints:
+def _found(sources: Inputs, ground: GroundClasses, progress: Progress) -> Constraints:
     """Return the water of classified files."""
-    water, _ = found_water(sources, ground, crs, progress)
+    water, _ = found_water(sources, ground, progress)
     return water.constraints
 
 

@@ -15,6 +15,7 @@ from ...grids.lines import along
 from ...las.cloud import PointCloud, survey_frame
 from ...survey.area import Polygon
 from ...survey.feature_files import FORMATS, Feature, Layer, feature_writer
+from ...survey.files import Inputs
 from ...survey.ground_classes import GroundClasses
 from ...survey.kept_classes import NOISE, is_one_of
 from ..check.survey_ground import SurveyGround
@@ -124,14 +125,13 @@ class SurveyWater:
 
 
 def water_of(
-    sources: Sequence[Path],
+    sources: Inputs,
     how: Water = Water(),
     classes: GroundClasses = GroundClasses(),
-    crs: str | None = None,
     progress: Progress = SILENT,
 ) -> tuple[SurveyWater, WaterSummary]:
     """Find the water of a survey, read in parts, so that memory depends on the area only."""
-    survey = SurveyGround.of(sources, classes, progress.part(0.0, 0.05), crs)
+    survey = SurveyGround.of(sources, classes, progress.part(0.0, 0.05))
     unit = survey.frame.horizontal_unit
     boxes = np.array([tile.outer_box for tile in survey.survey.tiles]) * unit
     area = float((boxes[:, 2:] - boxes[:, :2]).prod(axis=1).sum())
@@ -169,14 +169,10 @@ def water_of(
 
 
 def found_water(
-    sources: Sequence[Path],
-    ground: GroundClasses,
-    crs: str | None,
-    progress: Progress,
-    how: Water = Water(),
+    sources: Inputs, ground: GroundClasses, progress: Progress, how: Water = Water()
 ) -> tuple[SurveyWater, WaterSummary]:
     """Find the water for what is made of classified files, and tell what was found."""
-    water, summary = water_of(sources, how, ground, crs, progress)
+    water, summary = water_of(sources, how, ground, progress)
     progress.info(f"Water: {summary.text}.")
     return water, summary
 
@@ -225,8 +221,7 @@ def _closed(ring: np.ndarray) -> np.ndarray:
 
 
 def _write(
-    sources: Sequence[Path],
-    crs: str | None,
+    sources: Inputs,
     output: Path,
     breaklines: Path | None,
     water: Water = Water(),
@@ -234,7 +229,7 @@ def _write(
     progress: Progress = SILENT,
 ) -> WaterSummary:
     """Find water and write it into new files."""
-    found, summary = water_of(sources, water, ground, crs, progress.part(0.0, 0.95))
+    found, summary = water_of(sources, water, ground, progress.part(0.0, 0.95))
     found.write(output, breaklines, progress)
     return summary
 
