@@ -21,6 +21,8 @@ _POINTS_A_COUNT = 1 << 20
 # Values of which the least are found at a time, and how often values are stored before
 # `minimum.at`, which takes eight times as long, finds the rest.
 _VALUES_A_PART, _ROUNDS = 1 << 16, 6
+# Of elements that are fewer than one in so many cells, the occupied cells are sorted.
+_FEW = 16
 # Side in metres of the blocks in which points are counted. A block without a point is a gap in the
 # survey.
 _BLOCK = 10.0
@@ -120,20 +122,9 @@ class Cells:
         """Return the index of the lowest point of each occupied cell, in the order of the cells."""
         # If several points of a cell are equally low, the one with the smallest x, then y, is
         # taken: the choice must not depend on the order of the points.
-        lowest = np.full(self.rows * self.columns, np.inf)
-        which = lower_at(lowest, self.index, points.z)
-        z = points.z[which]
-        which = which[(z == lowest.take(self.index[which])) & np.isfinite(z)]
-        index, found = self.index[which], np.full(lowest.size, -1, dtype=np.intp)
-        found[index] = which
-        # Only few cells have several: the keys of others need not be compared.
-        several = np.zeros(lowest.size, dtype=bool)
-        several[index[found.take(index) != which]] = True
-        which = which[several.take(index)]
-        keys = points.x[which], points.y[which]
-        which = which[first_of_each(self.index[which], lowest.size, *keys)]
-        found[self.index[which]] = which
-        return found[found >= 0]
+        keys = points.z, points.x, points.y
+        found = first_of_each(self.index, self.rows * self.columns, *keys)
+        return found[np.isfinite(points.z.take(found))]
 
     @cached_property
     def counts(self) -> np.ndarray:
@@ -234,22 +225,27 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
     cells (0 to `size` - 1).
     """
     # The first element of a cell has the least first key; the next key decides between equal ones.
+    if _FEW * len(index) < size:  # what is done follows the elements, not the cells
+        occupied, index = np.unique(index, return_inverse=True)
+        size = len(occupied)
     found, least = np.full(size, -1, dtype=np.intp), np.full(size, np.inf)
-    which, cell = np.arange(len(index)), index
+    which, cell = None, index  # the elements between which the next key decides, None for all
     if not keys:
-        found[index] = which
+        found[index] = np.arange(len(index))
     for key in keys:
-        values = key if len(which) == len(key) else key[which]
+        values = key if which is None else key.take(which)
         lowest = lower_at(least, cell, values)
-        lowest = lowest[values[lowest] == least[cell[lowest]]]
-        which, cell = which[lowest], cell[lowest]
+        lowest = lowest[values.take(lowest) == least.take(cell.take(lowest))]
+        which, cell = lowest if which is None else which.take(lowest), cell.take(lowest)
         found[cell] = which  # of elements with equal keys, the last one
-        equal = cell[found[cell] != which]
+        equal = cell[found.take(cell) != which]
         if not len(equal):
             break
-        least[equal] = np.inf
-        undecided = np.flatnonzero(least[cell] == np.inf)
-        which, cell = which[undecided], cell[undecided]
+        # Only few cells have several: the keys of others need not be compared.
+        several = np.zeros(size, dtype=bool)
+        several[equal], least[equal] = True, np.inf
+        undecided = np.flatnonzero(several.take(cell))
+        which, cell = which.take(undecided), cell.take(undecided)
     return found[found >= 0]
 
 

@@ -7,13 +7,14 @@ not depend on the files or on their order, so there are no seams.
 
 from __future__ import annotations
 
+import itertools
 import math
 import mmap
 import shutil
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
+from typing import Callable, Iterator, NamedTuple, Tuple
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from ...core.errors import BareEarthError
 from ...core.points import Box, Frame
 from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
+from ...grids.parts import parts_with
 from ...las.cloud import PointCloud
 from ...rasters.cell_grid import MOST_CELLS
 from ...survey.ground_classes import GroundClasses
@@ -146,6 +148,10 @@ class Counts:
             self.strips.update(np.unique(part.strip[used]).tolist())
 
 
+# Slices of rows and of columns.
+Rectangle = Tuple[slice, ...]
+
+
 class Extent(NamedTuple):
     """Where the survey lies, in its coarse cells; boolean."""
 
@@ -260,22 +266,20 @@ class QualityCells:
         self.counts.shared = self._repeated.shared
         self.counts.duplicates = self._repeated.duplicates
         (rows, columns), size = self.grids.fine.window.shape, self.grids.fine.size
-        for south in range(0, rows, _TILE):
-            for west in range(0, columns, _TILE):
-                low, left = max(south - WINDOWS[-1], 0), max(west - WINDOWS[-1], 0)
-                tile = (
-                    slice(low, south + _TILE + WINDOWS[-1]),
-                    slice(left, west + _TILE + WINDOWS[-1]),
-                )
-                number = self._number[tile]
-                wanted = np.zeros(number.shape, dtype=bool)
-                own = wanted[south - low :, west - left :][:_TILE, :_TILE]
-                coarse = tuple(slice(start // 2, (start + _TILE) // 2) for start in (south, west))
-                own[:] = twice(self.highest[coarse] > -np.inf, slice(0, len(own)))
-                row, column = np.nonzero(wanted)
-                totals = (values[tile] for values in (self._x, self._y, self._z))
-                found = planes(number, totals, size, wanted)
-                for values, array in zip(found, (self._height, self._rise_x, self._rise_y)):
+        planes_of = self._height, self._rise_x, self._rise_y
+        for south, west in itertools.product(range(0, rows, _TILE), range(0, columns, _TILE)):
+            low, left = (max(start - WINDOWS[-1], 0) for start in (south, west))
+            high, right = south + _TILE + WINDOWS[-1], west + _TILE + WINDOWS[-1]
+            around = slice(low, min(high, rows)), slice(left, min(right, columns))
+            filled = twice(self._has_points, around)
+            wanted = np.zeros(filled.shape, dtype=bool)
+            own = slice(south - low, south - low + _TILE), slice(west - left, west - left + _TILE)
+            wanted[own] = filled[own]
+            if wanted.any():
+                sums = (self._number, self._x, self._y, self._z)
+                number, *totals = (values[around] for values in sums)
+                row, column, found = planes(number, totals, size, filled, wanted)
+                for values, array in zip(found, planes_of):
                     array[row + low, column + left] = values
             progress(min(south + _TILE, rows) / rows)
 
@@ -320,8 +324,38 @@ class QualityCells:
             _add(self.strip_points[slot], coarse[near])
             _add(self.strip_sum[slot], coarse[near], above[near])
 
+    def surveyed(self, rows: slice, is_coarse: bool) -> Iterator[Rectangle]:
+        """Yield rectangles that hold the survey in some rows, of which the first is even."""
+        scale = 1 if is_coarse else 2
+        for part in parts_with(self.extent.inside[rows.start // scale : rows.stop // scale], 0):
+            row, column = part.core
+            yield (
+                slice(rows.start + scale * row.start, rows.start + scale * row.stop),
+                slice(scale * column.start, scale * column.stop),
+            )
+
+    def values(self, make: Make, there: Rectangle, is_coarse: bool) -> np.ndarray:
+        """Return what is made of a rectangle of cells, with NaN outside of the survey."""
+        inside = self.extent.inside
+        inside = inside[there] if is_coarse else twice(inside, there)
+        return np.where(inside, make(self, there), np.nan)
+
+    def rows_of(self, make: Make, rows: slice, is_coarse: bool) -> np.ndarray:
+        """Return what is made of some rows, with NaN outside of the survey."""
+        grid = self.grids.coarse if is_coarse else self.grids.fine
+        found = np.full((rows.stop - rows.start, grid.window.columns), np.nan)
+        for there in self.surveyed(rows, is_coarse):
+            own = slice(there[0].start - rows.start, there[0].stop - rows.start)
+            found[own, there[1]] = self.values(make, there, is_coarse)
+        return found
+
     def _coarse(self, row: np.ndarray, column: np.ndarray) -> np.ndarray:
         return (row >> 1) * self.grids.coarse.window.columns + (column >> 1)
+
+    @cached_property
+    def _has_points(self) -> np.ndarray:
+        """Which coarse cells have points, when all are added."""
+        return self.highest > -np.inf
 
     @cached_property
     def extent(self) -> Extent:
@@ -337,7 +371,7 @@ class QualityCells:
             squares = padded.reshape(-(-rows // side), side, -1, side)
             return np.logical_or.reduce(squares, axis=(1, 3))
 
-        inside = ndimage.binary_fill_holes(in_squares(self.highest > -np.inf))
+        inside = ndimage.binary_fill_holes(in_squares(self._has_points))
         wet, flagged, pulses = (in_squares(self.marks & bit > 0) for bit in (WET, FLAGGED, PULSE))
         inner = ndimage.binary_erosion(inside, np.ones((3, 3)))
         if not inner.any():
@@ -348,6 +382,10 @@ class QualityCells:
                 for squares in (inside, inner, inner & ~wet, inner & ~(flagged & ~pulses))
             )
         )
+
+
+# Makes something of a rectangle of cells.
+Make = Callable[[QualityCells, Rectangle], np.ndarray]
 
 
 def _add(cells: np.ndarray, place: np.ndarray, values: np.ndarray | None = None) -> None:
@@ -362,7 +400,8 @@ def _mark(cells: np.ndarray, place: np.ndarray, bit: int) -> None:
     cells.reshape(-1)[place] |= bit
 
 
-def twice(inside: np.ndarray, rows: slice) -> np.ndarray:
-    """Return values of coarse cells for some rows of fine cells; the first row must be even."""
-    coarse = inside[rows.start // 2 : -(-rows.stop // 2)]
-    return coarse.repeat(2, axis=0)[: rows.stop - rows.start].repeat(2, axis=1)
+def twice(values: np.ndarray, there: Rectangle) -> np.ndarray:
+    """Return values of coarse cells for a rectangle of fine cells."""
+    coarse = values[tuple(slice(side.start // 2, -(-side.stop // 2)) for side in there)]
+    inner = (slice(side.start % 2, side.start % 2 + side.stop - side.start) for side in there)
+    return coarse.repeat(2, axis=0).repeat(2, axis=1)[tuple(inner)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -50,18 +51,19 @@ def _densities(cells: QualityCells, asked: Specification) -> dict[str, Any]:
     extent, square = cells.extent, cells.grids.coarse.size**2
     sums = np.zeros(6)
     for rows in cells.grids.fine.parts():
-        inner, pulses, dry = (
-            twice(where, rows) for where in (extent.inner, extent.pulses, extent.dry)
-        )
-        returns = cells.first[rows].astype(np.int64)
-        of_four = returns.reshape(len(returns) // 2, 2, -1, 2).sum(axis=(1, 3))
-        is_dense = of_four >= (asked.pulses or 0) * square
-        sums += (
-            returns[pulses].sum(), cells.points[rows][pulses].sum(dtype=np.int64),
-            cells.ground_points[rows][inner].sum(dtype=np.int64),
-            np.count_nonzero(is_dense & pulses[::2, ::2]),
-            np.count_nonzero(voids(cells, rows) & dry), np.count_nonzero(dry),
-        )  # fmt: skip
+        for there in cells.surveyed(rows, is_coarse=False):
+            inner, pulses, dry = (
+                twice(where, there) for where in (extent.inner, extent.pulses, extent.dry)
+            )
+            returns = cells.first[there].astype(np.int64)
+            of_four = returns.reshape(len(returns) // 2, 2, -1, 2).sum(axis=(1, 3))
+            is_dense = of_four >= (asked.pulses or 0) * square
+            sums += (
+                returns[pulses].sum(), cells.points[there][pulses].sum(dtype=np.int64),
+                cells.ground_points[there][inner].sum(dtype=np.int64),
+                np.count_nonzero(is_dense & pulses[::2, ::2]),
+                np.count_nonzero(voids(cells, there) & dry), np.count_nonzero(dry),
+            )  # fmt: skip
     first, points, ground, dense, far, land = sums.tolist()
     every, counted = (int(np.count_nonzero(where)) for where in (extent.inner, extent.pulses))
     return {
@@ -101,14 +103,18 @@ def _strips(cells: QualityCells) -> dict[str, Any]:
     """Return how strips overlap and differ."""
     overlapping, compared, squares, largest = 0, 0, 0.0, 0.0
     kinds = np.zeros(3, dtype=np.int64)
+    on_flat_land = partial(strip_differences, steepest=_STEEPEST)
     for rows in cells.grids.coarse.parts():
         inner = cells.extent.inner[rows]
-        overlapping += int(np.count_nonzero((overlap(cells, rows) > 1) & inner))
-        apart = strip_differences(cells, rows)[inner]
+        are_several = (cells.rows_of(overlap, rows, is_coarse=True) > 1) & inner
+        if not are_several.any():
+            continue
+        overlapping += int(np.count_nonzero(are_several))
+        apart = cells.rows_of(strip_differences, rows, is_coarse=True)[inner]
         apart = apart[~np.isnan(apart)]
         kinds += np.bincount(np.searchsorted(LIMITS, apart, side="right"), minlength=3)
         open_land = inner & (cells.marks[rows] & (ROUGH | WET) == 0)
-        even = strip_differences(cells, rows, _STEEPEST)[open_land]
+        even = cells.rows_of(on_flat_land, rows, is_coarse=True)[open_land]
         even = even[~np.isnan(even)]
         squares, compared = squares + float((even**2).sum()), compared + len(even)
         largest = max(largest, float(even.max(initial=0.0)))

@@ -70,14 +70,29 @@ def _state(state: str) -> Html:
 def _maps(cells: QualityCells, survey: Survey) -> Iterator[Html]:
     units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
     for raster in QUALITY_RASTERS.values():
-        (window, size), parts = raster.grid(cells), []
-        step = math.ceil(max(window.shape) / _LONGEST)
-        for rows in raster.grid(cells).parts(2 * step):
-            parts.append(reduced(raster.values(cells, rows), step, raster.shows_greatest))
-        values = np.vstack(parts)[::-1].astype(np.float64)
+        grid = raster.grid(cells)
+        step = math.ceil(max(grid.window.shape) / _LONGEST)
+        values = _reduced(cells, raster, step)
         if not np.isnan(values).all():
-            pixels, legend = _coloured(raster, values, units)
-            yield map_of(Picture(pixels, size * step), raster.label or raster.title, legend, units)
+            pixels, legend = _coloured(raster, values[::-1], units)
+            picture = Picture(pixels, grid.size * step)
+            yield map_of(picture, raster.label or raster.title, legend, units)
+
+
+def _reduced(cells: QualityCells, raster: QualityRaster, step: int) -> np.ndarray:
+    """Return a raster in cells of `step` of its own, from south to north; NaN for no value."""
+    grid = raster.grid(cells)
+    found = np.full([-(-count // step) for count in grid.window.shape], np.nan)
+    for rows in grid.parts(2 * step):
+        for there in cells.surveyed(rows, raster.is_coarse):
+            squares = tuple(slice(side.start // step, -(-side.stop // step)) for side in there)
+            whole = tuple(
+                slice(step * side.start, min(step * side.stop, count))
+                for side, count in zip(squares, grid.window.shape)
+            )
+            values = cells.values(raster.make, whole, raster.is_coarse)
+            found[squares] = reduced(values, step, raster.shows_greatest)
+    return found
 
 
 def _coloured(raster: QualityRaster, values: np.ndarray, units: Units) -> tuple[np.ndarray, Html]:

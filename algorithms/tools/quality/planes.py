@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, Iterator
+from typing import Any, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -16,42 +16,43 @@ _LEAST_POINTS, _LEAST_SPREAD = 6, 0.02
 
 def planes(
     number: np.ndarray,  # of the ground points of cells
-    totals: Iterable[np.ndarray],  # of their x and y from the centre of the cell, and of their z
+    totals: Sequence[np.ndarray],  # of their x and y from the centre of the cell, and of their z
     size: float,
+    filled: np.ndarray,  # boolean: cells with points; no others have ground
     wanted: np.ndarray,  # boolean
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return planes through the ground round the n wanted cells of a size in metres: height at
-    their centre, slope to the east and north; NaN without ground within ten cells.
+    """Return row and column of the n wanted cells of a size in metres, and planes through the
+    ground round them, (3, n): height at the centre, slopes to east and north; NaN for none.
     """
     # From the middle of all cells: numbers are so small that no digit of their squares is lost.
     (rows, columns), (x, y, z) = number.shape, totals
     north, east = (np.arange(rows) - rows // 2) * size, (np.arange(columns) - columns // 2) * size
-    some = number > 0
-    base = float((z[some] / number[some]).min()) if some.any() else 0.0
-    found, left = np.zeros((3, *number.shape)), wanted.copy()
-    found[0] = np.nan
+    some = np.nonzero(filled)
+    ground = tuple(sides[number[some] > 0] for sides in some)
+    base = float((z[ground] / number[ground]).min()) if len(ground[0]) else 0.0
+    cells, left = np.flatnonzero(wanted), wanted.copy()
+    found = np.full((3, len(cells)), np.nan)
     for window in WINDOWS:
+        least = 1 if window == WINDOWS[-1] else _LEAST_POINTS
         for part in parts_with(left, window):
             there, count = part.around, number[part.around].astype(np.float64)
-            if not count.any():
+            place = np.nonzero(left[part.core])
+            near = _summed(count, window)[part.inner][place]
+            place, near = tuple(sides[near >= least] for sides in place), near[near >= least]
+            if not len(near):
                 continue
             mean_x, mean_y, mean_z = (total[there] / np.maximum(count, 1.0) for total in (x, y, z))
             mean_x, mean_y = mean_x + east[there[1]], mean_y + north[there[0], None]
             mean_z = np.where(count > 0, mean_z - base, 0.0)
-            place = np.nonzero(left[there][part.inner])
-            sums = [
-                _summed(values, window)[part.inner][place]
-                for values in moments(count, mean_x, mean_y, mean_z)
-            ]
-            is_good, (level, rise_x, rise_y) = plane_of(sums)
-            if window == WINDOWS[-1]:
-                is_good |= sums[0] > 0
-            to_east, to_north = east[part.core[1]][place[1]], north[part.core[0]][place[0]]
-            level += base + rise_x * to_east + rise_y * to_north
-            level[~is_good] = np.nan
-            found[:, part.core[0], part.core[1]][:, place[0], place[1]] = level, rise_x, rise_y
-        left &= np.isnan(found[0])
-    return tuple(found[:, wanted])
+            _, *values = moments(count, mean_x, mean_y, mean_z)
+            sums = (_summed(moment, window)[part.inner][place] for moment in values)
+            is_good, plane = plane_of((near, *sums))
+            is_good |= least == 1
+            row, column = (side.start + sides for side, sides in zip(part.core, place))
+            plane[0] += base + plane[1] * east[column] + plane[2] * north[row]
+            left[row[is_good], column[is_good]] = False
+            found[:, np.searchsorted(cells, row * columns + column)[is_good]] = plane[:, is_good]
+    return (*np.divmod(cells, columns), found)
 
 
 def _summed(values: np.ndarray, window: int) -> np.ndarray:

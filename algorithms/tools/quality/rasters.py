@@ -18,7 +18,7 @@ from ...rasters.geotiff import NODATA, RasterGrid
 from ...rasters.looks import Categories, Look, Ramp, Steps
 from ...rasters.writing import Rows, write_geotiff
 from ...report.pictures import HEIGHTS
-from .cells import STRIPS, Grid, QualityCells, twice
+from .cells import STRIPS, Grid, Make, QualityCells, Rectangle
 from .planes import moments, plane_of
 
 # Limits of the classes of differences between strips, in metres.
@@ -42,8 +42,7 @@ class QualityRaster(NamedTuple):
 
     title: str
     shows: str  # what its cells mean
-    # Returns some rows, given as a slice; NaN for no value.
-    make: Callable[[QualityCells, slice], np.ndarray]
+    make: Make  # returns NaN for no value
     look: Look
     is_coarse: bool = False  # its cells have twice the size
     kind: str = "float32"  # "float32" or "uint8"
@@ -60,64 +59,69 @@ class QualityRaster(NamedTuple):
         """Return the cells of the raster."""
         return cells.grids.coarse if self.is_coarse else cells.grids.fine
 
-    def values(self, cells: QualityCells, rows: slice) -> np.ndarray:
-        """Return some rows, with NaN outside of the survey."""
-        inside = cells.extent.inside
-        inside = inside[rows] if self.is_coarse else twice(inside, rows)
-        return np.where(inside, self.make(cells, rows), np.nan)
+
+def _density(name: str) -> Make:
+    return lambda cells, there: getattr(cells, name)[there] / cells.grids.fine.size**2
 
 
-def _density(name: str) -> Callable[[QualityCells, slice], np.ndarray]:
-    return lambda cells, rows: getattr(cells, name)[rows] / cells.grids.fine.size**2
+def _wider(there: Rectangle, margin: int) -> tuple[Rectangle, Rectangle]:
+    """Return a rectangle with a margin, and the rectangle within this."""
+    wide = tuple(slice(max(side.start - margin, 0), side.stop + margin) for side in there)
+    sides = zip(there, wide)
+    return wide, tuple(slice(own.start - w.start, own.stop - w.start) for own, w in sides)
 
 
-def voids(cells: QualityCells, rows: slice) -> np.ndarray:
+def voids(cells: QualityCells, there: Rectangle) -> np.ndarray:
     """Return which cells are farther from the next cell with ground than allowed; boolean."""
     from scipy import ndimage
 
     size = cells.grids.fine.size
     margin = math.ceil(cells.void / size) + 1
-    low = max(rows.start - margin, 0)
-    empty = cells.ground_points[low : rows.stop + margin] == 0
+    wide, inner = _wider(there, margin)
+    empty = cells.ground_points[wide] == 0
     far = np.ones(empty.shape, dtype=bool)
     for part in parts_with(~empty, margin):
-        there = ndimage.distance_transform_edt(empty[part.around], sampling=size) > cells.void
-        far[part.around] &= there
-    return far[rows.start - low : rows.stop - low]
+        apart = ndimage.distance_transform_edt(empty[part.around], sampling=size) > cells.void
+        far[part.around] &= apart
+    return far[inner]
 
 
-def overlap(cells: QualityCells, rows: slice) -> np.ndarray:
+def overlap(cells: QualityCells, there: Rectangle) -> np.ndarray:
     """Return the number of strips in cells."""
-    return np.count_nonzero(cells.strip[:, rows], axis=0)
+    return np.count_nonzero(cells.strip[(slice(None), *there)], axis=0)
 
 
-def strip_differences(cells: QualityCells, rows: slice, steepest: float = _STEEPEST) -> np.ndarray:
+def strip_differences(
+    cells: QualityCells, there: Rectangle, steepest: float = _STEEPEST
+) -> np.ndarray:
     """Return the range of the mean heights of strips in metres, on ground that is not steeper than
     some degrees; NaN without two even strips.
     """
-    low = max(rows.start - _AROUND, 0)
-    found = _of_even_strips(cells, slice(low, rows.stop + _AROUND), steepest)
-    wide = np.pad(found, _AROUND, constant_values=np.nan)
-    around = np.lib.stride_tricks.sliding_window_view(wide, (2 * _AROUND + 1,) * 2)
+    wide, inner = _wider(there, _AROUND)
+    found = _of_even_strips(cells, wide, steepest)
+    padded = np.pad(found, _AROUND, constant_values=np.nan)
+    around = np.lib.stride_tricks.sliding_window_view(padded, (2 * _AROUND + 1,) * 2)
     row, column = np.nonzero(~np.isnan(found))
     for start in range(0, len(row), _LOOKED_AT):
         place = row[start : start + _LOOKED_AT], column[start : start + _LOOKED_AT]
         off = np.abs(found[place] - np.nanmedian(around[place], axis=(1, 2)))
         found[place] = np.where(off > _FROM_AROUND, np.nan, found[place])
-    return found[rows.start - low : rows.stop - low]
+    return found[inner]
 
 
-def _of_even_strips(cells: QualityCells, rows: slice, steepest: float) -> np.ndarray:
+def _of_even_strips(cells: QualityCells, there: Rectangle, steepest: float) -> np.ndarray:
     """Return the range of the means of the strips that are even; NaN where fewer than two are."""
-    number = cells.strip_points[:, rows]
+    number, sums = (
+        values[(slice(None), *there)] for values in (cells.strip_points, cells.strip_sum)
+    )
     enough = number >= _LEAST_POINTS
     found = np.full(number.shape[1:], np.nan)
-    rows_found, columns_found = np.nonzero(enough.sum(axis=0) > 1)
-    for start in range(0, len(rows_found), _LOOKED_AT):
-        row, column = (values[start : start + _LOOKED_AT] for values in (rows_found, columns_found))
-        is_known = enough[:, row, column] & _is_even(cells, row + rows.start, column, steepest)
-        sums = cells.strip_sum[:, rows][:, row, column]
-        means = sums / np.maximum(number[:, row, column], 1)
+    rows, columns = np.nonzero(enough.sum(axis=0) > 1)
+    south, west = (side.start for side in there)
+    for start in range(0, len(rows), _LOOKED_AT):
+        row, column = (values[start : start + _LOOKED_AT] for values in (rows, columns))
+        is_known = enough[:, row, column] & _is_even(cells, row + south, column + west, steepest)
+        means = sums[:, row, column] / np.maximum(number[:, row, column], 1)
         lowest = np.where(is_known, means, np.inf).min(axis=0)
         highest = np.where(is_known, means, -np.inf).max(axis=0)
         found[row, column] = np.where(is_known.sum(axis=0) > 1, highest - lowest, np.nan)
@@ -149,8 +153,8 @@ def _is_even(
     return is_good & (np.abs(height) <= _UNEVEN) & is_flat
 
 
-def _highest(cells: QualityCells, rows: slice) -> np.ndarray:
-    heights = cells.highest[rows]
+def _highest(cells: QualityCells, there: Rectangle) -> np.ndarray:
+    heights = cells.highest[there]
     return np.where(np.isfinite(heights), heights, np.nan)
 
 
@@ -218,8 +222,11 @@ def _rows_of(
     raster: QualityRaster, cells: QualityCells, frame: Frame, nodata: float
 ) -> Iterator[np.ndarray]:
     """Yield rows of a raster from north to south."""
+    unit = frame.vertical_unit if raster.is_height else 1.0
+
+    def make(cells: QualityCells, there: Rectangle) -> np.ndarray:
+        return raster.make(cells, there) / unit
+
     for rows in reversed(raster.grid(cells).parts()):
-        values = raster.values(cells, rows)
-        if raster.is_height:
-            values = values / frame.vertical_unit
+        values = cells.rows_of(make, rows, raster.is_coarse)
         yield np.where(np.isnan(values), nodata, values).astype(raster.kind)[::-1]
