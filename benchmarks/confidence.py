@@ -130,7 +130,8 @@ def compared(points: Points, ground: np.ndarray, terrain: Terrain, seed: int = 0
     random = np.random.default_rng(seed)
     drawn = random.choice(known, min(_CELLS, len(known)), replace=False)
     right = (np.abs(heights - truth) <= allowed).ravel()[drawn]
-    pieces = [piece.ravel()[drawn] for piece in evidence(cells, points.z, ground)]
+    places = map(np.arange, cells.shape)
+    pieces = [piece.ravel()[drawn] for piece in evidence(cells, points.z, ground, *places)]
     return Seen("", False, np.column_stack(pieces), right)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.points import Points
 from .cells import Cells
-from .gradient import steepness
+from .gradient import length, steepness
 from .inpaint import inpaint
 from .morphology import within_square
 from .parts import parts_with
@@ -70,12 +70,19 @@ def confidence(points: Points, ground: np.ndarray) -> Confidence:
     """Return the probability that the terrain made of ground points is right, 0 everywhere without
     any, for cells of 1 m over all points that took part.
     """
+    cells = Cells.over(points, CELL)
+    return Confidence(cells, confidence_in(cells, points.z, ground, *map(np.arange, cells.shape)))
+
+
+def confidence_in(
+    cells: Cells, z: np.ndarray, ground: np.ndarray, rows: np.ndarray, columns: np.ndarray
+) -> np.ndarray:
+    """Return the same for some rows and columns of the cells, both in ascending order."""
     # It is right if the TIN of the ground points, at the middle of a cell, differs from the true
     # terrain by at most 0.3 m plus half of the terrain's rise over the cell.
-    cells = Cells.over(points, CELL)
     if not ground.any():
-        return Confidence(cells, np.zeros(cells.shape, dtype=np.float32))
-    return Confidence(cells, probability(evidence(cells, points.z, ground)))
+        return np.zeros((len(rows), len(columns)), dtype=np.float32)
+    return probability(evidence(cells, z, ground, rows, columns))
 
 
 def probability(pieces: Sequence[np.ndarray], weights: Weights = Weights()) -> np.ndarray:
@@ -88,23 +95,28 @@ def probability(pieces: Sequence[np.ndarray], weights: Weights = Weights()) -> n
     return 1.0 / (1.0 + np.exp(-logit))
 
 
-def evidence(cells: Cells, z: np.ndarray, ground: np.ndarray) -> Evidence:
-    """Return the evidence for the confidence of each cell of 1 m, from the heights in metres of all
-    points, and which are ground, at least one.
+def evidence(
+    cells: Cells, z: np.ndarray, ground: np.ndarray, rows: np.ndarray, columns: np.ndarray
+) -> Evidence:
+    """Return the evidence for the confidence of some rows and columns of cells of 1 m, from the
+    heights in metres of all points, and which are ground, at least one.
     """
     from scipy import ndimage
 
-    lowest, heights = cells.minimum(z), cells.minimum(np.where(ground, z, np.inf))
+    lowest, heights = cells.minimum(z), cells.minimum(z, np.flatnonzero(ground))
     occupied, has_ground = np.isfinite(lowest), np.isfinite(heights)
     surface = inpaint(heights, _RELAXATIONS, cells.first).astype(np.float32)
     doubtful = occupied & ~has_ground & (lowest - surface < _DOUBTFUL_HEIGHT)
-    gap = np.log1p(ndimage.distance_transform_edt(~has_ground) * cells.size).astype(np.float32)
-    rise = np.minimum(steepness(surface, cells.size), np.float32(_STEEPEST))
-    holes, rough, doubts = np.zeros((3, *cells.shape), dtype=np.float32)
+    gap = np.log1p(_distances(has_ground, rows, columns) * cells.size).astype(np.float32)
+    holes, rough, doubts = np.zeros((3, len(rows), len(columns)), dtype=np.float32)
     holes[:] = 1.0
     # Far from all points there are no means.
     near_points = within_square(np.maximum, occupied.view(np.uint8), _AROUND).view(bool)
     for part in parts_with(near_points, _AROUND + 1):
+        (some_rows, inner_rows), (some_columns, inner_columns) = (
+            _places_in(places, *sides)
+            for places, *sides in zip((rows, columns), part.core, part.inner)
+        )
         there, has = part.around, has_ground[part.around]
         near, around = (_mean(occupied[there], reach) for reach in (_NEAR, _AROUND))
         for grid, values in (
@@ -112,9 +124,31 @@ def evidence(cells: Cells, z: np.ndarray, ground: np.ndarray) -> Evidence:
             (rough, _roughness(surface[there], has)),
             (doubts, _mean(doubtful[there], _AROUND) / np.maximum(around, _TINY)),
         ):
-            grid[part.core] = values[part.inner]
-    steepest = ndimage.maximum_filter(rise, 2 * _AROUND + 1, mode="nearest")
-    return Evidence(holes, rough, gap**2, gap * steepest, doubts)
+            of_rows = values.take(inner_rows, axis=0)
+            grid[some_rows, some_columns] = of_rows.take(inner_columns, axis=1)
+    rise = np.minimum(steepness(surface, cells.size), np.float32(_STEEPEST))
+    for axis, places in enumerate((rows, columns)):
+        steepest = ndimage.maximum_filter1d(rise, 2 * _AROUND + 1, axis, mode="nearest")
+        rise = steepest.take(places, axis)
+    return Evidence(holes, rough, gap**2, gap * rise, doubts)
+
+
+def _distances(which: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """Return the distances in cells of some rows and columns to the nearest of some cells."""
+    from scipy import ndimage
+
+    # Of distances, scipy makes several planes of all cells.
+    nearest = ndimage.distance_transform_edt(~which, return_distances=False, return_indices=True)
+    row, column = nearest.take(rows, axis=1).take(columns, axis=2)
+    north = np.subtract(row, rows[:, None], dtype=np.float64)
+    east = np.subtract(column, columns, dtype=np.float64)
+    return length(north, east)
+
+
+def _places_in(places: np.ndarray, core: slice, inner: slice) -> tuple[slice, np.ndarray]:
+    """Return which of ascending places lie in a part of the grid, and where in its margin."""
+    some = slice(*np.searchsorted(places, (core.start, core.stop)).tolist())
+    return some, places[some] - core.start + inner.start
 
 
 def _roughness(surface: np.ndarray, has_ground: np.ndarray) -> np.ndarray:

@@ -12,8 +12,8 @@ from ...core.points import Box, Points
 from ...core.progress import SILENT, Progress
 from ...core.threads import over_parts, parts_of
 from ...grids.cell_window import CellWindow
-from ...grids.cells import are_inside, first_of_each
-from ...grids.confidence import confidence
+from ...grids.cells import Cells, are_inside, first_of_each
+from ...grids.confidence import CELL, confidence_in
 from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ...grids.high_groups import HighGroups
 from ...grids.morphology import within_square
@@ -247,17 +247,19 @@ def _confidence(
     values = np.full(window.shape, np.nan, dtype=np.float32)
     if not view.points.count or window.is_empty:
         return values, None
-    cells, known = confidence(view.points, view.ground)
+    cells = Cells.over(view.points, CELL)
     x, y = (centres - start for centres, start in zip(window.centres(step.cell), view.corner))
     row, column = (
         np.floor(centres / cells.size).astype(np.int64) - first
         for centres, first in zip((y, x), cells.first)
     )
-    rows, columns = (
-        np.flatnonzero((places >= 0) & (places < count))
-        for places, count in zip((row, column), cells.shape)
+    inside = [(places >= 0) & (places < count) for places, count in zip((row, column), cells.shape)]
+    # Several small cells can lie in one of 1 m.
+    (rows, of_rows), (columns, of_columns) = (
+        np.unique(places[some], return_inverse=True) for places, some in zip((row, column), inside)
     )
-    values[np.ix_(rows, columns)] = known[np.ix_(row[rows], column[columns])]
+    known = confidence_in(cells, view.points.z, view.ground, rows, columns)
+    values[np.ix_(*inside)] = known[np.ix_(of_rows, of_columns)]
     return values, None
 
 
