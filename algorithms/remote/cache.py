@@ -22,13 +22,14 @@ from ..survey.area import Area
 from ..survey.files import Inputs
 from ..survey.shapes import Place, Shapes
 from .addresses import beside, checked, is_address, name_of, shown
-from .copc import CopcPart
+from .copc import SUFFIX, CopcPart
 from .ept import DESCRIPTION, EptPart
 from .fetching import Part, Wanted, check_size, names_of, nothing_there
 from .files import RemoteFile
 from .lists import Cloud, clouds_of
 from .parts import remove_parts
 from .transfers import Transfers
+from .whole import WholePart
 
 VARIABLE = "BARE_EARTH_CACHE"
 # Of folders; 16 of the 64 digits of a hash, since paths must be short for Windows.
@@ -84,24 +85,31 @@ class _Kept:
         with write_errors_told(folder):
             folder.mkdir(parents=True, exist_ok=True)
         self._file: RemoteFile | None = None
-        self.name = name_of(cloud.address)
+        self.name, ending = name_of(cloud.address), SUFFIX
         is_certain = True
         # One request, which tells the version.
         if self.name.lower() == DESCRIPTION:
             text = transfers.one(lambda: transfers.read_whole(cloud.address, _MOST_JSON))
-            version = hashlib.sha256(text).hexdigest()
+            version, ending = hashlib.sha256(text).hexdigest(), ".laz"
             self.name = name_of(beside(cloud.address, ""))
         else:
             self._file = RemoteFile(transfers, cloud.address, self.waiting)
             version, is_certain = json.dumps(self._file.version), self._file.version.is_certain
-        self.path = folder / _digest(version) / names_of([self.name])[0]
-        if self._file is None:
-            self.path = self.path.with_name(self.path.name.replace(".copc.laz", ".laz"))
+            if not self._file.is_copc:
+                # All of it serves any area.
+                folder = folder.with_name(_digest("all"))
+                ending = ".las" if self.name.lower().endswith(".las") else ".laz"
+        name = names_of([self.name])[0].replace(SUFFIX, ending)
+        self.path = folder / _digest(version) / name
         self.is_here = is_certain and self.path.is_file()
+        if self.is_here:
+            self._remove_parts()
 
     def part(self, progress: Progress) -> Part:
         """Return what has to be fetched."""
         wanted = self._wanted
+        if self._file is not None and not self._file.is_copc:
+            return WholePart(self._file, wanted.area, progress)
         if self._file is not None:
             return CopcPart(self._file, wanted.area, wanted.resolution, progress)
         place = self._transfers, self.address, self.waiting
@@ -111,13 +119,18 @@ class _Kept:
         """Write what was fetched, and return the number of points."""
         count = 0
         with contextlib.suppress(_NoPoint), write_errors_told(self.path):
-            self.path.parent.mkdir(exist_ok=True)
+            self.path.parent.mkdir(parents=True, exist_ok=True)
             with replacing(self.path) as temporary:
                 count = part.write(temporary, progress)
                 if not count:
                     raise _NoPoint
-        remove_parts(self.waiting)
+        self._remove_parts()
         return count
+
+    def _remove_parts(self) -> None:
+        remove_parts(self.waiting)
+        with contextlib.suppress(OSError):  # it holds what was wanted
+            self.waiting.parent.rmdir()
 
 
 def cache_of(folder: str | Path | None) -> Path:

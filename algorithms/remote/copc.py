@@ -58,7 +58,7 @@ EVERYWHERE = (-math.inf, -math.inf, math.inf, math.inf)
 class CopcPart:
     """What an area and a resolution need of a COPC file: nodes, and the requests for them."""
 
-    is_exact, missing_count = True, 0
+    is_exact, is_whole, missing_count = True, False, 0
 
     def __init__(
         self,
@@ -75,8 +75,8 @@ class CopcPart:
         compression = Compression.of(self.layout.laszip or b"")
         if not self.layout.is_copc or compression is None or compression.chunk_size:
             raise BareEarthError(
-                f"{file.name} is not COPC, so that no part of it can be found. Download all of it,"
-                " and give it as a file."
+                f"{file.name} is not COPC, so that no part of it can be found. Give it to the command"
+                " that is to use it, such as 'bare-earth classify', which reads all of it."
             )
         self.crs, self.box = read_crs(self.layout), self.layout.box
         self.area = area_of(area, Place(file.name, self.crs, self.box), progress)

@@ -63,7 +63,7 @@ _WHOLE = 0.01
 class EptPart:
     """What an area and a resolution need of an EPT data set: tiles."""
 
-    is_exact = False
+    is_exact = is_whole = False
 
     def __init__(
         self,

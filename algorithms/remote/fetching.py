@@ -70,6 +70,7 @@ class Part(Protocol):
     area: Area | None  # in the CRS of the points
     size: int  # bytes to download
     is_exact: bool  # whether these are known, and not estimated
+    is_whole: bool  # whether they are all of a file of which no part can be found
     request_count: int
     point_count: int  # with some that lie outside of the area
     missing_count: int  # tiles that the server lacks
@@ -154,6 +155,12 @@ def check_size(parts: Sequence[Part], most: float, advice: str, progress: Progre
     """Tell how much will be downloaded; refuse too much, with advice."""
     size, points = sum(part.size for part in parts), sum(part.point_count for part in parts)
     about = "" if all(part.is_exact for part in parts) else "about "
+    whole = [part for part in parts if part.is_whole]
+    if whole:
+        advice = (
+            f"{whole[0].name} is not COPC, so that no part of it can be read. Download it by other"
+            " means"
+        )
     if size > most:
         raise BareEarthError(
             f"This would download {about}{in_words(size)} ({points:,} points), more than the limit"
@@ -165,6 +172,12 @@ def check_size(parts: Sequence[Part], most: float, advice: str, progress: Progre
         f"Downloads {about}{in_words(size)} in {requests:,} requests, with {points:,} points in and"
         " near the area."
     )
+    for part in whole:
+        if part.area is not None:
+            progress.warning(
+                f"{part.name} is not COPC, so that no part of it can be read: all of it is"
+                f" downloaded ({in_words(part.size)}), not only the area."
+            )
     for part in parts:
         # Such as those of 3DEP in Web Mercator.
         box = part.box if part.area is None else part.area.bounds
@@ -194,7 +207,7 @@ def names_of(clouds: Iterable[str]) -> list[str]:
     names: list[str] = []
     for stem in clouds:
         number = 1
-        for ending in (SUFFIX, ".laz"):
+        for ending in (SUFFIX, ".laz", ".las"):
             stem = stem[: -len(ending)] if stem.lower().endswith(ending) else stem
         # A list of somebody else must not say into which folder a file is written.
         stem = _UNSAFE.sub("_", stem).strip(" .") or "points"

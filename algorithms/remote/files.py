@@ -14,6 +14,8 @@ from .addresses import name_of, shown
 from .parts import Parts
 from .transfers import Transfers
 
+# Where the user id of the first record stands behind the header of LAS 1.4.
+_COPC = slice(377, 381)
 # Bytes of the first request: enough for the header and most records.
 _FIRST = 1 << 16
 # Fewer bytes than these are not worth a request.
@@ -63,6 +65,11 @@ class RemoteFile(io.RawIOBase):
         self._head, self.version = transfers.one(lambda: transfers.read(address, 0, _FIRST, None))
         self.size = self.version.size
         self._parts.begin(self.version._asdict(), self.version.is_certain)
+
+    @property
+    def is_copc(self) -> bool:
+        """Whether the first record is that of COPC, whatever the name is."""
+        return self._head[_COPC.start : _COPC.stop] == b"copc"
 
     def plan(self, pieces: Iterable[Range]) -> Plan:
         """Return the requests that give some pieces, joined across gaps."""

@@ -14,7 +14,7 @@ from surveys import ORIGIN, strip, write, write_classified, write_points
 import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.las import copc_octree
-from bare_earth.algorithms.remote import transfers
+from bare_earth.algorithms.remote import transfers, whole
 from bare_earth.algorithms.remote.cache import cache_of
 
 WEST, SOUTH = ORIGIN[:2]
@@ -264,3 +264,52 @@ def test_what_has_no_version_is_fetched_each_time(server, tiles, tmp_path):
         server.asked.clear()
         bare_earth.info(address)
         assert len(server.asked) > 1
+
+
+@pytest.mark.parametrize("ending", ["laz", "las"])
+def test_all_of_a_plain_file_is_fetched_once_for_all_areas(server, tmp_path, ending):
+    plain = write(tmp_path / f"plain.{ending}", strip(60_000, 600.0))
+    address = add(server, plain)
+    for box in (BOX, (BOX[0] - 50, *BOX[1:])):
+        here, remote = tmp_path / "here.laz", tmp_path / "remote.laz"
+        words = "--method", "slope", "--preset", "whitebox", "--extent", *box, "--verbose"
+        bare_earth.classify(plain, here, extent=box, method="slope", preset="whitebox")
+        code, _, errors = said("classify", address, remote, *words)
+        assert code == 0 and remote.read_bytes() == here.read_bytes()
+        is_first = box is BOX
+        assert ("plain." + ending + " is not COPC, so that no part" in errors) == is_first
+        assert ("Downloads " in errors) == is_first
+        if not is_first:
+            assert len(server.asked) == 1
+        server.asked.clear()
+    assert [path.read_bytes() for path in cached(tmp_path)] == [plain.read_bytes()] * (
+        ending == "laz"
+    )
+    assert not list((tmp_path / "cache").rglob("parts"))
+
+
+def test_a_plain_file_obeys_the_limit_and_the_area(server, tmp_path):
+    plain = write(tmp_path / "plain.laz", strip(60_000, 600.0))
+    address = add(server, plain)
+    code, _, errors = said("classify", address, tmp_path / "a.laz", "--limit", "0.0001", *EXTENT)
+    assert code == 1 and "plain.laz is not COPC" in errors and "raise the limit" in errors
+    far = "--extent", WEST + 9000, SOUTH, WEST + 9100, SOUTH + 100
+    assert said("classify", address, tmp_path / "a.laz", *far)[0] == 1
+    assert server.sent < plain.stat().st_size and not cached(tmp_path)
+    with pytest.raises(BareEarthError, match=r"Give it to the command .* 'bare-earth classify'"):
+        bare_earth.fetch(address, tmp_path / "a.laz")
+
+
+@pytest.mark.parametrize("fault", ["cut", "short", "503", "no ranges", "fewer", "gzip"])
+@pytest.mark.parametrize("every", [1, 3, 10])
+def test_a_plain_file_is_whole_or_one_sentence(server, tmp_path, fault, every, monkeypatch):
+    monkeypatch.setattr(whole, "_PIECE", 20_000)
+    plain = write(tmp_path / "plain.laz", strip())
+    address = add(server, plain)
+    server.fault = lambda number, path: fault if number % every == every - 1 else ""
+    code, _, errors = said("info", address)
+    if code:
+        assert errors.count("\n") == 1 and not cached(tmp_path)
+        server.fault = lambda number, path: ""
+        assert said("info", address)[0] == 0
+    assert cached(tmp_path)[0].read_bytes() == plain.read_bytes()
