@@ -13,6 +13,7 @@ from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..crs.measurable import how_to_reproject, length_scale, wrong_lengths
 from ..crs.system import Crs
+from ..crs.wkt import read_wkt
 from ..survey.area import Area
 from ..survey.shapes import outside
 from .addresses import checked, is_address, name_of, shown
@@ -25,6 +26,10 @@ from .transfers import Transfers
 
 _GIGABYTE = 1e9
 _ADVICE = "Choose a smaller area or a coarser resolution"
+_NO_HEIGHT_UNIT = (
+    " The unit of its heights is not stated; it can be metres or feet. Look, and state it when you"
+    " classify the points, such as --crs EPSG:26918+5703 for metres, and +6360 for US survey feet."
+)
 _UNSAFE = re.compile(r"[^\w.,+() -]")  # in names of files
 
 
@@ -182,9 +187,11 @@ def check_size(parts: Sequence[Part], most: float, advice: str, progress: Progre
         # Such as those of 3DEP in Web Mercator.
         box = part.box if part.area is None else part.area.bounds
         if wrong := wrong_lengths(length_scale(part.crs, box)):
+            facts = read_wkt(part.crs.wkt or "")
+            unit = "" if facts is not None and facts.vertical_unit else _NO_HEIGHT_UNIT
             progress.warning(
                 f"{part.name} is in a Mercator projection ({part.crs.name}), in which {wrong}. Its"
-                f" points are kept as they are. {how_to_reproject()}"
+                f" points are kept as they are. {how_to_reproject()}{unit}"
             )
 
 

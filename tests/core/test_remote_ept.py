@@ -208,10 +208,14 @@ def test_bad_answers_give_the_same_points_or_one_sentence(server, tmp_path, faul
     assert np.allclose(table_of(tmp_path / "part.laz"), clip(points), atol=1e-6)
 
 
-def test_web_mercator_is_kept_with_a_warning(server, tmp_path):
-    points, address = add_ept(server, srs={"wkt": MERCATOR})
+@pytest.mark.parametrize("states_unit", [False, True])
+def test_web_mercator_is_kept_with_a_warning(server, tmp_path, states_unit):
+    heights = 'VERT_CS["h",VERT_DATUM["d",2005],UNIT["metre",1]]'
+    wkt = f'COMPD_CS["c",{MERCATOR},{heights}]' if states_unit else MERCATOR
+    points, address = add_ept(server, srs={"wkt": wkt})
     code, _, errors = said("fetch", address, tmp_path / "part.laz")
     assert code == 0 and "Mercator projection" in errors and "Reproject it first" in errors
+    assert ("The unit of its heights is not stated" in errors) == (not states_unit)
     assert np.allclose(table_of(tmp_path / "part.laz"), points, atol=1e-6)
 
 

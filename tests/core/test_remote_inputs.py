@@ -1,6 +1,7 @@
 """Point clouds given by their addresses: the same results as of files, fetched once."""
 
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from surveys import ORIGIN, strip, write, write_classified, write_points
 import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.las import copc_octree
-from bare_earth.algorithms.remote import transfers, whole
+from bare_earth.algorithms.remote import files, transfers, whole
 from bare_earth.algorithms.remote.cache import cache_of
 
 WEST, SOUTH = ORIGIN[:2]
@@ -313,3 +314,62 @@ def test_a_plain_file_is_whole_or_one_sentence(server, tmp_path, fault, every, m
         server.fault = lambda number, path: ""
         assert said("info", address)[0] == 0
     assert cached(tmp_path)[0].read_bytes() == plain.read_bytes()
+
+
+# What each command needs besides the address: what stands before it, and behind it.
+COMMANDS = {
+    "classify": ((), ("out.laz",)),
+    "classify-tiles": ((), ("out",)),
+    "deliver": (("survey",), ("out",)),
+    "check": ((), ("--checkpoints", "points.csv")),
+    "quality": ((), ("--page", "page.html")),
+    "height": ((), ("out.laz",)),
+    "above-ground": ((), ("out.laz",)),
+    "key-points": ((), ("out.laz",)),
+    "terrain": ((), ("--dtm", "dtm.tif")),
+    "water": ((), ("water.gpkg",)),
+    "water-classes": ((), ("out.laz", "--water", "water.geojson")),
+    "compare-settings": ((), ("out.html",)),
+}
+
+
+@pytest.fixture(scope="module")
+def mercator(tmp_path_factory):
+    """Return a cloud in Web Mercator, at a latitude of 46 degrees."""
+    folder = tmp_path_factory.mktemp("mercator")
+    x, y = np.random.default_rng(1).uniform(0, 300, (2, 20_000))
+    write_points(folder / "plain.las", x, y, 0.01 * x, classes=2, crs="EPSG:3857")
+    write_classified(folder / "plain.las", folder / "usa.copc.laz", np.full(len(x), 2, np.uint8))
+    return folder / "usa.copc.laz"
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_web_mercator_is_refused_before_it_is_downloaded(
+    server, mercator, tmp_path, command, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(files, "_FIRST", 2000)
+    (tmp_path / "points.csv").write_text("x,y,z\n500100,5700100,1\n")
+    ring = [[WEST, SOUTH], [WEST + 9, SOUTH], [WEST, SOUTH + 9], [WEST, SOUTH]]
+    (tmp_path / "water.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [ring]}))
+    before, behind = COMMANDS[command]
+    here = sorted(tmp_path.rglob("*"))
+    code, _, errors = said(command, *before, add(server, mercator), *behind)
+    assert code == 1 and "in a Mercator projection" in errors, errors
+    assert "lengths are 1.43 times too long" in errors and "'bare-earth fetch'" in errors
+    assert "pdal translate" in errors and server.sent < mercator.stat().st_size / 2
+    assert [path for path in here if not path.exists()] == [] == cached(tmp_path)
+
+
+def test_a_file_in_web_mercator_is_described(server, mercator, tmp_path):
+    code, text, _ = said("info", add(server, mercator), "--json")
+    assert code == 0 and json.loads(text)["point_count"] == 20_000
+    # Whoever states the right CRS in place of a wrong one is not stopped.
+    words = "classify", add(server, mercator), tmp_path / "out.laz", "--crs", "EPSG:25832"
+    assert said(*words)[0] == 0
+
+
+def test_every_command_with_addresses_is_tried():
+    names = re.findall(r"^    ([a-z-]+)", said("--help")[1], re.MULTILINE)
+    with_cache = {name for name in names if "--cache" in said(name, "--help")[1]}
+    assert {*COMMANDS, "info", "assess", "clear-cache"} == with_cache
