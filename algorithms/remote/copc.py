@@ -75,8 +75,8 @@ class CopcPart:
         compression = Compression.of(self.layout.laszip or b"")
         if not self.layout.is_copc or compression is None or compression.chunk_size:
             raise BareEarthError(
-                f"{file.name} is not COPC, so that no part of it can be found. Give it to the command"
-                " that is to use it, such as 'bare-earth classify', which reads all of it."
+                f"{file.name} is not COPC, so that no part of it can be found. Give it to the"
+                " command that is to use it, such as 'bare-earth classify', which reads all of it."
             )
         self.crs, self.box = read_crs(self.layout), self.layout.box
         self.area = area_of(area, Place(file.name, self.crs, self.box), progress)
