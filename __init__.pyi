@@ -1537,7 +1537,8 @@ def fetch(
         Go on if tiles of an EPT data set are missing on the server. A warning counts them.
     follow : bool, default False
         Whether a virtual point cloud or a STAC item may name files on servers that you did not
-        name. Without it, they are named and nothing is downloaded.
+        name. Without it, they are named and nothing is downloaded. With it, the Planetary
+        Computer is asked for signatures of its files.
     progress : Progress, bar of tqdm, or callable that takes a float, optional
         Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
         `Progress` receives messages, too.

@@ -19,6 +19,11 @@ if TYPE_CHECKING:
 
 # Gigabytes that are fetched unless the user allows more.
 MOST = 2.0
+# Metres round an area, all points in which are fetched for rasters. A file on this computer is read
+# farther out (`AROUND_AREA`), which costs little. In 18 windows of 7 real clouds, 200 m give the
+# same labels, and 400 m the same rasters. It decides whether a gap without points, such as a lake,
+# ends inside the survey.
+AROUND = 400.0
 # The share of the progress that fetching gets.
 SHARE = 0.5
 
@@ -80,14 +85,13 @@ def stated_crs(text: str | None) -> Crs | None:
 
 def _margin(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> float:
     """Return how far round the area points matter, in metres."""
-    from ..tools.rasters.output import AROUND_AREA
     from ..tools.rasters.rows import RASTERS
 
     # Rasters need the widest surroundings; a method alone needs fewer.
     is_method_alone = hasattr(values, "explain") and not any(
         getattr(values, name, None) for name in (*RASTERS, "contours")
     )
-    return max(0.0 if is_method_alone else AROUND_AREA, reach_of(sets))
+    return max(0.0 if is_method_alone else AROUND, reach_of(sets))
 
 
 def reach_of(sets: Sequence[ParameterSet]) -> float:

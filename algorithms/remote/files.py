@@ -22,8 +22,8 @@ _FIRST = 1 << 16
 _LEAST = 1 << 14
 # Most bytes of a request of several pieces.
 _MOST = 1 << 23
-# Most bytes of a gap, and of all gaps in proportion to what is wanted.
-_WIDEST_GAP, _GAPS = 1 << 20, 0.02
+# Most bytes of a gap, about what a request costs, and of all gaps in proportion to what is wanted.
+_WIDEST_GAP, _GAPS = 1 << 16, 0.1
 
 Range = tuple[int, int]  # first byte, and the one after the last
 

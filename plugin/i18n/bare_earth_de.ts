@@ -2558,8 +2558,8 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Wo sie sich unterscheiden</translation>
     </message>
     <message>
-        <source>Whether a virtual point cloud or a STAC item may name files on servers that you did not name. Without it, they are named and nothing is downloaded.</source>
-        <translation>Ob eine virtuelle Punktwolke oder ein STAC-Item Dateien auf Servern nennen darf, die Sie nicht genannt haben. Sonst werden sie genannt, und nichts wird heruntergeladen.</translation>
+        <source>Whether a virtual point cloud or a STAC item may name files on servers that you did not name. Without it, they are named and nothing is downloaded. With it, the Planetary Computer is asked for signatures of its files.</source>
+        <translation>Ob eine virtuelle Punktwolke oder ein STAC-Item Dateien auf Servern nennen darf, die Sie nicht genannt haben. Sonst werden sie genannt, und nichts wird heruntergeladen. Mit dieser Option wird auch der Planetary Computer um Signaturen für seine Dateien gebeten.</translation>
     </message>
     <message>
         <source>Whitebox (one scale, 2 m, 45 deg, 1 m)</source>

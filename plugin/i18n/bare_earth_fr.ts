@@ -2558,8 +2558,8 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Où elles diffèrent</translation>
     </message>
     <message>
-        <source>Whether a virtual point cloud or a STAC item may name files on servers that you did not name. Without it, they are named and nothing is downloaded.</source>
-        <translation>Si un nuage de points virtuel ou un élément STAC peut nommer des fichiers sur des serveurs que vous n’avez pas nommés. Sinon, ils sont nommés et rien n’est téléchargé.</translation>
+        <source>Whether a virtual point cloud or a STAC item may name files on servers that you did not name. Without it, they are named and nothing is downloaded. With it, the Planetary Computer is asked for signatures of its files.</source>
+        <translation>Si un nuage de points virtuel ou un élément STAC peut nommer des fichiers sur des serveurs que vous n’avez pas nommés. Sinon, ils sont nommés et rien n’est téléchargé. Avec cette option, les signatures de ses fichiers sont aussi demandées au Planetary Computer.</translation>
     </message>
     <message>
         <source>Whitebox (one scale, 2 m, 45 deg, 1 m)</source>
