@@ -25,6 +25,7 @@ from ..core.errors import BareEarthError
 from ..core.files import temporary_folder
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
+from ..core.temporary import remove
 from ..crs.provider import library
 from ..crs.stated import stated_wkt
 from ..crs.system import Crs, crs_of_wkt
@@ -193,6 +194,7 @@ class EptPart:
                 except (ValueError, OverflowError) as error:
                     raise self._no_ept(f"tile {_name(key)} is damaged") from error
             self._parts.add_file(self._path(key).name, data)
+            self._open(key)
             return True
 
         tasks = [partial(get, key) for key in self._waiting]
@@ -222,7 +224,7 @@ class EptPart:
         """Write the points without compression."""
         layout, counts, total = None, None, 0
         for number, (key, stated) in enumerate(self.tiles.items()):
-            tile = open_las(self._path(key))
+            tile = self._open(key)
             if tile.count != stated:
                 self._transfers.progress.warning(
                     f"Tile {_name(key)} of {self.name} has {tile.count:,} points, not"
@@ -248,6 +250,15 @@ class EptPart:
         file.seek(0)
         file.write(layout.prefix(layout.vlrs, compressed=False))
         return total
+
+    def _open(self, key: Key) -> LasFile:
+        """Open a tile; one that is damaged does not stay, so that the next run asks for it again."""
+        try:
+            return open_las(self._path(key))
+        except BareEarthError:
+            if is_address(self._address):
+                remove(self._path(key))
+            raise
 
     def _layout(self, tile: LasFile) -> LasFile:
         """Return header and records of the output, LAS 1.4, given those of a tile."""

@@ -208,6 +208,32 @@ def test_bad_answers_give_the_same_points_or_one_sentence(server, tmp_path, faul
     assert np.allclose(table_of(tmp_path / "part.laz"), clip(points), atol=1e-6)
 
 
+@pytest.mark.parametrize("kind", ["laszip", "binary"])
+@pytest.mark.parametrize("fault", ["cut", "short", "gzip"])
+@pytest.mark.parametrize("every", [2, 10])
+def test_bad_tiles_are_asked_for_again_or_one_sentence(server, tmp_path, kind, fault, every):
+    points, address = add_ept(server, kind=kind)
+    tiles = [path for path in server.files if "ept-data" in path]
+    bad = {path for number, path in enumerate(tiles) if number % every == 0}
+    for wanted in ("all", "once"):
+        target = tmp_path / f"{wanted}.laz"
+        first = {*bad}
+
+        def answer(number, path, wanted=wanted, first=first):
+            is_bad = path in bad and (wanted == "all" or path in first)
+            first.discard(path)
+            return fault if is_bad else ""
+
+        server.fault = answer
+        try:
+            bare_earth.fetch(address, target)
+        except BareEarthError as error:
+            assert str(error).endswith(".") and not target.exists()
+            server.fault = lambda number, path: ""
+            bare_earth.fetch(address, target)
+        assert np.allclose(table_of(target), points, atol=1e-6)
+
+
 @pytest.mark.parametrize("states_unit", [False, True])
 def test_web_mercator_is_kept_with_a_warning(server, tmp_path, states_unit):
     heights = 'VERT_CS["h",VERT_DATUM["d",2005],UNIT["metre",1]]'
@@ -369,6 +395,43 @@ def test_a_list_on_this_computer_may_name_its_files(copc, tmp_path):
     (tmp_path / "a.copc.laz").write_bytes(copc)
     (tmp_path / "all.vpc").write_bytes(text_of(item_of("./a.copc.laz")))
     assert bare_earth.fetch(tmp_path / "all.vpc", tmp_path / "part.laz").point_count == 4000
+
+
+@pytest.mark.parametrize("fault", ["cut", "short", "403", "old"])
+@pytest.mark.parametrize("every", [1, 3])
+def test_bad_answers_to_a_list_give_all_clouds_or_one_sentence(
+    server, tiles, tmp_path, fault, every
+):
+    server.fault = lambda number, path: fault if number % every == every - 1 else ""
+    try:
+        done = bare_earth.fetch(tiles, tmp_path / "all")
+    except BareEarthError as error:
+        assert str(error).endswith(".") and not (tmp_path / "all").exists()
+        server.fault = lambda number, path: ""
+        done = bare_earth.fetch(tiles, tmp_path / "all")
+    assert done.file_count == 2 and done.point_count == 8000
+
+
+@pytest.mark.parametrize("fault", ["cut", "short", "503", "no ranges", "fewer"])
+@pytest.mark.parametrize("every", [10])
+@pytest.mark.parametrize("place", ["set/ept.json", "all.vpc"])
+def test_what_is_kept_of_bad_answers_is_whole(
+    server, tiles, tmp_path, monkeypatch, fault, every, place
+):
+    monkeypatch.setenv("BARE_EARTH_CACHE", str(tmp_path / "cache"))
+    add_ept(server)
+    target = tmp_path / ("out.laz" if place == "set/ept.json" else "out")
+    words = "key-points", server.address(place), target
+    server.fault = lambda number, path: fault if number % every == every - 1 else ""
+    code, _, errors = said(*words)
+    kept = [laspy.read(path).header.point_count for path in (tmp_path / "cache").rglob("*.laz")
+            if "parts" not in path.parts]  # fmt: skip
+    assert {*kept} <= ({3000} if place == "set/ept.json" else {4000})
+    if code:
+        assert errors.splitlines()[-1].endswith(".") and not target.exists()
+        server.fault = lambda number, path: ""
+        code, _, errors = said(*words)
+    assert code == 0, errors
 
 
 def test_a_data_set_is_an_input_like_a_file(server, tmp_path, monkeypatch):
