@@ -252,7 +252,7 @@ class EptPart:
         return total
 
     def _open(self, key: Key) -> LasFile:
-        """Open a tile; one that is damaged does not stay, so that the next run asks for it again."""
+        """Open a tile; one that is damaged does not stay, so that a next run asks for it again."""
         try:
             return open_las(self._path(key))
         except BareEarthError:

@@ -47,8 +47,8 @@ class Download(ParameterSet):
         label="Follow lists to other servers",
         advanced=True,
         help="Whether a virtual point cloud or a STAC item may name files on servers that you did"
-        " not name. Without it, they are named and nothing is downloaded. With it, the Planetary Computer"
-        " is asked for signatures of its files.",
+        " not name. Without it, they are named and nothing is downloaded. With it, the Planetary"
+        " Computer is asked for signatures of its files.",
     )
 
 
