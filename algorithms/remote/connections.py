@@ -71,6 +71,10 @@ class WebReader:
         check = partial(check_whole, address, most=most)
         return self._get(address, {}, check, most)
 
+    def place_of(self, address: str) -> str:
+        """Return the address to which redirects from another one led before."""
+        return self._moved.get(address, address)
+
     def close(self) -> None:
         """End all connections, also those in use by other threads."""
         raise NotImplementedError
@@ -91,7 +95,7 @@ class WebReader:
             "Cache-Control": "no-cache",
             **headers,
         }
-        place = self._moved.get(address, address)
+        place = self.place_of(address)
 
         def check_place(status: int, headers: Headers) -> int | None:
             if status in (401, 403, 404) and place != address:

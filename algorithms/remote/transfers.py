@@ -50,6 +50,9 @@ class Reader(Protocol):
     def read_whole(self, address: str, most: int) -> bytes:
         """Return a whole file of at most so many bytes."""
 
+    def place_of(self, address: str) -> str:
+        """Return the address to which another one led before."""
+
     def close(self) -> None:
         """End all connections, also those in use by other threads."""
 
@@ -199,10 +202,10 @@ class Transfers:
 
     def _patiently(self, address: str, ask: Callable[[str], _Result]) -> _Result:
         """Ask until there is an answer, at most some times."""
-        host, attempt, signed = host_of(address), 0, 0
+        reader, host, attempt, signed = self._reader(address), host_of(address), 0, 0
         place = self._signatures.signed(address)
         while True:
-            self._stopped.wait(_PACE.pause(host))
+            self._stopped.wait(_PACE.pause(host_of(reader.place_of(place))))
             if self._stopped.is_set():
                 raise Unfinished("cancelled")
             try:

@@ -224,6 +224,22 @@ def test_a_host_gets_no_more_requests_than_it_allows(server, tmp_path, monkeypat
     assert time.monotonic() - begun >= len(pieces) / 20.0
 
 
+@pytest.mark.parametrize("host", ["data.geopf.fr", "somewhere.example"])
+def test_ign_is_asked_less_than_ten_times_a_second(server, tmp_path, monkeypatch, host):
+    """Also if another server leads there."""
+    place = "http://data.geopf.fr/a"
+    server.add(place[1:], DATA)
+    server.fault = lambda number, path: f"to {place}" if "somewhere" in path else ""
+    monkeypatch.setenv("http_proxy", f"http://127.0.0.1:{server.port}")
+    monkeypatch.delenv("no_proxy", raising=False)
+    pieces = [(start, start + 10) for start in range(70_000, 900_000, 70_000)]
+    begun = time.monotonic()
+    fetched(f"http://{host}/a", tmp_path / "parts", pieces=pieces)
+    asked = [path for path, *_ in server.asked if "geopf" in path]
+    assert len(asked) == 1 + len(pieces)
+    assert len(pieces) / (time.monotonic() - begun) <= 10.0
+
+
 def test_a_proxy_is_asked_for_the_address(server, tmp_path, monkeypatch):
     server.add("http://far.example/a", DATA)
     server.files["ttp://far.example/a"] = DATA
