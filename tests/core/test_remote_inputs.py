@@ -74,18 +74,20 @@ def test_a_part_gives_the_labels_of_the_whole_file(server, tiles, tmp_path):
 
 
 @pytest.mark.parametrize("crs, metre", [("EPSG:25832", 1.0), ("EPSG:2230", 3937 / 1200)])
-def test_the_margin_is_in_units_of_the_points(server, tmp_path, crs, metre):
+@pytest.mark.parametrize("rasters, margin", [((), 180), (("dtm",), 400)])
+def test_the_margin_is_in_units_of_the_points(server, tmp_path, crs, metre, rasters, margin):
     x, y = np.random.default_rng(1).uniform(0, 4000, (2, 20_000))
     plain, source = tmp_path / "plain.las", tmp_path / "feet.copc.laz"
     write_points(plain, x, y, 0.01 * x, crs=crs)
     write_classified(plain, source, np.full(len(x), 1, np.uint8))
     box = (WEST + 1900, SOUTH + 1900, WEST + 2100, SOUTH + 2100)
-    bare_earth.classify(add(server, source), tmp_path / "out.laz", extent=box)
+    written = {name: tmp_path / f"{name}.tif" for name in rasters}
+    bare_earth.classify(add(server, source), tmp_path / "out.laz", extent=box, **written)
     header = laspy.read(cached(tmp_path)[0]).header
     sides = (header.maxs - header.mins)[:2]
-    assert np.all(sides <= 200 + 2 * 180 * metre) and np.all(sides > 120 + 2 * 180 * metre)
+    assert np.all(sides <= 200 + 2 * margin * metre) and np.all(sides > 120 + 2 * margin * metre)
     here = tmp_path / "here.laz"
-    bare_earth.classify(source, here, extent=box)
+    bare_earth.classify(source, here, extent=box, **written)
     assert np.array_equal(labels_in(here, box), labels_in(tmp_path / "out.laz", box))
 
 
