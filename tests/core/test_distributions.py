@@ -142,9 +142,10 @@ def test_an_extra_works_alone(extra, built, work, tmp_path, request):
     lines = run(python, "-m", "pip", "list", "--format=freeze").splitlines()
     there = {line.partition("==")[0].lower() for line in lines if "==" in line}
     assert there - {"pip", "setuptools"} == {"bare-earth", "numpy", "scipy", "laspy", "lazrs"}
+    # Of the processor, so that other work on the machine does not count.
     timed = (
-        "import time; start = time.perf_counter(); import bare_earth, bare_earth.arrays;"
-        "print(time.perf_counter() - start)"
+        "import time; start = time.process_time(); import bare_earth, bare_earth.arrays;"
+        "print(time.process_time() - start)"
     )
     assert min(float(run(python, "-c", timed)) for _ in range(3)) <= 0.15
 
