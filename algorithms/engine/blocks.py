@@ -164,9 +164,9 @@ class Blocks:
         return counts
 
     def contents(
-        self, block: Block, store: Store, progress: Progress = SILENT, known_or: str | None = None
+        self, block: Block, store: Store, progress: Progress = SILENT, only: str | None = None
     ) -> BlockPoints:
-        """Return the points of a block and its buffer relative to its `corner`; for `known_or`, see
+        """Return the points of a block and its buffer relative to its `corner`; for `only`, see
         `Store.read`.
         """
         box, corner = self.window(block), self.corner(block)
@@ -174,10 +174,4 @@ class Blocks:
         west, south, east, north = (side - start for side, start in zip(box, corner * 2))
         is_inside = store.leaves.are_inside(leaves, box)
         part = None if is_inside else (west, south, east, north)
-        return store.read(leaves, part, corner, progress, known_or)
-
-    def core(self, block: Block, contents: BlockPoints, is_only: bool) -> np.ndarray:
-        """Return which points of a block's contents, bool (n,), it is to say something of."""
-        if is_only:
-            return contents.wanted
-        return contents.wanted & block.holds(contents.points, self.corner(block))
+        return store.read(leaves, part, corner, progress, only)

@@ -1,5 +1,5 @@
-"""Runs a function on the blocks of a store, as many at a time as threads and memory allow; the loop
-of all jobs.
+"""Runs functions in threads, whose progress and messages come from the calling one; the loop of all
+jobs.
 """
 
 from __future__ import annotations
@@ -8,80 +8,14 @@ import contextlib
 import itertools
 import threading
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from functools import partial
 from typing import Any, Callable, Collection, Iterator, Sequence
-
-import numpy as np
 
 from ..core.errors import Cancelled
 from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads, shared_threads
-from .blocks import Block, Blocks
-from .memory import GIGABYTE, GivingBack, Resources, give_back
-from .store import BlockPoints, Corner, Store
 
-# Blocks that take so many bytes give their memory back to the system when they are done.
-_MUCH = 100_000_000
 # Seconds between two looks at running jobs.
 _POLL = 0.1
-
-
-def over_blocks(
-    store: Store,
-    blocks: Blocks,
-    work: Callable[[Block, bool, Progress], Any],
-    resources: Resources,
-    progress: Progress,
-    is_wanted: Callable[[Block], bool] | None = None,
-) -> Iterator[tuple[int, Any]]:
-    """Yield the number and the result of each block, in the order in which they finish; `work` gets
-    a block, whether it is the only one, and a `Progress`.
-    """
-    todo = [block for block in blocks.over(store) if is_wanted is None or is_wanted(block)]
-    if not todo:
-        return
-    leaves = [store.leaves.within(blocks.window(block)) for block in todo]
-    counts = [int(store.leaves.counts[touched].sum()) for touched in leaves]
-    memory = [
-        blocks.memory(count, len(touched) * store.leaves.side**2)
-        for count, touched in zip(counts, leaves)
-    ]
-    fitting = resources.bytes // max(*memory, 1)
-    at_once = max(1, min(len(todo), resources.thread_count, fitting))
-    jobs = [partial(work, block, len(todo) == 1) for block in todo]
-    if max(memory) > max(resources.bytes, _MUCH):
-        progress.info(
-            f"The largest block takes about {max(memory) / GIGABYTE:.2f} GB of memory, more than"
-            f" the {resources.bytes / GIGABYTE:.2f} GB that may be used."
-        )
-    is_tight = sum(memory) > resources.bytes
-    if is_tight:
-        progress = GivingBack(progress)
-    for number, result in run_jobs(jobs, counts, at_once, resources.thread_count, progress):
-        if is_tight and memory[number] > _MUCH:
-            give_back()
-        yield number, result
-
-
-def fill(
-    store: Store,
-    blocks: Blocks,
-    values_of: Callable[[BlockPoints, np.ndarray, Corner, Progress], np.ndarray],
-    resources: Resources,
-    progress: Progress,
-) -> None:
-    """Store what `values_of` returns for the wanted points of each block, in their order; it gets
-    the points with the buffer, which are wanted, the corner and a `Progress`.
-    """
-
-    def found(block: Block, is_only: bool, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
-        contents = blocks.contents(block, store, progress.part(0.0, 0.1))
-        core = blocks.core(block, contents, is_only)
-        part = progress.part(0.1, 1.0)
-        return contents.positions[core], values_of(contents, core, blocks.corner(block), part)
-
-    for _, (positions, values) in over_blocks(store, blocks, found, resources, progress):
-        store.put(positions, values)
 
 
 def run_jobs(

@@ -11,7 +11,7 @@ import struct
 import threading
 import zipfile
 from pathlib import Path
-from typing import BinaryIO, Callable, Iterator, NamedTuple, Sequence
+from typing import BinaryIO, Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from ..core.progress import SILENT, Progress
 from ..core.unnamed import reach_disk, unnamed_file
 from ..las.cloud import PointCloud
 from .blocks import Blocks
-from .store import BlockPoints, Corner, LeafIndex, Marks, Store, smallest_integers
+from .store import OTHERS, BlockPoints, Corner, LeafIndex, Marks, Store, smallest_integers
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
 _INDEX = np.dtype("<i4")
@@ -35,14 +35,6 @@ _MOST_READ = 1 << 15
 _STEP = 1 << 24
 # Bytes of the header of an entry of a zip file, without its name and extra bytes.
 _ZIP_HEADER = 30
-
-
-class _StoredPart(NamedTuple):
-    """A part without its points, the position of its first point, and its number of points."""
-
-    cloud: PointCloud
-    start: int
-    size: int
 
 
 class DiskStore(Store):
@@ -63,7 +55,11 @@ class DiskStore(Store):
             self._records, self._orders, self._values, self._cells = (
                 self._files.enter_context(unnamed_file(self._target.parent)) for _ in range(4)
             )
-        self._parts: list[_StoredPart] = []
+        # By the parts: the part without its points, its number of points, and the position of the
+        # first that is stored.
+        self._clouds: list[PointCloud] = []
+        self._sizes: list[int] = []
+        self._firsts: list[int] = []
         self._runs = LeafIndex(blocks.leaf_side, blocks.start)
 
     def __enter__(self) -> DiskStore:
@@ -77,7 +73,7 @@ class DiskStore(Store):
         """Add the selected points of the next part."""
         super().append(part, marks)
         which = np.flatnonzero(marks.selected)
-        which = which[self._runs.sort(part.places(which, self._frame), self._stored)]
+        which = which[self._runs.sort(part.places(which, self.frame), self._stored)]
         records = np.empty(len(which), dtype=_RECORD)
         for name in ("x", "y", "z"):
             records[name] = getattr(part, name)[which]
@@ -87,8 +83,9 @@ class DiskStore(Store):
             self._records.write(records.tobytes())
             self._orders.write(which.astype(_INDEX).tobytes())
         # By indices, since an empty slice would keep the points in memory.
-        nothing = part.take(np.zeros(0, dtype=np.intp))
-        self._parts.append(_StoredPart(nothing, self._stored, part.count))
+        self._clouds.append(part.take(np.zeros(0, dtype=np.intp)))
+        self._sizes.append(part.count)
+        self._firsts.append(self._stored)
         self._stored += len(which)
 
     def finish(self, progress: Progress = SILENT) -> None:
@@ -100,11 +97,11 @@ class DiskStore(Store):
             self._values.truncate(self._stored * self._value_kind.itemsize)
 
     def pieces(
-        self, leaves: np.ndarray, corner: Corner, known_or: str | None = None
+        self, leaves: np.ndarray, corner: Corner, only: str | None = None
     ) -> tuple[list[int], Callable[[int], BlockPoints]]:
         """Return the numbers of points of runs of some leaves, and what reads a run."""
-        starts, kind = [part.start for part in self._parts], smallest_integers(self.count)
-        frame, runs = self._frame.moved(corner), list(_joined(*self._runs.of(leaves), starts))
+        starts, kind = self._firsts, smallest_integers(self.count)
+        frame, runs = self.frame.moved(corner), list(_joined(*self._runs.of(leaves), starts))
         named = _bits(self.flags)
 
         def read(number: int) -> BlockPoints:
@@ -112,13 +109,14 @@ class DiskStore(Store):
             with self._lock:
                 records = _read(self._records, _RECORD, *run)
             positions: np.ndarray = np.arange(*run, dtype=kind)
-            if known_or is not None:
-                which = np.flatnonzero(records["flags"] & (_KNOWN | named[known_or]))
+            if only is not None:
+                bits = records["flags"] & (_KNOWN | named.get(only, 0))
+                which = np.flatnonzero(bits == 0 if only == OTHERS else bits)
                 records, positions = records[which], positions[which]
             x, y, z = (records[name] for name in "xyz")
             # Files can differ in scale and offset.
-            part = self._parts[bisect.bisect_right(starts, run[0]) - 1]
-            points = dataclasses.replace(part.cloud, x=x, y=y, z=z).points(slice(None), frame)
+            cloud = self._clouds[bisect.bisect_right(starts, run[0]) - 1]
+            points = dataclasses.replace(cloud, x=x, y=y, z=z).points(slice(None), frame)
             known, wanted = (records["flags"] & bit > 0 for bit in (_KNOWN, _WANTED))
             flags = {name: records["flags"] & bit > 0 for name, bit in named.items()}
             return BlockPoints(points, known, wanted, positions, flags)
@@ -149,11 +147,10 @@ class DiskStore(Store):
 
     def values(self, number: int) -> np.ndarray:
         """Return the values of all points of a part."""
-        part = self._parts[number]
-        values = np.zeros(part.size, dtype=self._value_kind)
-        end = [*(later.start for later in self._parts[number + 1 :]), self._stored][0]
-        which = _read(self._orders, _INDEX, part.start, end)
-        values[which] = _read(self._values, self._value_kind, part.start, end)
+        values = np.zeros(self._sizes[number], dtype=self._value_kind)
+        start, end, *_ = *self._firsts[number:], self._stored
+        which = _read(self._orders, _INDEX, start, end)
+        values[which] = _read(self._values, self._value_kind, start, end)
         return values
 
 

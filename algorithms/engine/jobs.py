@@ -144,6 +144,15 @@ class BlockJob(Job):
         with DiskStore(beside, grid.frame, grid.blocks, grid.step.kind) as store:
             yield store
 
+    def _is_wanted(self, block: Block) -> bool:
+        """Return whether a block, or a part of one, is one of this job."""
+        return self._place(block) in self.output.files
+
+    def _place(self, block: Block) -> BlockIndex:
+        """Return the index of the block that holds a smaller block."""
+        share = round(self.output.grid.blocks.side / block.side)
+        return BlockIndex(block.column // share, block.row // share)
+
 
 @dataclass(frozen=True, eq=False)
 class PointJob(BlockJob):
@@ -193,7 +202,8 @@ class PointJob(BlockJob):
         store.finish(progress.part(0.0, 0.08))
         if has_work:
             try:
-                grid.step.work(store, resources, progress.part(0.08, 1.0))
+                rest = progress.part(0.08, 1.0)
+                grid.step.work(store, resources, rest, self._is_wanted)
             except BareEarthError as error:
                 return str(error)
         return ""
@@ -235,15 +245,6 @@ class SinkJob(BlockJob):
             for block, result in step.work(store, resources, rest, self._is_wanted):
                 found[self._place(block)].append(result)
         return found
-
-    def _is_wanted(self, block: Block) -> bool:
-        """Return whether a block, or a part of one, is one of this job."""
-        return self._place(block) in self.output.files
-
-    def _place(self, block: Block) -> BlockIndex:
-        """Return the index of the block that holds a smaller block."""
-        share = round(self.output.grid.blocks.side / block.side)
-        return BlockIndex(block.column // share, block.row // share)
 
 
 @dataclass(frozen=True, eq=False)

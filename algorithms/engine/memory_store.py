@@ -11,7 +11,7 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads, parts_of
 from ..las.cloud import PointCloud
 from .blocks import Blocks
-from .store import BlockPoints, Corner, LeafIndex, Marks, Store, code_of, smallest_integers
+from .store import OTHERS, BlockPoints, Corner, LeafIndex, Marks, Store, code_of, smallest_integers
 
 # Points that are sorted and read together.
 _CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15
@@ -68,21 +68,21 @@ class MemoryStore(Store):
 
     def _only_block(self) -> np.ndarray | None:
         """Return column and row of the block that holds all points; None if there are several."""
-        if not self._parts or self._ends[-1] > self._blocks.most_points:
+        if not self._parts or not 0 < self._ends[-1] <= self._blocks.most_points:
             return None
-        corners = np.array([cloud.bounds(self._frame) for cloud, _ in self._parts]).reshape(-1, 2)
+        corners = np.array([cloud.bounds(self.frame) for cloud, _ in self._parts]).reshape(-1, 2)
         numbers = self._blocks.number(corners)
         return numbers[0] if (numbers == numbers[:1]).all() else None
 
     def _sort(self, number: int, piece: slice) -> None:
         """Sort some of the selected points of a part by leaves."""
         order = self._orders[number]
-        places = self._parts[number][0].places(order[piece], self._frame)
+        places = self._parts[number][0].places(order[piece], self.frame)
         first = int(self._ends[number]) - len(order) + piece.start
         order[piece] = order[piece][self._runs.sort(places, first)]
 
     def pieces(
-        self, leaves: np.ndarray, corner: Corner, known_or: str | None = None
+        self, leaves: np.ndarray, corner: Corner, only: str | None = None
     ) -> tuple[list[int], Callable[[int], BlockPoints]]:
         """Return the numbers of points of pieces of some leaves, and what reads a piece."""
         starts, counts = self._runs.of(leaves)
@@ -94,19 +94,21 @@ class MemoryStore(Store):
             spans = zip(firsts.tolist(), counts[runs].tolist())
             found = [order[first : first + n] for first, n in spans]
             which = found[0] if len(found) == 1 else np.concatenate([order[:0], *found])
-            if known_or is not None:
-                which = self._with_flag(number, which, known_or)
+            if only is not None:
+                which = self._chosen(number, which, only)
             pieces += [(number, which[piece]) for piece in parts_of(len(which), _READ)]
-        frame = self._frame.moved(corner)
+        frame = self.frame.moved(corner)
         return (
             [len(which) for _, which in pieces],
             lambda number: self._contents(*pieces[number], frame),
         )
 
-    def _with_flag(self, number: int, which: np.ndarray, known_or: str) -> np.ndarray:
-        """Return those of some points of a part that are known ground, or have a flag."""
+    def _chosen(self, number: int, which: np.ndarray, only: str) -> np.ndarray:
+        """Return those of some points of a part that `only` names."""
         _, marks = self._parts[number]
-        masks = marks.known, marks.flags.get(known_or)
+        if only == OTHERS:
+            return which if marks.known is None else which[~marks.known[which]]
+        masks = marks.known, marks.flags.get(only)
         flags = [mask[which] for mask in masks if mask is not None]
         return which[np.logical_or.reduce(flags)] if flags else which[:0]
 

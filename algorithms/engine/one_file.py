@@ -15,8 +15,8 @@ from ..survey.shapes import Place
 from .file_points import FilePoints, TileResult, copies_all_else
 from .memory import Resources
 from .step import PointStep, Step, placed
-from .store import Store
 from .values import PointValues, StoreValues, with_values
+from .visits import visited
 
 # Share of reading in the progress, as the `weight` of steps, and of all before points are written.
 _READING, _BEFORE_WRITING = 1.5, 0.92
@@ -94,27 +94,29 @@ class FileRun:
         reading = points.sparing(progress.part(0.0, 0.08))
         parts = with_values(points.parts(reading, self._reads_once), self._values)
         stores = points.gathered(steps, parts, progress.part(0.08, 0.12))
-        shares = progress.part(0.12, 1.0).shares(*(step.weight for step, _ in steps))
-        for (step, _), share in zip(steps, shares):
-            self._work_step(step, stores.pop(0), share)
+        weights = [step.weight for step, _ in steps]
+        rests = [step.weight * step.weight_of_outputs for step, _ in steps]
+        working, *writing = progress.part(0.12, 1.0).shares(sum(weights), *rests)
+        works = [(self._seeing(step, working), store) for (step, _), store in zip(steps, stores)]
+        results = visited(works, points.resources, working)
+        for (step, store), result, part in zip(works, results, writing):
+            if isinstance(step, PointStep):
+                self._values.append(StoreValues(step, store))
+            else:
+                result = [found for _, found in result]
+            frame = survey_frame(points.cloud.crs, step.origin)
+            self.told.append(step.finish(result, frame, self.outputs, part))
 
     @property
     def _reads_once(self) -> bool:
         """Whether the points are read only once, as no step gives values or looks at them first."""
         return not any(isinstance(step, PointStep) or step.looks_first for step in self.steps)
 
-    def _work_step(self, step: Any, store: Store, progress: Progress) -> None:
-        """Run a step on the points of a store, and let it write its own outputs."""
-        working, writing = progress.shares(1.0, step.weight_of_outputs)
+    def _seeing(self, step: Any, progress: Progress) -> Any:
+        """Return a step after a look at the points."""
         frame = survey_frame(self.points.cloud.crs, step.origin)
         seen = with_values(self.points.parts(), self._values)
-        step = step.seeing((part for _, part in seen), frame, progress)
-        result = step.work(store, self.points.resources, working)
-        if isinstance(step, PointStep):
-            self._values.append(StoreValues(step, store))
-        else:
-            result = [found for _, found in result]
-        self.told.append(step.finish(result, frame, self.outputs, writing))
+        return step.seeing((part for _, part in seen), frame, progress)
 
     def found(self, progress: Progress) -> TileResult:
         """Return what the steps found for each point."""

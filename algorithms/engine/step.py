@@ -1,7 +1,7 @@
 """Steps: what a run can compute from the points of a survey.
 
 A step chooses the points that it needs (`marks`) and the blocks in which it works (`blocks`), and
-computes its result from the points in a store (`work`). It knows neither files nor threads. So it
+computes its result in each of them (`in_block`). It knows neither files nor threads. So it
 runs on one file or many, in memory, from disk, and in the jobs of a survey. What it finds is a
 value for each point (`PointStep`), or stays by block until outputs are made of it (`Sink`).
 """
@@ -30,6 +30,7 @@ from .block_grid import BlockGrid, BlockIndex
 from .blocks import Block, Blocks
 from .memory import Resources
 from .store import Marks, Store
+from .visits import Visit, visited
 
 # Returns an array of one value for each point of a file, given the type of the values.
 Allocate = Callable[[type], np.ndarray]
@@ -87,9 +88,27 @@ class Step:
     def tell(self, counts: Any, path: Path, progress: Progress) -> None:
         """Report what was counted in a file, or refuse it if the step has nothing to do."""
 
-    def work(self, store: Store, resources: Resources, progress: Progress) -> Any:
-        """Compute the result from the points of a store."""
+    def in_block(self, visit: Visit, progress: Progress) -> Any:
+        """Return what the step finds in a block."""
         raise NotImplementedError
+
+    def keep(self, store: Store, result: Any) -> Any:
+        """Store the result of a block; return what stays in memory until all blocks are done."""
+        return result
+
+    def end(self, store: Store, results: Sequence[tuple[Block, Any]], progress: Progress) -> Any:
+        """Return the result, given what stayed of each block."""
+        return results
+
+    def work(
+        self,
+        store: Store,
+        resources: Resources,
+        progress: Progress,
+        is_wanted: Callable[[Block], bool] | None = None,
+    ) -> Any:
+        """Compute the result from the points of a store, in all blocks or those that are wanted."""
+        return visited([(self, store)], resources, progress, is_wanted)[0]
 
     def finish(
         self,
@@ -144,6 +163,12 @@ class PointStep(Step):
         """Whether it changes nothing but classes."""
         return self.gives_classes
 
+    def keep(self, store: Store, result: Sequence[Any]) -> Any:
+        """Store the values of a block, of which there are positions and values, and maybe more."""
+        positions, values, *more = result
+        store.put(positions, values)
+        return more
+
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their values, as further steps and the output have them."""
         return part
@@ -181,16 +206,6 @@ class Sink(Step):
     def wanted(self, places: Sequence[BlockIndex], grid: BlockGrid) -> Sequence[BlockIndex]:
         """Return those of the blocks with points that matter, at least one."""
         return places
-
-    def work(
-        self,
-        store: Store,
-        resources: Resources,
-        progress: Progress,
-        is_wanted: Callable[[Block], bool] | None = None,
-    ) -> list[tuple[Block, Any]]:
-        """Return the blocks, or parts of blocks, that are wanted, and the result of each."""
-        raise NotImplementedError
 
     def save(self, results: Sequence[Any], stream: BinaryIO) -> None:
         """Write the results of a block, or of its parts, for `load`."""

@@ -14,6 +14,8 @@ from ..las.cloud import PointCloud
 
 _Result = TypeVar("_Result")
 
+# Which points to read: those that are no known ground.
+OTHERS = "others"
 # x and y in metres.
 Corner = tuple[float, float]
 
@@ -100,7 +102,7 @@ class Store:
     reads_all = False
 
     def __init__(self, frame: Frame, kind: type) -> None:
-        self._frame, self._value_kind = frame, np.dtype(kind)
+        self.frame, self._value_kind = frame, np.dtype(kind)
         self.has_known = False  # whether any point is known ground
         self.count = 0  # points of all parts
         self.starts: list[int] = []  # index of the first point of each part
@@ -117,7 +119,7 @@ class Store:
         raise NotImplementedError
 
     def pieces(
-        self, leaves: np.ndarray, corner: Corner, known_or: str | None = None
+        self, leaves: np.ndarray, corner: Corner, only: str | None = None
     ) -> tuple[Sequence[int], Callable[[int], BlockPoints]]:
         """Return the numbers of points of pieces of some leaves, small enough for the processor's
         cache, and what reads a piece by its number; see `read`.
@@ -130,17 +132,18 @@ class Store:
         box: Box | None = None,
         corner: Corner = (0.0, 0.0),
         progress: Progress = SILENT,
-        known_or: str | None = None,
+        only: str | None = None,
     ) -> BlockPoints:
         """Return the points of some leaves, in a box if there is one, relative to a corner as the
-        box; with `known_or`, those that are known ground, or have this flag.
+        box; with `only`, a flag, those that have it or are known ground, with `OTHERS` those that
+        are no known ground.
         """
         # Several threads may call this.
-        counts, piece = self.pieces(leaves, corner, known_or)
+        counts, piece = self.pieces(leaves, corner, only)
         starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
         whole = BlockPoints.empty(starts[-1], smallest_integers(self.count), self.flags)
         numbers = range(len(counts))
-        if box is None and not (known_or and self.reads_all):
+        if box is None and not (only and self.reads_all):
             in_threads(lambda number: whole.put(starts[number], piece(number)), numbers, progress)
             return whole
         end = 0

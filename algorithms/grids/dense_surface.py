@@ -9,6 +9,7 @@ the four vertices round a query are used (`heights_of_four`).
 from __future__ import annotations
 
 import itertools
+import math
 
 import numpy as np
 
@@ -29,8 +30,9 @@ _RIM = WIDEST
 # Only vertices within so many cells are triangulated. The others are needed where a circle holds
 # any.
 _NARROW_RIM = 2
-# Rounding error of a vertex at the border of a tile, in lattice cells.
-_A_LITTLE = 0.01
+# Rounding error of a vertex at the border of a tile, in lattice cells, and of an anchor, as a share
+# of a cell.
+_A_LITTLE, _ROUNDING = 0.01, 1e-6
 
 
 class DenseSurface:
@@ -44,9 +46,17 @@ class DenseSurface:
         cell: float,  # metres
         anchor: tuple[float, float] = (0.0, 0.0),  # a corner of cells, in metres
         progress: Progress = SILENT,
+        known: LatticeSample | None = None,  # of the same points, used if the cells are the same
     ) -> None:
-        self._points, self._cell = points, cell
-        self._thinned = LatticeSample(points, cell / VERTICES_A_SIDE, anchor, progress)
+        # The lattice begins near (0, 0), whatever the anchor, so that others can use it.
+        counted = [math.floor(place / cell + _ROUNDING) for place in anchor]
+        rests = [place - number * cell for place, number in zip(anchor, counted)]
+        near = tuple(0.0 if abs(rest) < _ROUNDING * cell else rest for rest in rests)
+        # Row and column of the cell at the anchor.
+        self._first, self._cell = counted[::-1], cell
+        if known is None or (known.side, known.anchor) != (cell / VERTICES_A_SIDE, near):
+            known = LatticeSample(points, cell / VERTICES_A_SIDE, near, progress)
+        self.thinned, self._points = known, known.points
 
     def raster(
         self,
@@ -59,13 +69,22 @@ class DenseSurface:
         """
         heights, sure = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
         side = TILE // VERTICES_A_SIDE
-        places = itertools.product(*(range(-(-count // side)) for count in shape))
+        places = itertools.product(
+            *(
+                range(first // side, -(-(first + count) // side))
+                for first, count in zip(self._first, shape)
+            )
+        )
 
         def fill(place: tuple[int, int]) -> None:
-            cells = tuple(slice(number * side, (number + 1) * side) for number in place)
+            starts = [number * side - first for number, first in zip(place, self._first)]
+            cells = tuple(
+                slice(max(start, 0), min(start + side, count))
+                for start, count in zip(starts, shape)
+            )
             row, column = (
-                np.arange(min(count - number * side, side)) * VERTICES_A_SIDE + 1
-                for number, count in zip(place, shape)
+                np.arange(part.start - start, part.stop - start) * VERTICES_A_SIDE + 1
+                for part, start in zip(cells, starts)
             )
             row, column = np.repeat(row, len(column)), np.tile(column, len(row))
             queries = Queries(column.astype(float), row.astype(float), column, row)
@@ -78,10 +97,10 @@ class DenseSurface:
         if len(left):
             row, column = np.divmod(left, shape[1])
             x, y = (
-                (cell + 0.5) * self._cell + start
-                for cell, start in zip((column, row), self._thinned.anchor)
+                (first + cell + 0.5) * self._cell + start
+                for first, cell, start in zip(self._first[::-1], (column, row), self.thinned.anchor)
             )
-            cells, part = CellLattice(self._thinned.anchor, self._cell), progress.part(0.5, 1.0)
+            cells, part = CellLattice(self.thinned.anchor, self._cell), progress.part(0.5, 1.0)
             heights.ravel()[left] = self._rest(x, y, max_edge, part, cells)
         progress(1.0)
         return heights
@@ -101,14 +120,15 @@ class DenseSurface:
         def fill(group: tuple[tuple[int, int], np.ndarray]) -> None:
             place, which = group
             at_x, at_y = (
-                self._thinned.cells(places[which], axis) - place[1 - axis] * TILE
+                self.thinned.cells(places[which], axis) - place[1 - axis] * TILE
                 for axis, places in enumerate((x, y))
             )
             corners = (np.rint(places).astype(np.intp) for places in (at_x, at_y))
             queries = Queries(at_x, at_y, *corners)
             heights[which], sure[which] = self._in_tile(place, queries, False, max_edge)
 
-        in_threads(fill, _by_tile(self._thinned, x, y), progress.part(0.05, 0.7))
+        groups = self.thinned.by_tile(x, y, progress.part(0.0, 0.1))
+        in_threads(fill, groups, progress.part(0.1, 0.7))
         left = np.flatnonzero(~sure)
         if len(left):
             heights[left] = self._rest(x[left], y[left], max_edge, progress.part(0.7, 1.0))
@@ -126,7 +146,7 @@ class DenseSurface:
             # A balanced tree takes longer to build than it saves.
             return cKDTree(places, balanced_tree=False, compact_nodes=False)
 
-        thinned, queries = self._thinned, np.column_stack((x, y))
+        thinned, queries = self.thinned, np.column_stack((x, y))
         farthest = tree(self.hull).query(queries)[0] / thinned.side + _A_LITTLE
         row, column = thinned.cells(y, 1), thinned.cells(x, 0)
         near = [self.hull]
@@ -148,14 +168,14 @@ class DenseSurface:
     @property
     def hull(self) -> np.ndarray:
         """Indices of the points that are corners of the convex hull."""
-        return self._thinned.hull
+        return self.thinned.hull
 
     def _in_tile(
         self, place: tuple[int, int], queries: Queries, are_corners: bool, max_edge: float | None
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return the heights of the queries in a tile, and which of them are certain."""
-        longest = np.inf if max_edge is None else max_edge / self._thinned.side
-        return LocalDelaunay(self._thinned, place, are_corners, longest).heights(queries)
+        longest = np.inf if max_edge is None else max_edge / self.thinned.side
+        return LocalDelaunay(self.thinned, place, are_corners, longest).heights(queries)
 
     def _rest(
         self,
@@ -178,9 +198,9 @@ class DenseSurface:
     ) -> np.ndarray:
         """Return a mask (n,) of the vertices, or only of the vertices near some places."""
         is_vertex = np.zeros(self._points.count, dtype=bool)
-        is_vertex[self._thinned.hull] = True
-        marked = None if near is None else _marked(self._thinned, *near, rim)
-        for place, tile in self._thinned.tiles.items():
+        is_vertex[self.thinned.hull] = True
+        marked = None if near is None else _marked(self.thinned, *near, rim)
+        for place, tile in self.thinned.tiles.items():
             if marked is None:
                 is_vertex[tile.which] = True
             elif place in marked:
@@ -188,33 +208,12 @@ class DenseSurface:
         return is_vertex
 
 
-def _by_tile(
-    thinned: LatticeSample, x: np.ndarray, y: np.ndarray
-) -> list[tuple[tuple[int, int], np.ndarray]]:
-    """Return row and column of each tile that holds queries, with the indices of its queries."""
-    if not len(x):
-        return []
-    row, column = (
-        (thinned.cells(places, axis) // TILE).astype(np.int32) for axis, places in ((1, y), (0, x))
-    )
-    (south, north), (west, east) = ((int(tiles.min()), int(tiles.max())) for tiles in (row, column))
-    width = east - west + 1
-    # Small integers, since there are many queries; two bytes are sorted fastest.
-    codes = (row - south).astype(np.min_scalar_type((north - south + 1) * width))
-    codes *= width
-    codes += (column - west).astype(codes.dtype)
-    order = np.argsort(codes, kind="stable")
-    codes = codes[order]
-    groups = np.split(order, np.flatnonzero(codes[1:] != codes[:-1]) + 1)
-    return [((int(row[which[0]]), int(column[which[0]])), which) for which in groups]
-
-
 def _marked(
     thinned: LatticeSample, x: np.ndarray, y: np.ndarray, rim: int
 ) -> dict[tuple[int, int], np.ndarray]:
     """Return a mask (TILE * TILE,) of the cells near places for each tile that has any."""
     marked: dict[tuple[int, int], np.ndarray] = {}
-    for place, which in _by_tile(thinned, x, y):
+    for place, which in thinned.by_tile(x, y):
         row, column = (
             np.floor(thinned.cells(places[which], axis)).astype(np.intp) - number * TILE + rim
             for axis, places, number in ((1, y, place[0]), (0, x, place[1]))

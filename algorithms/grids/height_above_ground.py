@@ -56,6 +56,7 @@ class GroundSurface:
         progress(0.25)
         part = progress.part(0.25, 1.0)
         self._surface = DenseSurface(ground, VERTICES_A_SIDE * apart, progress=part)
+        self.thinned = self._surface.thinned
 
     def heights_above(self, points: Points, progress: Progress = SILENT) -> np.ndarray:
         """Return the height of points above the surface; float64, shape (n,)."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections import defaultdict
 from functools import cached_property
 from typing import NamedTuple
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from ..core.threads import in_threads, over_parts
+from ..core.threads import in_threads, parts_of
 from .cells import are_inside, first_of_each
 from .tin import hull_corners
 
@@ -23,7 +24,8 @@ _ROUNDING = 1e-6
 # Squared distances to the centre of a cell are rounded to so many parts of a squared cell.
 # Smaller differences depend on the origin of the coordinates.
 _DISTANCES = 1e6
-_MOST_SMALL = 1 << 16
+# Row and column of a tile.
+TilePlace = tuple[int, int]
 
 
 class Tile(NamedTuple):
@@ -49,55 +51,42 @@ class LatticeSample:
         progress: Progress = SILENT,
     ) -> None:
         self.points, self.side, self.anchor = points, side, anchor
-        numbers, places = self._tile_of_each(progress.part(0.0, 0.3))
-        order = np.argsort(numbers, kind="stable")
-        progress(0.4)
-        counts = np.bincount(numbers, minlength=len(places))
-        bounds = np.concatenate(([0], np.cumsum(counts))).tolist()
-        progress(0.5)
-        filled = [k for k in range(len(places)) if bounds[k + 1] > bounds[k]]
+        groups = self.by_tile(points.x, points.y, progress.part(0.0, 0.5))
+        thinned = in_threads(lambda group: self._tile(*group), groups, progress.part(0.5, 1.0))
+        self.tiles = dict(zip((place for place, _ in groups), thinned))  # by row and column
 
-        def thin(number: int) -> Tile:
-            return self._tile(order[bounds[number] : bounds[number + 1]], places[number])
+    def by_tile(
+        self, x: np.ndarray, y: np.ndarray, progress: Progress = SILENT
+    ) -> list[tuple[TilePlace, np.ndarray]]:
+        """Return row and column of each tile that holds places, with the indices of its places."""
 
-        thinned = in_threads(thin, filled, progress.part(0.5, 1.0))
-        self.tiles = dict(zip((places[k] for k in filled), thinned))  # by row and column
-
-    def _tile_of_each(self, progress: Progress) -> tuple[np.ndarray, list[tuple[int, int]]]:
-        """Return the number of the tile of each point (n,), and row and column of each tile."""
-        first_column, first_row, last_column, last_row = (
-            int(np.floor(self.cells(end, side % 2) / TILE))
-            for side, end in enumerate(self.points.box)
-        )
-        rows, columns = last_row - first_row + 1, last_column - first_column + 1
-        # NumPy sorts integers of two bytes fastest.
-        kind = np.uint16 if rows * columns <= _MOST_SMALL else np.int64
-        numbers = np.empty(self.points.count, dtype=kind)
-
-        def place(part: slice) -> None:
+        def sorted_part(part: slice) -> list[tuple[TilePlace, np.ndarray]]:
             row, column = (
-                np.floor(self.cells(places[part], axis) / TILE) - first
-                for axis, places, first in (
-                    (1, self.points.y, first_row),
-                    (0, self.points.x, first_column),
-                )
+                np.floor(self.cells(places[part], axis) / TILE).astype(np.int32)
+                for axis, places in ((1, y), (0, x))
             )
-            numbers[part] = row * columns + column
+            (south, north), (west, east) = ((int(k.min()), int(k.max())) for k in (row, column))
+            width = east - west + 1
+            # NumPy sorts integers of two bytes fastest.
+            codes = (row - south).astype(np.min_scalar_type((north - south + 1) * width))
+            codes *= width
+            codes += (column - west).astype(codes.dtype)
+            order = np.argsort(codes, kind="stable")
+            codes = codes[order]
+            runs = np.split(order, np.flatnonzero(codes[1:] != codes[:-1]) + 1)
+            return [((int(row[k[0]]), int(column[k[0]])), k + part.start) for k in runs]
 
-        over_parts(place, self.points.count, _POINTS_A_PART, progress)
-        if kind is np.int64:
-            # If tiles are far apart, only tiles with points are numbered.
-            found, numbers = np.unique(numbers, return_inverse=True)
-        else:
-            found = np.arange(rows * columns)
-        row, column = np.divmod(found, columns)
-        return numbers, list(zip((row + first_row).tolist(), (column + first_column).tolist()))
+        found: dict[TilePlace, list[np.ndarray]] = defaultdict(list)
+        for runs in in_threads(sorted_part, parts_of(len(x), _POINTS_A_PART), progress):
+            for place, which in runs:
+                found[place].append(which)
+        return [(place, np.concatenate(found[place])) for place in sorted(found)]
 
     def cells(self, values: np.ndarray, axis: int) -> np.ndarray:
         """Convert x (`axis` 0) or y (1) from metres to cells from the anchor."""
         return (values - self.anchor[axis]) / self.side + _ROUNDING
 
-    def _tile(self, which: np.ndarray, place: tuple[int, int]) -> Tile:
+    def _tile(self, place: TilePlace, which: np.ndarray) -> Tile:
         x = self.cells(self.points.x[which], 0) - place[1] * TILE
         y = self.cells(self.points.y[which], 1) - place[0] * TILE
         column, row = x.astype(np.int32), y.astype(np.int32)
@@ -118,7 +107,7 @@ class LatticeSample:
         outer = np.concatenate([tile.outer for tile in self.tiles.values()])
         return outer[hull_corners(self.points.x[outer], self.points.y[outer])]
 
-    def window(self, place: tuple[int, int], margin: int) -> Window:
+    def window(self, place: TilePlace, margin: int) -> Window:
         """Return the lattice of a tile (row and column) with the points of a margin round it, in
         cells, at most as wide as a tile.
         """

@@ -14,11 +14,15 @@ def library(
     by_gdal: Callable[..., Any], by_rasterio: Callable[..., Any], what: str
 ) -> Callable[..., Any]:
     """Return the function for the installed library: GDAL first, for QGIS."""
-    if importlib.util.find_spec("osgeo") is not None:
-        return by_gdal
-    if importlib.util.find_spec("rasterio") is not None:
-        return by_rasterio
+    for name in library_name():
+        return by_gdal if name == "osgeo" else by_rasterio
     raise BareEarthError(f"{what} a raster needs rasterio: pip install rasterio.")
+
+
+def library_name() -> list[str]:
+    """Return the name of the installed library, if there is one."""
+    installed = filter(importlib.util.find_spec, ("osgeo", "rasterio"))
+    return list(installed)[:1]
 
 
 class GdalErrors:

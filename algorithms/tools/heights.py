@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +13,12 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
-from ..engine.blocks import Block, Blocks
-from ..engine.blockwise import over_blocks
-from ..engine.memory import Cost, Resources
+from ..engine.blocks import Blocks
+from ..engine.memory import Cost
 from ..engine.step import Allocate, PointResult, PointStep
-from ..engine.store import BlockPoints, Marks, Store
+from ..engine.store import BlockPoints, Marks
 from ..engine.summary import TileSummary
+from ..engine.visits import Visit
 from ..grids.height_above_ground import GroundSurface, with_roads
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
@@ -114,12 +113,36 @@ class MeasureHeights(PointStep):
         if self.dtm is not None:
             self.dtm.check(read_crs(tile), tile.path)
 
-    def work(self, store: Store, resources: Resources, progress: Progress) -> None:
-        """Store the height of each wanted point in metres; NaN in blocks without ground."""
-        if self.dtm is None:
-            work = partial(_measured, store, self.blocks)
-            for _, found in over_blocks(store, self.blocks, work, resources, progress):
-                store.put(*found)
+    def in_block(self, visit: Visit, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
+        """Return the positions of the wanted points of a block, and their heights in metres, NaN
+        without ground; only the ground is in memory as a whole.
+        """
+        ground = visit.contents(progress.part(0.0, 0.1), ROADS_FLAG)
+        if ground.flags[ROADS_FLAG].any():
+            part, on_roads = progress.part(0.1, 0.15), ground.flags[ROADS_FLAG]
+            ground = ground.take(with_roads(ground.points, ground.known, on_roads, part))
+        roads = np.sort(ground.positions[ground.flags[ROADS_FLAG]])
+
+        def wanted(piece: BlockPoints) -> tuple[np.ndarray, np.ndarray, Points]:
+            """Return the positions of wanted points, which are above ground, and the latter."""
+            core = np.flatnonzero(visit.core(piece))
+            positions, above = piece.positions[core], ~piece.known[core]
+            if len(roads):
+                above &= ~np.isin(positions, roads)
+            return positions, above, piece.points.take(core[above])
+
+        leaves = visit.store.leaves.within(visit.block.box)
+        found = visit.store.over_pieces(leaves, wanted, visit.corner, progress.part(0.15, 0.3))
+        positions, above = (np.concatenate([columns[k] for columns in found]) for k in (0, 1))
+        if not ground.points.count:
+            return positions, np.full(len(positions), np.nan)
+        heights = np.zeros(len(positions))
+        if len(positions):
+            surface = GroundSurface(ground.points, progress.part(0.3, 0.45))
+            visit.found[self.ground, self.roads] = surface.thinned
+            points = Points(*map(np.concatenate, zip(*(columns[2] for columns in found))))
+            heights[above] = surface.heights_above(points, progress.part(0.45, 1.0))
+        return positions, heights
 
     def result(self, path: Path, allocate: Allocate, counts: Any = None) -> HeightsOfPoints:
         """Return an object that collects the heights of a file."""
@@ -228,39 +251,6 @@ def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:
         f"Heights above ground from {lowest:.2f} to {highest:.2f} do not fit the scale"
         f" {scale:g} of z in {cloud.path}. Write them as an extra dimension."
     )
-
-
-def _measured(
-    store: Store, blocks: Blocks, block: Block, is_only: bool, progress: Progress
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the positions of the wanted points of a block, and their heights in metres; only the
-    ground is in memory as a whole.
-    """
-    corner = blocks.corner(block)
-    ground = blocks.contents(block, store, progress.part(0.0, 0.1), ROADS_FLAG)
-    if ground.flags[ROADS_FLAG].any():
-        part, on_roads = progress.part(0.1, 0.15), ground.flags[ROADS_FLAG]
-        ground = ground.take(with_roads(ground.points, ground.known, on_roads, part))
-    roads = np.sort(ground.positions[ground.flags[ROADS_FLAG]])
-
-    def wanted(piece: BlockPoints) -> tuple[np.ndarray, np.ndarray, BlockPoints]:
-        """Return the positions of wanted points, which are above ground, and the latter."""
-        piece = piece.take(blocks.core(block, piece, is_only))
-        above = ~piece.known
-        if len(roads):
-            above &= ~np.isin(piece.positions, roads)
-        return piece.positions, above, piece.take(above)
-
-    leaves, part = store.leaves.within(block.box), progress.part(0.15, 0.3)
-    found = store.over_pieces(leaves, wanted, corner, part)
-    positions, above = (np.concatenate([columns[part] for columns in found]) for part in (0, 1))
-    if not ground.points.count:
-        return positions, np.full(len(positions), np.nan)
-    heights = np.zeros(len(positions))
-    surface = GroundSurface(ground.points, progress.part(0.3, 0.45))
-    points = Points(*map(np.concatenate, zip(*(columns[2].points for columns in found))))
-    heights[above] = surface.heights_above(points, progress.part(0.45, 1.0))
-    return positions, heights
 
 
 TOOL = PointTool(

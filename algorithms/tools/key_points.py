@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +11,10 @@ import numpy as np
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
-from ..engine.blockwise import fill
-from ..engine.memory import Resources
 from ..engine.step import Allocate, PointResult, PointStep, with_classes
-from ..engine.store import BlockPoints, Corner, Marks, Store
+from ..engine.store import Marks
 from ..engine.summary import TileSummary
+from ..engine.visits import Visit
 from ..grids.model_key_points import ModelKeyPoints, model_key_points, reach
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
@@ -113,9 +111,16 @@ class FindKeyPoints(PointStep):
         if self.gives_classes:
             check_class(tile.path, tile.point_format, self.mark.key_class, "the key points")
 
-    def work(self, store: Store, resources: Resources, progress: Progress) -> None:
-        """Find the key points."""
-        fill(store, self.blocks, partial(_keys, self.parameters), resources, progress)
+    def in_block(self, visit: Visit, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
+        """Return the positions of the ground points of a block, and `_KEY` or `_OTHER` for each."""
+        contents = visit.contents(progress.part(0.0, 0.1))
+        core = visit.core(contents)
+        if not core.any():
+            return contents.positions[core], np.zeros(0, dtype=np.uint8)
+        # The grid belongs to the CRS, not to the block.
+        anchor, part = (-visit.corner[0], -visit.corner[1]), progress.part(0.1, 1.0)
+        keys = model_key_points(contents.points, self.parameters, part, anchor)[core]
+        return contents.positions[core], np.where(keys, _KEY, _OTHER).astype(np.uint8)
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their classes, if key points get a class."""
@@ -154,22 +159,6 @@ class _Flags(PointResult):
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the flags."""
         return Edits(key_points=self._flags)
-
-
-def _keys(
-    parameters: ModelKeyPoints,
-    contents: BlockPoints,
-    wanted: np.ndarray,
-    corner: Corner,
-    progress: Progress,
-) -> np.ndarray:
-    """Return `_KEY` or `_OTHER` for wanted points."""
-    if not wanted.any():
-        return np.zeros(0, dtype=np.uint8)
-    # The grid belongs to the CRS, not to the block.
-    anchor = -corner[0], -corner[1]
-    keys = model_key_points(contents.points, parameters, progress, anchor)[wanted]
-    return np.where(keys, _KEY, _OTHER).astype(np.uint8)
 
 
 TOOL = PointTool(

@@ -10,9 +10,8 @@ import numpy as np
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
-from ..engine.memory import Resources
 from ..engine.step import PointStep, with_classes
-from ..engine.store import Marks, Store
+from ..engine.store import Marks
 from ..engine.summary import TileSummary
 from ..grids.lines import near_rings
 from ..las.cloud import PointCloud
@@ -167,9 +166,6 @@ class ClassifyWater(PointStep):
         how = self.parameters
         for value, what in ((how.water_class, "water"), (how.ignored_class, "ignored ground")):
             check_class(tile.path, tile.point_format, value, what)
-
-    def work(self, store: Store, resources: Resources, progress: Progress) -> None:
-        """Do nothing: each point is decided by its place alone."""
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their classes; the values are not used."""

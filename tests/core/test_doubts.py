@@ -6,9 +6,10 @@ from runs import memory_store
 from surveys import cloud_of
 
 from bare_earth.algorithms.engine.blocks import Blocks
+from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.cloud import survey_frame
-from bare_earth.algorithms.tools.ground.labelling import label_ground
+from bare_earth.algorithms.tools.ground.step import LabelGround
 from benchmarks.clouds import classify_cloud
 
 EXTENT, LITTLE, OUTLIERS = "the points reach less than", "Hardly any ground", "low outliers"
@@ -65,7 +66,8 @@ def test_the_same_warning_of_several_blocks_is_told_once(las):
     blocks = Blocks(100.0, 50.0)
     part = (cloud, np.ones(cloud.count, bool))
     store = memory_store([part], survey_frame(cloud.crs), blocks)
-    label_ground(store, METHODS["grid-minimum"].parameters(), blocks, progress=progress)
+    step = LabelGround(METHODS["grid-minimum"].parameters(), cut=blocks)
+    step.work(store, Resources(), progress)
     (warning,) = progress.warnings
     assert EXTENT in warning and "blocks" not in warning
 

@@ -9,10 +9,13 @@ from runs import memory_store
 from surveys import cut, finished, points_of, strip, write
 
 from bare_earth import classify
+from bare_earth.algorithms.core.progress import SILENT
+from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.tools.ground.labelling import blocks_of, label_ground
+from bare_earth.algorithms.tools.ground.labelling import blocks_of
+from bare_earth.algorithms.tools.ground.step import LabelGround
 from benchmarks.clouds import classify_cloud
 
 PARAMETERS = [method.parameters() for method in METHODS.values()]
@@ -114,6 +117,6 @@ def test_quartering_crowded_blocks_changes_no_label_of_a_real_survey(parameters)
         every = (cloud, np.ones(cloud.count, dtype=bool))
         store = memory_store([every], survey_frame(cloud.crs), blocks)
         assert (len(list(blocks.over(store))) > 1) == (most == 4000)
-        label_ground(store, parameters, blocks)
+        LabelGround(parameters, cut=blocks).work(store, Resources(), SILENT)
         labels.append(store.values(0))
     assert np.array_equal(*labels)

@@ -243,24 +243,25 @@ import sys
 from pathlib import Path
 import numpy as np
 from bare_earth.algorithms import cli
-from bare_earth.algorithms.tools.ground import {module}
+import bare_earth.algorithms.{module} as module
 def late(*arguments, **options):
     print("begun", flush=True)
     {wait}
-{module}.{name} = late
+module.{name} = late
 sys.exit(cli.main(sys.argv[1:]))
 """
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without telling it")
 @pytest.mark.parametrize(
-    ("module", "number"), [("labelling", signal.SIGTERM), ("step", signal.SIGKILL)]
+    ("module", "number"),
+    [("tools.ground.labelling", signal.SIGTERM), ("engine.one_file", signal.SIGKILL)],
 )
 def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path):
     # In the middle of the blocks, and when they are about to begin.
-    name = "_labels" if module == "labelling" else "label_ground"
+    name = "_labels" if module == "tools.ground.labelling" else "visited"
     wait = "import time; [time.sleep(0.1) or arguments[-1](0.5) for _ in range(300)]"
-    if module == "step":
+    if module == "engine.one_file":
         wait = "import time; time.sleep(30)"
     source, out = write(tmp_path / "in.las", 9000), tmp_path / "out"
     out.mkdir()

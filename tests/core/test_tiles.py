@@ -521,10 +521,10 @@ def test_a_job_that_fails_fails_its_tile_only(six, out):
 class FailingInTheEast(LabelGround):
     """Cannot label the blocks in the east."""
 
-    def work(self, store, resources, progress):
-        if store.leaves.x.max() > 500_110.0:
+    def in_block(self, visit, progress):
+        if visit.store.leaves.x.max() > 500_110.0:
             raise ValueError("no")
-        super().work(store, resources, progress)
+        return super().in_block(visit, progress)
 
 
 @pytest.mark.parametrize("heights", [False, True])

@@ -27,7 +27,8 @@ from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground import labelling as ground_module
-from bare_earth.algorithms.tools.ground.labelling import blocks_of, label_ground
+from bare_earth.algorithms.tools.ground.labelling import blocks_of
+from bare_earth.algorithms.tools.ground.step import LabelGround
 from benchmarks.rules import switched_off
 
 PARAMETERS = (TinDensification(), GridMinimum(), SlopeFilter())
@@ -55,7 +56,8 @@ def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progr
     frame = survey_frame(parts[0].crs)
     store = memory_store([(part, np.ones(part.count, bool)) for part in parts], frame, blocks)
     selection = Selection(low_noise_class=depth is not None, low_noise_depth=depth or 1.0)
-    label_ground(store, parameters, blocks, selection, Resources(threads=threads), progress)
+    step = LabelGround(parameters, selection, cut=blocks)
+    step.work(store, Resources(threads=threads), progress)
     return [store.values(number) for number in range(len(parts))]
 
 
@@ -191,7 +193,7 @@ def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
         memory_store([(cloud, every, None, each)], cloud.frame, blocks) for each in (None, wanted)
     )
     for store in (whole, some):
-        label_ground(store, GridMinimum(), blocks)
+        LabelGround(GridMinimum(), cut=blocks).work(store, Resources(), SILENT)
     assert np.array_equal(some.values(0), np.where(wanted, whole.values(0), 0))
 
 

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 
 from bare_earth.algorithms.engine.blocks import Blocks
-from bare_earth.algorithms.engine.blockwise import over_blocks
 from bare_earth.algorithms.engine.step import Sink
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.survey.ground_classes import GroundCounts
@@ -28,14 +27,10 @@ class CountPoints(Sink):
     def marks(self, part, counts):
         return Marks(np.ones(part.count, dtype=bool), part.classification == 2)
 
-    def work(self, store, resources, progress, is_wanted=None):
-        def count(block, is_only, progress):
-            contents = self.blocks.contents(block, store, progress)
-            core = block.holds(contents.points, self.blocks.corner(block))
-            return block, [*block[:2], int(core.sum()), int((core & contents.known).sum())]
-
-        found = over_blocks(store, self.blocks, count, resources, progress, is_wanted)
-        return [block for _, block in sorted(found, key=lambda pair: pair[0])]
+    def in_block(self, visit, progress):
+        contents = visit.contents(progress)
+        core = visit.core(contents)
+        return [*visit.block[:2], int(core.sum()), int((core & contents.known).sum())]
 
     def save(self, results, stream):
         stream.write(json.dumps(results).encode())

@@ -58,9 +58,6 @@ class RenameGround(PointStep):
         none = np.zeros(part.count, dtype=bool)
         return Marks(none, none, none)
 
-    def work(self, store, resources, progress):
-        """Do nothing: each point is decided alone."""
-
     def applied(self, part, values):
         ground = self.ground.points_of(part, self.ground.ground_classes)
         new = np.uint8(self.parameters.new_class)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +10,11 @@ import numpy as np
 from ...core.points import Box
 from ...core.progress import Progress
 from ...engine.blocks import Blocks
-from ...engine.blockwise import fill
-from ...engine.memory import Cost, Resources
+from ...engine.memory import Cost
 from ...engine.step import PointStep, with_classes
-from ...engine.store import BlockPoints, Corner, Marks, Store
+from ...engine.store import Marks
 from ...engine.summary import TileSummary
+from ...engine.visits import Visit
 from ...grids.height_above_ground import with_roads
 from ...las.cloud import PointCloud
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
@@ -99,9 +98,17 @@ class ClassifyAboveGround(PointStep):
                 f" ({', '.join(map(str, self.parameters.changing))})."
             )
 
-    def work(self, store: Store, resources: Resources, progress: Progress) -> None:
-        """Store the class of each wanted point; 0 in blocks without ground."""
-        fill(store, self.blocks, partial(_classes, self.parameters), resources, progress)
+    def in_block(self, visit: Visit, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
+        """Return the positions of the wanted points and their classes; 0 if there is no ground."""
+        contents = visit.contents(progress.part(0.0, 0.1))
+        core, (points, known, *_), flags = visit.core(contents), contents, contents.flags
+        positions = contents.positions[core]
+        if not len(positions) or not known.any():
+            return positions, np.zeros(len(positions), dtype=np.uint8)
+        ground = with_roads(points, known, flags[ROADS_FLAG], progress.part(0.1, 0.2))
+        rest = progress.part(0.2, 1.0)
+        classes = classes_above_ground(points, ground, flags[MULTI_RETURN], self.parameters, rest)
+        return positions, classes[core]
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their classes; a value of 0 leaves the class as it is."""
@@ -116,23 +123,6 @@ class ClassifyAboveGround(PointStep):
             "ground_count": int(np.count_nonzero(is_ground)),
             "changed_count": int(np.count_nonzero(is_changed)),
         }
-
-
-def _classes(
-    parameters: AboveGround,
-    contents: BlockPoints,
-    wanted: np.ndarray,
-    corner: Corner,
-    progress: Progress,
-) -> np.ndarray:
-    """Return the classes of wanted points; 0 if there is no ground."""
-    count = np.count_nonzero(wanted)
-    if not count or not contents.known.any():
-        return np.zeros(count, dtype=np.uint8)
-    roads, several = contents.flags[ROADS_FLAG], contents.flags[MULTI_RETURN]
-    ground = with_roads(contents.points, contents.known, roads, progress.part(0.0, 0.1))
-    part = progress.part(0.1, 1.0)
-    return classes_above_ground(contents.points, ground, several, parameters, part)[wanted]
 
 
 TOOL = PointTool(

@@ -1,22 +1,21 @@
-"""Finds the ground of a survey, block by block."""
+"""Finds the ground in a block of a survey."""
 
 from __future__ import annotations
 
 import collections
 from enum import IntEnum
 from functools import partial
-from typing import Callable, NamedTuple
+from typing import Callable
 
 import numpy as np
 
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet
 from ...core.points import Box
-from ...core.progress import SILENT, Notes, Progress
-from ...engine.blocks import Block, Blocks
-from ...engine.blockwise import over_blocks
-from ...engine.memory import Resources
-from ...engine.store import BlockPoints, Store
+from ...core.progress import Notes, Progress
+from ...engine.blocks import Blocks
+from ...engine.store import BlockPoints
+from ...engine.visits import Visit
 from ...filters import method_of
 from ...filters.method import Decisions, warn_of_extent, warn_of_little_ground
 from ...filters.stages.outliers import below_ground
@@ -32,10 +31,6 @@ from .surroundings import EVERYWHERE, near, tell_spacing, thinned
 _BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
 
 
-# A function that labels the points of a window, and tells which rules decided.
-_Label = Callable[[Box, BlockPoints, Progress], "tuple[np.ndarray, Decisions | None]"]
-
-
 class Label(IntEnum):
     """What a point was found to be; 0 is none of these."""
 
@@ -45,51 +40,40 @@ class Label(IntEnum):
     HIGH = 4
 
 
-class _Labelled(NamedTuple):
-    """The result of a block: the labels of the points at some positions."""
-
-    positions: np.ndarray
-    labels: np.ndarray
-    notes: _BlockMessages
-    cells: ExplainedCells | None = None
-
-
 def blocks_of(parameters: ParameterSet) -> Blocks:
     """Return the blocks in which a method filters a survey."""
     return Blocks.of(method_of(parameters).reach(parameters))
 
 
-def label_ground(
-    store: Store,
-    parameters: ParameterSet,
-    blocks: Blocks,
-    selection: Selection = Selection(),
-    resources: Resources = Resources(),
-    progress: Progress = SILENT,
-    explains: bool = False,
-) -> list[ExplainedCells]:
-    """Label every wanted point of a store with a `Label`, or 0, in blocks as of `blocks_of`; refuse
-    a survey without ground in any; return the cells of the rules that decided, if it `explains`.
+def labelled(
+    visit: Visit, parameters: ParameterSet, selection: Selection, explains: bool, progress: Progress
+) -> tuple[np.ndarray, np.ndarray, BlockMessages, ExplainedCells | None]:
+    """Return the positions of the points of a block and the `Label` of each, or 0; what is to tell;
+    and the cells of the rules that decided, if it `explains`.
     """
-    method = method_of(parameters)
-    if store.has_known and not method.takes_known_ground:
-        progress.info(
-            f"{method.label} does not start from known ground; it only keeps these"
-            " points as ground."
-        )
-    label = partial(_label, parameters, selection, explains)
+    west, south, east, north = (
+        side - start for side, start in zip(visit.block.box, visit.corner * 2)
+    )
     # Classic presets do what another program does with all points.
-    thins = not method.is_classic(parameters)
-    work = partial(_labelled, store, blocks, label, thins)
-    notes, cells = {}, []
-    for number, result in over_blocks(store, blocks, work, resources, progress):
-        store.put(result.positions, result.labels)
-        if result.cells is not None:
-            cells.append(result.cells)
-        if result.notes.count:
-            notes[number] = result.notes
-    _tell(progress, [notes[number] for number in sorted(notes)])
-    return cells
+    is_classic = method_of(parameters).is_classic(parameters)
+    box = EVERYWHERE if is_classic else near((west, south, east, north))
+    contents = thinned(visit.contents(progress.part(0.0, 0.15)), box)
+    core = visit.core(contents)
+    positions = contents.positions if core.all() else contents.positions[core]
+    notes = BlockMessages(progress.part(0.15, 1.0), len(positions), visit.is_only)
+    labels, cells = np.zeros(len(positions), dtype=np.uint8), None
+    if notes.count:
+        label = partial(_label, parameters, selection, explains, box)
+        try:
+            found, decided = _labels(contents, core, label, visit.blocks.buffer, notes)
+            labels = found if core.all() else found[core]
+            if decided is not None:
+                some = contents.points.take(core)
+                decided = decided._replace(codes=decided.codes[core])
+                cells = ExplainedCells.of(some.x, some.y, decided, visit.corner)
+        except BareEarthError as error:
+            notes.failure = error
+    return positions, labels, notes, cells
 
 
 def _label(
@@ -137,39 +121,6 @@ def _label(
     return labels, decided
 
 
-def _labelled(
-    store: Store,
-    blocks: Blocks,
-    label: _Label,
-    thins: bool,
-    block: Block,
-    is_only: bool,
-    progress: Progress,
-) -> _Labelled:
-    """Label the points of a block."""
-    corner = blocks.corner(block)
-    west, south, east, north = block.box
-    box = EVERYWHERE
-    if thins:
-        box = near((west - corner[0], south - corner[1], east - corner[0], north - corner[1]))
-    contents = thinned(blocks.contents(block, store, progress.part(0.0, 0.15)), box)
-    core = blocks.core(block, contents, is_only)
-    positions = contents.positions if core.all() else contents.positions[core]
-    notes = _BlockMessages(progress.part(0.15, 1.0), len(positions), is_only)
-    labels, cells = np.zeros(len(positions), dtype=np.uint8), None
-    if notes.count:
-        try:
-            found, decided = _labels(contents, core, partial(label, box), blocks.buffer, notes)
-            labels = found if core.all() else found[core]
-            if decided is not None:
-                some = contents.points.take(core)
-                decided = decided._replace(codes=decided.codes[core])
-                cells = ExplainedCells.of(some.x, some.y, decided, corner)
-        except BareEarthError as error:
-            notes.failure = error
-    return _Labelled(positions, labels, notes, cells)
-
-
 def _labels(
     contents: BlockPoints,
     wanted: np.ndarray,
@@ -205,7 +156,7 @@ def _labels(
     return labels, None if decided is None else decided._replace(codes=codes)
 
 
-class _BlockMessages(Notes):
+class BlockMessages(Notes):
     """Passes on the progress of a block, and collects its messages until all blocks are done."""
 
     def __init__(self, whole: Progress, count: int, is_only: bool) -> None:
@@ -214,13 +165,14 @@ class _BlockMessages(Notes):
         self.failure: BareEarthError | None = None  # why the block has no ground
 
     def keep(self, kind: str, text: str) -> None:
+        """Keep a message; that of an only block is told at once."""
         if self._is_only:  # nothing to wait for
             getattr(self._whole, kind)(text)
         else:
             super().keep(kind, text)
 
 
-def _tell(progress: Progress, blocks: list[_BlockMessages]) -> None:
+def tell(progress: Progress, blocks: list[BlockMessages]) -> None:
     """Report each message of the blocks once, and the number of blocks that failed."""
     failed = [block for block in blocks if block.failure is not None]
     if failed and len(failed) == len(blocks):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import InitVar, dataclass, field
 from pathlib import Path
-from typing import ClassVar, Sequence
+from typing import Any, ClassVar, Sequence
 
 import numpy as np
 
@@ -15,11 +15,11 @@ from ...core.parameters import ParameterSet
 from ...core.points import Box, Frame
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
-from ...engine.blocks import Blocks
-from ...engine.memory import Resources
+from ...engine.blocks import Block, Blocks
 from ...engine.step import Allocate, PointResult, PointStep, with_classes
 from ...engine.store import Marks, Store
 from ...engine.summary import FileSummary, TileSummary
+from ...engine.visits import Visit
 from ...filters import method_of
 from ...las.cloud import PointCloud
 from ...las.edits import Edits
@@ -33,7 +33,7 @@ from ...survey.point_chooser import PointChooser
 from ...survey.point_counts import PointCounts, by_class, count_classes
 from ...survey.selection import Selection
 from .explanation import ExplainedCells, write_explanation
-from .labelling import Label, blocks_of, label_ground
+from .labelling import Label, blocks_of, labelled, tell
 from .output import Output
 
 
@@ -187,10 +187,25 @@ class LabelGround(PointStep):
         """Return the raster of rules, if it is wanted."""
         return [] if self.explain is None else [("raster", self.explain)]
 
-    def work(self, store: Store, resources: Resources, progress: Progress) -> list[ExplainedCells]:
-        """Label the points; return the cells of the rules that decided, if they are wanted."""
-        method, explains = (self.parameters, self.blocks, self.selection), self.explain is not None
-        return label_ground(store, *method, resources, progress, explains)
+    def in_block(self, visit: Visit, progress: Progress) -> tuple[Any, ...]:
+        """Label the points of a block; see `labelled`."""
+        explains = self.explain is not None
+        return labelled(visit, self.parameters, self.selection, explains, progress)
+
+    def end(
+        self, store: Store, results: Sequence[tuple[Block, Any]], progress: Progress
+    ) -> list[ExplainedCells]:
+        """Tell what was found in the blocks, and refuse points without ground in any; return the
+        cells of the rules that decided, if they are wanted.
+        """
+        method = method_of(self.parameters)
+        if store.has_known and not method.takes_known_ground:
+            progress.info(
+                f"{method.label} does not start from known ground; it only keeps these"
+                " points as ground."
+            )
+        tell(progress, [notes for _, (notes, _) in results if notes.count])
+        return [cells for _, (_, cells) in results if cells is not None]
 
     def finish(
         self,

@@ -123,12 +123,11 @@ def _steps(
     ]
     if above.wanted:
         steps.append(ClassifyAboveGround(above, ground, area, corrections))
-    if rasters.files.wanted:
-        # Before the heights, since what is known of their points stays in memory.
-        steps.append(rasters)
     if written.height_above_ground:
         within = area if written.area_only else None
         steps.append(MeasureHeights(ground, area=within, roads=selection.roads))
+    if rasters.files.wanted:
+        steps.append(rasters)
     return tuple(steps)
 
 

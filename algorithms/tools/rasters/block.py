@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Callable, Mapping, NamedTuple, Optional, Tuple
 
 import numpy as np
 
-from ...core.points import Box, Points
+from ...core.points import Box, Points, box_round
 from ...core.progress import SILENT, Progress
 from ...core.threads import over_parts, parts_of
 from ...grids.cell_window import CellWindow
@@ -16,6 +17,7 @@ from ...grids.cells import Cells, are_inside, first_of_each
 from ...grids.confidence import CELL, confidence_in
 from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ...grids.high_groups import HighGroups
+from ...grids.lattice_sample import LatticeSample
 from ...grids.morphology import within_square
 from ...grids.terrain_edges import follow_edges
 
@@ -56,21 +58,34 @@ class BlockView(NamedTuple):
     core: np.ndarray  # bool, (n,): which lie in the block
     corner: tuple[float, float]  # origin of `points` in the frame of the survey
     edges: np.ndarray | None = None  # bool, (n,): ground on lines that no triangle may cross
+    # the ground as another step has thinned it, and which of its points lie in the block
+    thinned: tuple[LatticeSample, np.ndarray] | None = None
+    lacks_ground: bool = False  # that ground is not among the points
+
+    @property
+    def parts(self) -> list[tuple[Points, np.ndarray, np.ndarray, np.ndarray]]:
+        """All points in one or two parts, with `ground`, `top` and `core` of each."""
+        parts = [(self.points, self.ground, self.top, self.core)]
+        if self.thinned is not None and self.lacks_ground:
+            points, core = self.thinned[0].points, self.thinned[1]
+            parts.append((points, *np.broadcast_to([[True], [False]], (2, points.count)), core))
+        return parts
 
     def window(self, box: Box, cell: float) -> CellWindow:
         """Return the cells whose centres lie in a box, and not a cell beyond the points."""
         west, south, east, north = box
-        if not self.points.count:
+        boxes = [points.box for points, *_ in self.parts if points.count]
+        if not boxes:
             return CellWindow.with_centres_in((west, south, west, south), cell)
-        low_x, low_y, high_x, high_y = np.add(self.points.box, np.tile(self.corner, 2)).tolist()
+        whole = box_round(np.array(boxes))
+        low_x, low_y, high_x, high_y = np.add(whole, np.tile(self.corner, 2)).tolist()
         west, south = max(west, low_x - cell), max(south, low_y - cell)
         east, north = min(east, high_x + cell), min(north, high_y + cell)
         return CellWindow.with_centres_in((west, south, max(east, west), max(north, south)), cell)
 
-    def in_survey(self, which: np.ndarray) -> np.ndarray:
-        """Return points of the block in the frame of the survey, shape (n, 3)."""
-        places = np.column_stack(self.points.take(which & self.core))
-        return np.add(places, (*self.corner, 0.0))
+    def in_survey(self, some: Points) -> np.ndarray:
+        """Return points in the frame of the survey, shape (n, 3)."""
+        return np.add(np.column_stack(some), (*self.corner, 0.0))
 
     def start(self, window: CellWindow, cell: float) -> tuple[float, float]:
         """Return the corner of a window in the frame of the points."""
@@ -105,12 +120,19 @@ class RasterStep:
             layers[name], points_at_gaps = LAYERS[name].make(self, view, window, part)
             if points_at_gaps is not None:
                 loose[name] = points_at_gaps
-        counts = [np.count_nonzero(which & view.core) for which in (view.ground, view.top)]
-        extent = np.full(4, np.nan)
-        if view.core.any():
-            extent = view.points.take(view.core).box + np.tile(view.corner, 2)
+        counts, boxes, extent = np.zeros(2, dtype=np.int64), [], np.full(4, np.nan)
+        for points, ground, top, core in view.parts:
+            counts += [np.count_nonzero(which & core) for which in (ground, top)]
+            if core.any():
+                low, high = (
+                    [of(axis, where=core, initial=start) for axis in points[:2]]
+                    for of, start in ((np.min, np.inf), (np.max, -np.inf))
+                )
+                boxes.append([*low, *high])
+        if boxes:
+            extent = box_round(np.array(boxes)) + np.tile(view.corner, 2)
         progress(1.0)
-        return BlockRasters(window, layers, loose, extent, np.array(counts))
+        return BlockRasters(window, layers, loose, extent, counts)
 
 
 # The cells of a layer, and the points needed across wide gaps; None if these stay open.
@@ -122,14 +144,14 @@ def _contents(step: RasterStep, view: BlockView, window: CellWindow) -> np.ndarr
     quarters = CellWindow(*(2 * number for number in window))
     any_points, ground, top = np.zeros((3, quarters.rows * quarters.columns), dtype=bool)
 
-    def see(part: slice) -> None:
-        x, y = view.points.x[part], view.points.y[part]
+    def see(points: Points, are_ground: np.ndarray, are_top: np.ndarray, part: slice) -> None:
+        x, y = points.x[part], points.y[part]
         row, column = quarters.places(x, y, view.corner, step.cell / 2.0)
         inside = are_inside(row, column, quarters.shape)
         index = row * quarters.columns + column
         any_points[index[inside]] = True
-        top[index[inside & view.top[part]]] = True
-        inside &= view.ground[part]
+        top[index[inside & are_top[part]]] = True
+        inside &= are_ground[part]
         ground[index[inside]] = True
         # A point on the middle line of a cell lies in the quarters on both sides.
         before = quarters.places(x - _ROUNDING, y - _ROUNDING, view.corner, step.cell / 2.0)
@@ -140,7 +162,8 @@ def _contents(step: RasterStep, view: BlockView, window: CellWindow) -> np.ndarr
             ground[index[which] - cells] = True
         ground[index[is_south & is_west] - quarters.columns - 1] = True
 
-    over_parts(see, view.points.count, _POINTS_SEEN, SILENT)
+    for points, are_ground, are_top, _ in view.parts:
+        over_parts(partial(see, points, are_ground, are_top), points.count, _POINTS_SEEN, SILENT)
     any_points, ground, top = (flags.reshape(quarters.shape) for flags in (any_points, ground, top))
     contents = np.zeros(window.shape, dtype=np.uint8)
     for number in range(QUARTERS):
@@ -155,11 +178,12 @@ def _terrain(
     step: RasterStep, view: BlockView, window: CellWindow, progress: Progress
 ) -> _LayerCells:
     """Return heights of the terrain."""
-    points = view.points.take(view.ground)
+    known, core = view.thinned or (None, view.core[view.ground])
+    points = view.points.take(view.ground) if known is None else known.points
     if not points.count or window.is_empty:
-        return np.full(window.shape, np.nan, dtype=np.float32), view.in_survey(view.ground)
+        return np.full(window.shape, np.nan, dtype=np.float32), view.in_survey(points.take(core))
     start = view.start(window, step.cell)
-    surface = DenseSurface(points, step.cell, start, progress.part(0.05, 0.3))
+    surface = DenseSurface(points, step.cell, start, progress.part(0.05, 0.3), known)
     heights = surface.raster(window.shape, step.longest_edge, progress.part(0.3, 0.95))
     loose = np.zeros(points.count, dtype=bool)
     if step.max_edge is None:
@@ -173,7 +197,7 @@ def _terrain(
     heights = heights.astype(np.float32)
     if view.edges is not None and view.edges.any():
         follow_edges(heights, window, step.cell, points, view.edges[view.ground], view.corner)
-    return heights, view.in_survey(_among(view.ground, loose))
+    return heights, view.in_survey(points.take(loose & core))
 
 
 def _surface(
@@ -187,7 +211,8 @@ def _surface(
         which = which & ~HighGroups().find(view.points)
     points = view.points.take(which)
     if not points.count or window.is_empty:
-        return np.full(window.shape, np.nan, dtype=np.float32), view.in_survey(which)
+        nothing = np.full(window.shape, np.nan, dtype=np.float32)
+        return nothing, view.in_survey(points.take(view.core[which]))
     margin = math.ceil(step.reach / cell)
     wide = window.wider(margin)
     top, row, column = _highest(points, wide, view.corner, cell, progress.part(0.0, 0.35))
@@ -205,14 +230,7 @@ def _surface(
     loose = np.zeros(points.count, dtype=bool)
     if step.max_edge is None:
         loose[top[surface.hull]] = True
-    return heights.astype(np.float32), view.in_survey(_among(which, loose))
-
-
-def _among(which: np.ndarray, chosen: np.ndarray) -> np.ndarray:
-    """Return a mask of all points, given one, and which of its points are chosen."""
-    found = which.copy()
-    found[which] = chosen
-    return found
+    return heights.astype(np.float32), view.in_survey(points.take(loose & view.core[which]))
 
 
 def _highest(

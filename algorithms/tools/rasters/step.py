@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import partial
-from operator import itemgetter
 from pathlib import Path
-from typing import Any, BinaryIO, Callable, Iterable, Iterator, Sequence
+from typing import Any, BinaryIO, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -17,12 +15,12 @@ from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...crs.measurable import require_measurable
 from ...engine.block_grid import BlockGrid, BlockIndex
-from ...engine.blocks import Block, Blocks
-from ...engine.blockwise import over_blocks
+from ...engine.blocks import Blocks
 from ...engine.disk_store import rows_in
-from ...engine.memory import Cost, Resources
+from ...engine.memory import Cost
 from ...engine.step import Sink
-from ...engine.store import Marks, Store
+from ...engine.store import OTHERS, Marks, Store
+from ...engine.visits import Visit
 from ...grids.cell_window import CellWindow
 from ...grids.cells import first_of_each
 from ...grids.dense_surface import VERTICES_A_SIDE
@@ -30,6 +28,7 @@ from ...grids.height_above_ground import with_roads
 from ...las.cloud import PointCloud, survey_frame
 from ...las.lasfile import LasFile
 from ...rasters.cell_grid import cell_grid
+from ...rasters.libraries import library_name
 from ...survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
 from ...survey.shapes import Place
@@ -63,7 +62,7 @@ class MakeRasters(Drawing, Sink):
     constraints: Constraints = NO_CONSTRAINTS  # breaklines, water, and areas without ground
 
     counts = RasterCounts
-    imports = "scipy.ndimage", "scipy.spatial"
+    imports = "scipy.ndimage", "scipy.spatial", *library_name()
     title = "rasters"
 
     @property
@@ -139,7 +138,7 @@ class MakeRasters(Drawing, Sink):
         shown = ground | (~np.isin(part.classification, NOISE) & self.ground.used(part))
         if not self.needs_all:
             # The others only show where the survey is.
-            shown = ground | roads | self._thinned(part, shown)
+            shown = ground | roads | self._thinned(part, shown & ~ground & ~roads)
         top = shown & self.needs_surface & self._is_surface(part, ground)
         counts.top += int(np.count_nonzero(top))
         return Marks(shown, ground, top, {ROADS_FLAG: roads})
@@ -214,22 +213,28 @@ class MakeRasters(Drawing, Sink):
             raise no_point_in(self.area)
         return found
 
-    def work(
-        self,
-        store: Store,
-        resources: Resources,
-        progress: Progress,
-        is_wanted: Callable[[Block], bool] | None = None,
-    ) -> list[tuple[Block, BlockRasters]]:
-        """Return the blocks, or those that are wanted, with their rasters."""
-        work = partial(_rasters_of, store, self, is_wanted is None)
-        found = []
-        for number, (block, made) in over_blocks(
-            store, self.blocks, work, resources, progress, is_wanted
-        ):
-            layers = {name: store.keep(cells) for name, cells in made.layers.items()}
-            found.append((number, block, made._replace(layers=layers)))
-        return [(block, rasters) for _, block, rasters in sorted(found, key=itemgetter(0))]
+    def in_block(self, visit: Visit, progress: Progress) -> BlockRasters:
+        """Return the rasters of a block."""
+        block, corner = visit.block, visit.corner
+        # The ground that other steps see is the same, unless constraints change it.
+        is_same = self.needs_ground and not self.constraints.any
+        thinned = visit.found.get((self.ground, self.roads)) if is_same else None
+        lacks_ground = thinned is not None and not self.needs_all
+        contents = visit.contents(progress.part(0.0, 0.1), OTHERS if lacks_ground else None)
+        points, roads, ground = contents.points, contents.flags[ROADS_FLAG], contents.known
+        core = np.ones(points.count, bool) if visit.is_only else block.holds(points, corner)
+        if not lacks_ground:
+            ground = with_roads(points, ground, roads, progress.part(0.1, 0.2))
+        known = None if thinned is None else (thinned, block.holds(thinned.points, corner))
+        view = BlockView(points, ground, contents.wanted, core, corner, None, known, lacks_ground)
+        if self.fixed is not None and points.count:
+            view = self.fixed.added_to(view)
+        return self.of_block.of(view, block.box, progress.part(0.2, 1.0))
+
+    def keep(self, store: Store, result: BlockRasters) -> BlockRasters:
+        """Let the layers wait where the points do."""
+        layers = {name: store.keep(cells) for name, cells in result.layers.items()}
+        return result._replace(layers=layers)
 
     def save(self, results: Sequence[BlockRasters], stream: BinaryIO) -> None:
         """Write the rasters of a block, or of its parts."""
@@ -270,19 +275,3 @@ class MakeRasters(Drawing, Sink):
 def _of(arrays: Any, start: str) -> dict[str, Any]:
     """Return the arrays whose names begin in one way, by the ends of these."""
     return {name[len(start) :]: arrays[name] for name in arrays if name.startswith(start)}
-
-
-def _rasters_of(
-    store: Store, step: MakeRasters, are_all: bool, block: Block, is_only: bool, progress: Progress
-) -> tuple[Block, BlockRasters]:
-    """Return a block and its rasters; `are_all` if no block was left out."""
-    contents = step.blocks.contents(block, store, progress.part(0.0, 0.1))
-    points, top, corner = contents.points, contents.wanted, step.blocks.corner(block)
-    # A single block holds all points.
-    is_whole = is_only and are_all
-    core = np.ones(points.count, dtype=bool) if is_whole else block.holds(points, corner)
-    ground = with_roads(points, contents.known, contents.flags[ROADS_FLAG], progress.part(0.1, 0.2))
-    view = BlockView(points, ground, top, core, corner)
-    if step.fixed is not None and points.count:
-        view = step.fixed.added_to(view)
-    return block, step.of_block.of(view, block.box, progress.part(0.2, 1.0))
