@@ -9,10 +9,12 @@ cloud that `map` makes, so name it, too.
 
 from __future__ import annotations
 
+import os
 import sys
 import tempfile
 import time
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from qgis.core import (
@@ -22,6 +24,7 @@ from qgis.core import (
     QgsFillSymbol,
     QgsGeometry,
     QgsLayerTreeModel,
+    QgsPointCloudLayer,
     QgsProcessingOutputLayerDefinition,
     QgsProject,
     QgsRectangle,
@@ -82,6 +85,7 @@ def show_map(
     outputs: dict[str, str],
     name: str,
     over: QgsVectorLayer | None = None,
+    extent: QgsRectangle | None = None,
 ) -> None:
     """Run an algorithm as the toolbox does, and picture its layers.
 
@@ -97,8 +101,10 @@ def show_map(
         Of the picture.
     over : QgsVectorLayer, optional
         A layer to show on top; the map shows what lies round it.
+    extent : QgsRectangle, optional
+        What the map shows.
     """
-    if not is_wanted(name):
+    if not is_wanted(name.replace("map-remote", "remote")):
         return
     import processing
 
@@ -116,7 +122,7 @@ def show_map(
     canvas.setCanvasColor(Qt.GlobalColor.white)
     root = project.layerTreeRoot()
     canvas.setLayers([layer for layer in root.layerOrder() if root.findLayer(layer).isVisible()])
-    canvas.setExtent(next(iter(project.mapLayers().values())).extent())
+    canvas.setExtent(extent or next(iter(project.mapLayers().values())).extent())
     if over is not None:
         canvas.setLayers([over, *(layer for layer in canvas.layers() if layer is not over)])
         canvas.setExtent(over.extent().buffered(30.0))
@@ -181,6 +187,40 @@ def show_maps(tile: Path, folder: Path) -> None:
     show_map("bareearth:assess", files, errors, "map-errors")
 
 
+def show_remote(tile: Path, folder: Path) -> None:
+    """Picture a remote layer on a map, the dialog for it, and the terrain of the map."""
+    if not is_wanted("remote"):
+        return
+    import processing
+    from processing.gui.AlgorithmDialog import AlgorithmDialog
+    from qgis import utils
+
+    sys.path.append(str(Path(__file__).parents[1] / "tests" / "core"))
+    from remote_server import serving
+
+    processing.run(ALGORITHM, {"INPUT": str(tile), "OUTPUT": str(folder / "tile.copc.laz")})
+    project, canvas = QgsProject.instance(), QgsMapCanvas()
+    before, utils.iface = utils.iface, SimpleNamespace(mapCanvas=lambda: canvas)
+    with serving() as server:
+        address = server.add("tile.copc.laz", (folder / "tile.copc.laz").read_bytes())
+        layer = QgsPointCloudLayer(address, "lidar of the state", "copc")
+        project.addMapLayer(layer)
+        utils.iface.activeLayer, utils.iface.mainWindow = (lambda: layer), (lambda: None)
+        canvas.setDestinationCrs(layer.crs())
+        canvas.setLayers([layer])
+        canvas.resize(540, 560)
+        canvas.setExtent(layer.extent().buffered(-60.0))
+        dialog = AlgorithmDialog(QgsApplication.processingRegistry().createAlgorithmById(ONE_STEP))
+        save(dialog, "dialog-remote", QSize(1000, 900))
+        values = dialog.createProcessingParameters()
+        rasters = {name: str(folder / f"{name}.tif") for name in ("DTM", "HILLSHADE")}
+        given = {name: values[name] for name in ("INPUT", "EXTENT")}
+        dialog.close()
+        os.environ["BARE_EARTH_CACHE"] = str(folder / "cache")
+        show_map(ONE_STEP, given, rasters, "map-remote", extent=canvas.extent())
+    utils.iface = before
+
+
 def main() -> None:
     """Make the pictures."""
     app = QgsApplication([], True)
@@ -201,6 +241,7 @@ def main() -> None:
     show_dialog(tile, ALGORITHM, "dialog")
     show_dialog(tile, ONE_STEP, "dialog-one-step")
     with tempfile.TemporaryDirectory() as folder:
+        show_remote(tile, Path(folder))
         show_corrections(tile, Path(folder))
         show_maps(tile, Path(folder))
 

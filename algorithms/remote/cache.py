@@ -163,8 +163,7 @@ def bring_here(
         parts = [(cloud, part) for cloud, part in planned if part.point_count]
         if wanted.is_measured:
             for _, part in parts:
-                box = part.box if part.area is None else part.area.bounds
-                require_measurable(part.name, wanted.crs or part.crs, box)
+                _check_lengths(part, wanted.crs or part.crs)
         if parts:
             check_size([part for _, part in parts], wanted.most, advice, progress)
         shares = progress.part(0.1, 0.7).shares(*(part.size for _, part in parts))
@@ -180,6 +179,18 @@ def bring_here(
     for path, address in paths.items():
         progress.info(f"{address} is read from {path}.")
     return Here(paths, is_list)
+
+
+def _check_lengths(part: Part, crs: Crs) -> None:
+    """Refuse a cloud in which nothing can be measured, such as those of 3DEP, before a download."""
+    try:
+        require_measurable(part.name, crs, part.box if part.area is None else part.area.bounds)
+    except BareEarthError as error:
+        raise BareEarthError(
+            f"{error} 'bare-earth fetch', in QGIS 'Download part of a remote point cloud',"
+            " downloads the part to reproject. Such clouds seldom state the unit of their heights:"
+            " look it up, and give it with the new CRS, such as EPSG:26913+6360 for feet."
+        ) from error
 
 
 def bring_all(

@@ -3,6 +3,7 @@
 import json
 import re
 import sys
+from pathlib import Path
 
 import laspy
 import numpy as np
@@ -191,6 +192,21 @@ def test_secrets_are_nowhere(server, tiles, tmp_path):
     for path in tmp_path.rglob("*"):
         assert "s3cr3t" not in str(path)
         assert path.is_dir() or b"s3cr3t" not in path.read_bytes()
+
+
+def test_the_tutorial_runs(server, tiles, tmp_path, monkeypatch):
+    pytest.importorskip("rasterio")
+    page = (Path(__file__).parents[2] / "docs" / "tutorial-remote.md").read_text(encoding="utf-8")
+    page = page.replace("https://data.example.org/tile.copc.laz", add(server, tiles[0]))
+    page = page.replace("568100 5931100 568200 5931200", " ".join(map(str, BOX)))
+    monkeypatch.chdir(tmp_path)
+    lines = page.partition("```sh\n")[2].partition("```")[0].splitlines()
+    for line in lines:
+        code, text, errors = said(*line.split()[1:])
+        assert code == 0, errors
+    assert "kB were removed" in text and " 0.0 kB" not in text
+    made = ("overview.copc.laz", "ground.laz", "dtm.tif", "hillshade.tif")
+    assert len(lines) == 5 and all((tmp_path / name).exists() for name in made)
 
 
 def test_the_cache_is_cleared_and_nothing_else(server, tiles, tmp_path):

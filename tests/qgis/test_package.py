@@ -9,6 +9,8 @@ from pathlib import Path
 
 import laspy
 import pytest
+from qgis.core import QgsProviderRegistry
+from remote_server import serving
 from support import ALGORITHM, ROOT
 
 PRELUDE = """
@@ -161,7 +163,9 @@ def ground_of(path):
 
 def test_qgis_installs_the_zip(fresh):
     qgis, answer = fresh
-    assert answer["menu"] == ["LAZ support…", "Documentation"]
+    assert answer["menu"] == [
+        "LAZ support…", "Remove downloaded point clouds", "Documentation"
+    ]  # fmt: skip
     assert answer["algorithms"] >= 14
     assert answer["model"] == [True, ""]
     assert Path(answer["laspy"]) == (
@@ -416,6 +420,49 @@ def test_layers_are_in_order_in_a_window_whatever_layer_is_current(qgis, clouds,
     layers = ["Confidence", "Canopy height", "Surface model", "Terrain model", "Hillshade"]
     groups = {name: layers for name in ("scene: terrain", "scene: terrain (2)")}
     assert dict(answer["groups"]) == groups and len(answer["groups"]) == 2
+
+
+@pytest.mark.skipif(
+    "copc" not in QgsProviderRegistry.instance().providerList(), reason="shows no point clouds"
+)
+def test_the_map_of_a_remote_layer_becomes_terrain_in_three_clicks(qgis, tmp_path, scene):
+    import processing
+
+    source = tmp_path / "far.copc.laz"
+    processing.run(ALGORITHM, {"INPUT": str(scene.path), "OUTPUT": str(source)})
+    with serving() as server:
+        address = server.add(source.name, source.read_bytes())
+        answer = qgis.window(
+            """
+            from qgis.core import QgsPointCloudLayer, QgsProject, QgsRectangle
+            import processing
+            project = QgsProject.instance()
+            layer, another = (
+                project.addMapLayer(QgsPointCloudLayer(given["address"], name, "copc"))
+                for name in ("far", "another")
+            )
+            canvas = iface.mapCanvas()
+            canvas.setDestinationCrs(layer.crs())
+            canvas.setExtent(QgsRectangle(500010, 5700010, 500050, 5700040))
+
+            iface.setActiveLayer(layer)  # the first click
+            dialog = processing.createAlgorithmDialog("bareearth:pointcloudtoterrain")  # the second
+            dialog.show()
+            wait(lambda: False, 1)
+            answer["values"] = dialog.createProcessingParameters()
+            answer["layer"] = layer.id()
+            dialog.runButton().click()  # the third
+            wait(lambda: project.mapLayersByName("Terrain model"), 120)
+            answer["terrain"] = [one.width() for one in project.mapLayersByName("Terrain model")]
+            answer["log"] = dialog.logText() if hasattr(dialog, "logText") else ""
+            """,
+            {"PYTHONPATH": str(Path(laspy.__file__).parents[1]),
+             "BARE_EARTH_CACHE": str(tmp_path / "cache")},
+            address=address,
+        )  # fmt: skip
+    assert answer["values"]["INPUT"] == answer["layer"]
+    assert answer["values"]["EXTENT"].endswith("[EPSG:25832]")
+    assert answer["terrain"] and answer["terrain"][0] >= 40, answer["log"]
 
 
 @pytest.mark.parametrize("package_name", ["scipy", "numpy"])

@@ -200,7 +200,10 @@ def test_a_layer_of_tiles(server, tmp_path, log):
 def test_web_mercator_is_refused_before_the_download(server, tmp_path):
     _, address = add_ept(server, srs={"wkt": MERCATOR})
     server.asked.clear()
-    with pytest.raises(QgsProcessingException, match=r"Mercator.* Reproject it first"):
+    with pytest.raises(
+        QgsProcessingException,
+        match=r"Mercator.* Reproject .*Download part of .* heights: look it up",
+    ):
         run("terrainmodel", {"DTM": "dtm.tif"}, tmp_path, INPUT=address,
             EXTENT="500020,500060,5600010,5600055")  # fmt: skip
     assert not [path for path, *_ in server.asked if "ept-data" in path]
