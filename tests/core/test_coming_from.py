@@ -7,6 +7,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+from remote_server import serving
 from surveys import ORIGIN, strip, write
 
 import bare_earth
@@ -42,14 +43,25 @@ def test_the_page_has_a_command_for_each_row():
     assert [row for row in rows if "`bare-earth " not in row] == []
 
 
+@pytest.fixture(scope="module")
+def server(work):
+    """What stands for the server of the page."""
+    bare_earth.classify(work / "tile.laz", work / "tile.copc.laz")
+    with serving() as running:
+        running.add("tile.copc.laz", (work / "tile.copc.laz").read_bytes())
+        yield running
+
+
 @pytest.mark.parametrize("words", COMMANDS)
-def test_a_command_of_the_page_runs(words, work, tmp_path, monkeypatch):
+def test_a_command_of_the_page_runs(words, work, server, tmp_path, monkeypatch):
     pytest.importorskip("rasterio")
     folder = tmp_path / "work"
     shutil.copytree(work, folder)
     monkeypatch.chdir(folder)
     if "dtm.tif" in words or "dsm.tif" in words:
         bare_earth.terrain("ground.laz", dtm="dtm.tif", dsm="dsm.tif")
+    monkeypatch.setenv("BARE_EARTH_CACHE", str(tmp_path / "cache"))
+    words = words.replace("https://data.example.org/", server.address(""))
     assert cli.main(words.split()) == 0
 
 
