@@ -73,8 +73,14 @@ def test_a_part_gives_the_labels_of_the_whole_file(server, tiles, tmp_path):
     assert laspy.read(remote).header.point_count < laspy.read(here).header.point_count / 2
 
 
-@pytest.mark.parametrize("crs, metre", [("EPSG:25832", 1.0), ("EPSG:2230", 3937 / 1200)])
-@pytest.mark.parametrize("rasters, margin", [((), 180), (("dtm",), 400)])
+@pytest.mark.parametrize(
+    "crs, metre, rasters, margin",
+    [
+        ("EPSG:25832", 1.0, (), 180),
+        ("EPSG:2230", 3937 / 1200, (), 180),
+        ("EPSG:2230", 3937 / 1200, ("dtm",), 400),
+    ],
+)
 def test_the_margin_is_in_units_of_the_points(server, tmp_path, crs, metre, rasters, margin):
     x, y = np.random.default_rng(1).uniform(0, 4000, (2, 20_000))
     plain, source = tmp_path / "plain.las", tmp_path / "feet.copc.laz"
@@ -303,8 +309,8 @@ def test_a_plain_file_obeys_the_limit_and_the_area(server, tmp_path):
         bare_earth.fetch(address, tmp_path / "a.laz")
 
 
-@pytest.mark.parametrize("fault", ["cut", "short", "503", "no ranges", "fewer", "gzip"])
-@pytest.mark.parametrize("every", [1, 3, 10])
+@pytest.mark.parametrize("fault", ["cut", "short", "no ranges"])
+@pytest.mark.parametrize("every", [1, 10])
 def test_a_plain_file_is_whole_or_one_sentence(server, tmp_path, fault, every, monkeypatch):
     monkeypatch.setattr(whole, "_PIECE", 20_000)
     plain = write(tmp_path / "plain.laz", strip())
