@@ -9,18 +9,19 @@ They have the names and parameters of the functions for files, and give the same
 >>> arrays.terrain(las, ground=ground)["dtm"].to_xarray()  # doctest: +SKIP
 """
 
+from .algorithms.library import ARRAY_CLASSES as _CLASSES
 from .algorithms.library import array_names as _functions
 
-_RASTER = "Raster"
-__all__ = [_RASTER, *_functions()]
+__all__ = [*_CLASSES, *_functions()]
 
 
 def __getattr__(name):
     from importlib import import_module
 
     if name in __all__:
-        module = import_module(".algorithms.library.arrays", __package__)
-        return module.Raster if name == _RASTER else module.function(name)
+        place = _CLASSES.get(name, "arrays")
+        module = import_module(f".algorithms.library.{place}", __package__)
+        return getattr(module, name) if name in _CLASSES else module.function(name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Callable, Iterator
 
 import laspy
 import numpy as np
@@ -70,6 +71,25 @@ def make_cloud(path: Path, count: int) -> None:
     plain.unlink()
 
 
+@contextlib.contextmanager
+def serving(path: Path) -> Iterator[tuple[str, Callable[[], tuple[int, int]]]]:
+    """Serve a COPC file; yield its address, and what tells requests and bytes since the last."""
+    words = [sys.executable, "-c", _SERVER, str(_TESTS), str(path), str(_LATENCY)]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(words, stdin=pipe, stdout=pipe, text=True) as server:
+
+        def asked() -> tuple[int, int]:
+            server.stdin.write("\n")
+            server.stdin.flush()
+            requests, sent = map(int, server.stdout.readline().split())
+            return requests, sent
+
+        try:
+            yield f"http://127.0.0.1:{server.stdout.readline().strip()}/whole.copc.laz", asked
+        finally:
+            server.kill()
+
+
 def main() -> None:
     """Measure, and print what was found."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -85,20 +105,14 @@ def main() -> None:
         nodes = find_nodes(read_hierarchy(open_las(whole)), box)
         needed, size = int(nodes["size"].sum()), whole.stat().st_size
         print(f"{size:,} bytes; {len(nodes)} nodes touch the window, with {needed:,} bytes")
-        words = [sys.executable, "-c", _SERVER, str(_TESTS), str(whole), str(_LATENCY)]
-        pipe = subprocess.PIPE
-        server = ending.enter_context(subprocess.Popen(words, stdin=pipe, stdout=pipe, text=True))
-        ending.callback(server.kill)
-        address = f"http://127.0.0.1:{server.stdout.readline().strip()}/whole.copc.laz"
+        address, asked = ending.enter_context(serving(whole))
         for _ in range(_RUNS):
             begun = time.perf_counter()
             bare_earth.fetch(whole, local, extent=box)
             middle = time.perf_counter()
             bare_earth.fetch(address, remote, extent=box)
             end = time.perf_counter()
-            server.stdin.write("\n")
-            server.stdin.flush()
-            requests, sent = map(int, server.stdout.readline().split())
+            requests, sent = asked()
             is_same = "the same" if local.read_bytes() == remote.read_bytes() else "OTHER"
             print(
                 f"{requests} requests, {sent:,} bytes: {sent / needed:.3f} times those of the"

@@ -35,6 +35,8 @@ from numpy import bool_, float64, uint8
 from numpy.typing import ArrayLike, NDArray
 
 from .algorithms.core.progress import Progress
+from .algorithms.library.blocks import Block as Block
+from .algorithms.library.features import Features as Features
 from .algorithms.library.given import Bar
 from .algorithms.library.rasters import Raster as Raster
 """

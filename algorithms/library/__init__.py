@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from ..tools import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 
+# What functions on arrays return, and the modules of this folder that have it.
+ARRAY_CLASSES = {"Block": "blocks", "Features": "features", "Raster": "rasters"}
+
 
 def tool_commands() -> dict[str, str]:
     """Return the commands of tools, by the names of their functions."""
@@ -21,4 +24,7 @@ def names() -> list[str]:
 
 def array_names() -> list[str]:
     """Return the names of all functions on arrays, likewise."""
-    return ["above_ground", "check", "classify", "ground", "heights", "key_points", "terrain"]
+    return [
+        "above_ground", "blocks", "check", "classify", "confidence", "contours", "ground",
+        "heights", "key_points", "residuals", "terrain", "water",
+    ]  # fmt: skip

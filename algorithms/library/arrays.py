@@ -5,11 +5,11 @@ They are declared as those for files are, and have the same names and parameters
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Callable, Iterator, Sequence, cast
+from typing import Any, Callable, Sequence, cast
 
 import numpy as np
 
@@ -18,20 +18,17 @@ from ..core.files import Outputs
 from ..core.parameters import ParameterSet, parameter_of
 from ..core.points import Frame
 from ..core.progress import Progress
-from ..core.threads import available_cpus, may_use
+from ..core.threads import may_use
 from ..engine.file_points import FilePoints, TileResult
 from ..engine.memory import Resources
 from ..engine.one_file import FileRun
+from ..engine.options import TileInput
 from ..engine.step import Step
 from ..las.cloud import PointCloud
 from ..survey.files import Inputs
-from ..survey.ground_classes import GroundClasses, GroundCounts
+from ..survey.ground_classes import GroundClasses
 from ..survey.selection import Selection
 from ..tools import map_tool, point_tool
-from ..tools.check.accuracy import Accuracy
-from ..tools.check.checking import CheckOptions, check_points
-from ..tools.check.results import Check
-from ..tools.check.survey_ground import SurveyGround
 from ..tools.heights import HeightOutput, HeightsOfPoints
 from ..tools.key_points import KeyPointMark
 from ..tools.rasters.output import write_rasters
@@ -39,57 +36,34 @@ from ..tools.rasters.parameters import SurfaceModel, TerrainModel
 from ..tools.rasters.rows import RASTERS
 from ..tools.rasters.step import MakeRasters
 from . import arguments, tool_commands
-from .arguments import REQUIRED, Argument, Kind
+from .arguments import Argument, Kind
+from .array_arguments import ATTRIBUTES, GROUND, LAST, POINTS
+from .array_figures import of_check, of_contours, of_residuals, of_water
+from .blocks import are_blocks, blocks_of
 from .functions import PACKAGE, Function
 from .given import (
     area_of,
-    checkpoints_of,
     constraints_of,
     corrections_of,
     is_automatic,
     progress_of,
     target_of,
 )
-from .points import cloud_of, with_ground
+from .points import cloud_of, cloud_with_ground
 from .rasters import Collected, Raster
 from .tools import arguments_of, input_of
 
-_TABLE = (
-    "x of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a"
-    " laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,"
-    " ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL has, a"
-    " dict of arrays, or a table of pandas, polars or pyarrow"
-)
-_NUMBERS, _FLAGS = "array of int, shape (n,)", "array of bool, shape (n,)"
-
-
-def _array(name: str, help: str, words: str = "array of float, shape (n,)") -> Argument:
-    return Argument(name, Kind("ArrayLike", words), help)
-
-
-_POINTS = (
-    Argument("points", Kind("Any", "array, laspy.LasData or table"), _TABLE, REQUIRED),
-    _array("y", "y of the points, if `points` is x"),
-    _array("z", "z of the points, if `points` is x"),
-)
-_ATTRIBUTES = (
-    _array("classification", "the classes of the points, in place of those of a table", _NUMBERS),
-    _array("return_number", "the return numbers, from 1 on", _NUMBERS),
-    _array("number_of_returns", "how many returns the pulse of each point has", _NUMBERS),
-    _array("withheld", "which points are left out of everything", _FLAGS),
-    _array("in_overlap", "which points lie in the overlap of flight strips", _FLAGS),
-)
-_GROUND = _array(
-    "ground", "which points are ground, as ground() returns them, in place of their classes", _FLAGS
-)
-_CRS = Argument(
-    "crs",
-    Kind("Any", "str, int or pyproj.CRS"),
-    "the CRS: an EPSG code, such as 25832 or EPSG:2230+6360 (with heights), or WKT; it replaces"
-    " that of a laspy.LasData, and without both coordinates are metres",
-)
-_LAST = (_CRS, arguments.PROGRESS)
 _NO_FILES = Inputs((), is_survey=False)
+_NO_CONSTRAINTS = dict.fromkeys(
+    (argument.name for argument in arguments.of_group("constraints")), None
+)
+
+
+@dataclass(frozen=True)
+class ConfidenceCells(ParameterSet):
+    """The cells of the confidence."""
+
+    dtm_cell_size: float = parameter_of(TerrainModel, "dtm_cell_size")
 
 
 @dataclass(frozen=True)
@@ -107,12 +81,6 @@ def _found(
         run = FileRun(FilePoints(cloud, resources), steps, progress)
         run.work(progress.part(0.0, 0.95))
         return run.found(progress.part(0.95, 1.0))
-
-
-def _cloud(values: SimpleNamespace, sets: list[Any], progress: Progress) -> PointCloud:
-    """Return the points, with the ground that the user gives."""
-    cloud = cloud_of(values, progress)
-    return with_ground(cloud, values.ground, GroundClasses.among(sets).ground_classes)
 
 
 def _classes(values: SimpleNamespace, sets: list[Any]) -> Any:
@@ -136,10 +104,10 @@ def _of_classes(
     return Function(
         name,
         f"{about}\nThe labels are those of classify() on a file with the same points.",
-        _POINTS,
+        POINTS,
         (
-            *_ATTRIBUTES, *arguments.area("classify only points in", "; points nearby help"),
-            *arguments.of_group("corrections"), *_LAST,
+            *ATTRIBUTES, *arguments.area("classify only points in", "; points nearby help"),
+            *arguments.of_group("corrections"), *LAST,
         ),
         (Selection, Resources),
         run,
@@ -158,13 +126,13 @@ def _of_tool(
         progress = progress_of(values.progress)
         inputs = {one.name: input_of(one, values) for one in tool.inputs}
         steps = tool.steps([*sets, *fixed], inputs, {})
-        cloud = _cloud(values, sets, progress)
+        cloud = cloud_with_ground(values, GroundClasses.among(sets), progress)
         return value(_found(cloud, steps, Resources.among(sets).now(), progress))
 
     sets = tuple(kind for kind in tool.sets if kind not in map(type, fixed))
     inputs = [argument for declared in tool.inputs for argument in arguments_of(declared)]
     return Function(
-        name, about, _POINTS, (_GROUND, *_ATTRIBUTES, *inputs, *_LAST),
+        name, about, POINTS, (GROUND, *ATTRIBUTES, *inputs, *LAST),
         (*sets, Resources), run, gives=gives,
     )  # fmt: skip
 
@@ -198,14 +166,32 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
         "area": area_of(values), "constraints": constraints_of(values),
         "raster_target": target_of(values),
     }  # fmt: skip
-    drawing: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]
-    step = _RastersInMemory(**{one.name: getattr(drawing, one.name) for one in fields(drawing)})
-    cloud, resources = _cloud(values, sets, progress), Resources.among(sets).now()
+    made: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]
+    if are_blocks(values.points):
+        return _terrain_of_blocks(values, made)
+    step = _RastersInMemory(**{one.name: getattr(made, one.name) for one in fields(made)})
+    cloud = cloud_with_ground(values, GroundClasses.among(sets), progress)
+    resources = Resources.among(sets).now()
     with may_use(resources.thread_count):
         run = FileRun(FilePoints(cloud, resources), [step], progress)
         run.work(progress)
     (rasters,) = run.told
     return {name: rasters[name] for name in names}
+
+
+def _terrain_of_blocks(values: SimpleNamespace, step: MakeRasters) -> dict[str, Raster]:
+    """Return rasters of blocks, which are made when they are needed."""
+    from .lazy_rasters import lazy_rasters
+
+    for name in ("y", "z", "ground", "crs", *(argument.name for argument in ATTRIBUTES)):
+        if getattr(values, name) is not None:
+            raise BareEarthError(f"Blocks have their own {name}: leave the argument {name} out.")
+    if step.constraints.any:
+        raise BareEarthError(
+            "Breaklines, water and areas without ground need the heights of all points: make the"
+            " rasters of the files by bare_earth.terrain()."
+        )
+    return lazy_rasters(values.points, step)
 
 
 def _of_terrain() -> Function:
@@ -216,11 +202,11 @@ def _of_terrain() -> Function:
         "terrain",
         "Make rasters of the terrain and of what stands on it.\nThe cells are those that terrain()"
         " writes for a file with the same points; cells without data are NaN, or 0 in pictures.",
-        _POINTS,
+        POINTS,
         (
             Argument("rasters", kind, f"which rasters to make. {kinds}", ("dtm",)),
-            _GROUND, *_ATTRIBUTES, *arguments.of_group("target"),
-            *arguments.area("make the rasters only in"), *arguments.of_group("constraints"), *_LAST,
+            GROUND, *ATTRIBUTES, *arguments.of_group("target"),
+            *arguments.area("make the rasters only in"), *arguments.of_group("constraints"), *LAST,
         ),
         (GroundClasses, ArrayTerrain, SurfaceModel, Resources),
         _terrain,
@@ -228,54 +214,53 @@ def _of_terrain() -> Function:
     )  # fmt: skip
 
 
-class _CloudGround(SurveyGround):
-    """The ground points of a cloud in memory."""
+def _of_confidence() -> Function:
+    """Return the function for one of the rasters, which needs few of the parameters."""
 
-    def __init__(self, cloud: PointCloud, ground: GroundClasses) -> None:
-        tile = SimpleNamespace(path=cloud.path, count=cloud.count, outer_box=cloud.box)
-        survey: Any = SimpleNamespace(crs=cloud.crs, tiles=(tile,), box=cloud.box)
-        super().__init__(survey, ground)
-        self._cloud = cloud
-
-    def parts(
-        self, progress: Progress, near: np.ndarray | None = None, reach: float = 0.0
-    ) -> Iterator[tuple[PointCloud, np.ndarray]]:
-        """Yield the points in parts, and which of them are ground."""
-        self.counts = GroundCounts()
-        for where, part in self._cloud.parts():
-            yield part, self.ground.of(part, self.counts)
-            progress(where.stop / self._cloud.count)
-
-
-def _check(values: SimpleNamespace, sets: list[Any]) -> Check:
-    """Return the errors at checkpoints, or at points that are held out."""
-    progress, ground = progress_of(values.progress), GroundClasses.among(sets)
-    with may_use(available_cpus()):
-        return check_points(
-            _CloudGround(_cloud(values, sets, progress), ground),
-            checkpoints_of(values),
-            vegetated=values.vegetated,
-            accuracy=Accuracy.among(sets),
-            options=CheckOptions.among(sets),
-            ground=ground,
-            progress=progress,
+    def run(values: SimpleNamespace, sets: list[Any]) -> Raster:
+        values = SimpleNamespace(**{**_NO_CONSTRAINTS, **vars(values)}, rasters="confidence")
+        cells = TerrainModel(
+            dtm_cell_size=ConfidenceCells.among(sets).dtm_cell_size, raster_nodata=None
         )
+        return _terrain(values, [*sets, cells])["confidence"]
 
-
-def _of_check() -> Function:
-    vegetated = "land covers with one of these words are vegetated, and no others"
     return Function(
-        "check",
-        "Compare the ground with checkpoints, or with ground points that are held out.\nThe figures"
-        " are those of check() for a file with the same points.",
-        _POINTS,
+        "confidence",
+        "Tell how sure the terrain is in each cell, from 0 to 1.\nThe cells are those of the"
+        " confidence that terrain() makes.",
+        POINTS,
         (
-            _GROUND, *_ATTRIBUTES, *arguments.of_group("checkpoints"),
-            Argument.of("vegetated", "words", vegetated), *_LAST,
+            GROUND, *ATTRIBUTES, *arguments.of_group("target"),
+            *arguments.area("make the raster only in"), *LAST,
         ),
-        (Accuracy, CheckOptions, GroundClasses),
-        _check,
-        Check,
+        (GroundClasses, ConfidenceCells, Resources),
+        run,
+        gives=Kind("Raster", "The confidence; NaN where it is not known."),
+    )  # fmt: skip
+
+
+def _of_blocks() -> Function:
+    classified = "the points are classified already: nothing is found in them anew"
+    extent = (
+        "xmin, ymin, xmax, ymax: only blocks that touch this rectangle, in the CRS of the points"
+    )
+    return Function(
+        "blocks",
+        "Cut a survey of files into blocks, each of them a task for a cluster.\nOnly headers are"
+        " read. A block is called with no arguments, wherever its files are there under the same"
+        " names, and returns its points with the classes that classify() gives them. Functions on"
+        " arrays take what it returns. terrain() takes all blocks, and gives rasters whose values"
+        " are dask arrays. A task works in one thread, and has its points in memory.",
+        (replace(arguments.SOURCES, kind=Kind(arguments.SOURCES.kind.type, "paths or addresses")),),
+        (
+            Argument("classified", Kind("bool", "bool"), classified, False),
+            Argument.of("extent", "extent", extent), *arguments.of_group("corrections"),
+            arguments.CRS, *arguments.REMOTE, arguments.PROGRESS,
+        ),
+        (Selection, TileInput),
+        blocks_of,
+        gives=Kind("list[Block]", "The blocks from south to north, as :class:`Block`."),
+        has_method=True,
     )  # fmt: skip
 
 
@@ -289,13 +274,16 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
         _CLASSES_KIND,
         lambda result: result.classification,
     ),
-    "check": _of_check,
+    "blocks": _of_blocks,
+    "check": of_check,
     "classify": lambda: _of_classes(
         "classify",
         "Classify ground (2), low noise (7) and bridge decks (17).",
         _CLASSES_KIND,
         _classes,
     ),
+    "confidence": _of_confidence,
+    "contours": of_contours,
     "ground": lambda: _of_classes(
         "ground", "Find the ground points.", _MASK_KIND("Which points are ground."), _ground_of
     ),
@@ -315,7 +303,9 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
         lambda result: np.asarray(result.edits().key_points) == 1,
         KeyPointMark("flag"),
     ),
+    "residuals": of_residuals,
     "terrain": _of_terrain,
+    "water": of_water,
 }
 
 

@@ -69,17 +69,19 @@ def path_of(given: Any) -> Path | None:
 
 
 def polygons_of(given: Any) -> Any:
-    """Return polygons, given as such or as a file."""
-    from ..survey.vector_files import read_boundary
+    """Return polygons, given as such, as a file or as a GeoDataFrame."""
+    from ..survey.vector_files import is_frame, read_boundary
 
-    return read_boundary(Path(given)) if isinstance(given, (str, Path)) else tuple(given or ())
+    is_read = isinstance(given, (str, Path)) or is_frame(given)
+    return read_boundary(given) if is_read else tuple(given or ())
 
 
 def lines_of(given: Any) -> Any:
-    """Return lines, given as such or as a file."""
-    from ..survey.vector_files import read_lines
+    """Return lines, likewise."""
+    from ..survey.vector_files import is_frame, read_lines
 
-    return read_lines(Path(given)) if isinstance(given, (str, Path)) else tuple(given or ())
+    is_read = isinstance(given, (str, Path)) or is_frame(given)
+    return read_lines(given) if is_read else tuple(given or ())
 
 
 def area_of(values: SimpleNamespace) -> Area | None:
@@ -95,11 +97,11 @@ def area_of(values: SimpleNamespace) -> Area | None:
 
 def corrections_of(values: SimpleNamespace) -> Corrections:
     """Return the polygons whose class is known."""
-    from ..survey.vector_files import read_corrections
+    from ..survey.vector_files import is_frame, read_corrections
 
     given = values.corrections
-    if isinstance(given, (str, Path)):
-        return read_corrections(Path(given))
+    if isinstance(given, (str, Path)) or is_frame(given):
+        return read_corrections(given)
     return given or NO_CORRECTIONS
 
 
@@ -130,12 +132,13 @@ def target_of(values: SimpleNamespace) -> RasterTarget:
 
 def checkpoints_of(values: SimpleNamespace) -> Checkpoints | None:
     """Return the checkpoints of a file, or of x, y and z in the CRS of the points; or None."""
+    from ..survey.vector_files import is_frame
     from ..tools.check.checkpoints import Checkpoints
     from ..tools.check.reading import read_checkpoints
 
     given = values.checkpoints
-    if isinstance(given, (str, Path)):
-        return read_checkpoints(str(given), values.columns, values.checkpoints_crs)
+    if isinstance(given, (str, Path)) or is_frame(given):
+        return read_checkpoints(given, values.columns, values.checkpoints_crs)
     return None if given is None else Checkpoints.of(given)
 
 

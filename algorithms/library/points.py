@@ -21,6 +21,9 @@ from ..las.crs_records import crs_among
 from ..las.lasfile import FIRST_EXTENDED_FORMAT
 from ..las.reading import COLUMNS
 from ..las.return_numbers import count_from_one
+from ..survey.ground_classes import GroundClasses
+from ..survey.vector_files import FRAME, is_frame
+from .blocks import are_blocks
 
 # How errors name the points.
 _CLOUD = Path("the cloud")
@@ -52,6 +55,11 @@ def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud
     coordinates of a `laspy.LasData` are not copied.
     """
     points = values.points
+    if are_blocks(points):
+        raise BareEarthError(
+            "Of the functions on arrays only terrain() takes blocks. Call each block, and give what"
+            " it returns."
+        )
     if hasattr(points, "header") and hasattr(points, "point_format"):
         _refuse_beside(values, "a laspy.LasData has", _COORDINATES[1:])
         cloud = _of_las(points, stated_wkt(_crs_text(values.crs)), progress)
@@ -68,7 +76,8 @@ def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud
         arrays = dict(zip(_COORDINATES, integers))
         arrays.update((name, np.zeros(len(x), dtype=np.uint8)) for name in _NUMBERS)
         arrays["withheld"] = np.zeros(len(x), dtype=bool)
-        cloud = _made(arrays, scales, offsets, _POINT_FORMAT, _crs_of(values.crs, progress))
+        crs = _crs_of(values.crs or getattr(values.points, "crs", None), progress)
+        cloud = _made(arrays, scales, offsets, _POINT_FORMAT, crs)
         for name in _ATTRIBUTES.values():
             if name in columns:
                 setattr(cloud, name, _attribute(name, columns[name], cloud.count))
@@ -81,13 +90,16 @@ def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud
     return count_from_one(cloud)
 
 
-def with_ground(cloud: PointCloud, ground: Any, ground_classes: Iterable[int]) -> PointCloud:
-    """Return points of which those of a mask, and no others, have the first of the ground classes;
-    without a mask the points as they are.
+def cloud_with_ground(
+    values: SimpleNamespace, ground: GroundClasses, progress: Progress
+) -> PointCloud:
+    """Return the same, of which the points of the mask `ground`, and no others, have the first of
+    the ground classes; without a mask the points as they are.
     """
-    if ground is None:
+    cloud, classes = cloud_of(values, progress), [*ground.ground_classes]
+    if values.ground is None:
         return cloud
-    mask, classes = _attribute("ground", ground, cloud.count), [*ground_classes]
+    mask = _attribute("ground", values.ground, cloud.count)
     others = np.where(np.isin(cloud.classification, classes), 1, cloud.classification)
     return replace(cloud, classification=np.where(mask, classes[0], others).astype(np.uint8))
 
@@ -102,6 +114,8 @@ def _refuse_beside(values: SimpleNamespace, what: str, names: Iterable[str]) -> 
 def _columns_of(values: SimpleNamespace) -> dict[str, Any]:
     """Return the columns of arrays or of a table, by the fields of a cloud."""
     points = values.points
+    if is_frame(points):
+        return _of_frame(values)
     names = getattr(getattr(points, "dtype", None), "names", None)
     for kind in ("column_names", "columns"):  # of pyarrow; of pandas and polars
         names = names or getattr(points, kind, None)
@@ -110,14 +124,32 @@ def _columns_of(values: SimpleNamespace) -> dict[str, Any]:
     if names is None:
         return _separate(values)
     _refuse_beside(values, "The table of points has", _COORDINATES[1:])
-    known = {str(name).lower().replace("_", ""): name for name in names}
-    columns = {field: points[known[name]] for name, field in _NAMES.items() if name in known}
+    columns = _known(points, names)
     missing = [name.upper() for name in _COORDINATES if name not in columns]
     if missing:
         raise BareEarthError(
             f"The table of points has no column {' and no column '.join(missing)}, only"
             f" {', '.join(map(str, names))}."
         )
+    return columns
+
+
+def _known(points: Any, names: Iterable[Any]) -> dict[str, Any]:
+    """Return the columns of a table that are used, by the fields of a cloud."""
+    known = {str(name).lower().replace("_", ""): name for name in names}
+    return {field: points[known[name]] for name, field in _NAMES.items() if name in known}
+
+
+def _of_frame(values: SimpleNamespace) -> dict[str, Any]:
+    """Return the same of a GeoDataFrame or a GeoSeries, whose geometry counts before columns."""
+    points, shapes = values.points, values.points.geometry
+    _refuse_beside(values, f"{FRAME} has", _COORDINATES[1:])
+    if not (shapes.geom_type == "Point").all():
+        raise BareEarthError(f"{FRAME} must hold a point in each row, and no other geometry.")
+    columns = _known(points, getattr(points, "columns", ()))
+    columns.update(x=shapes.x, y=shapes.y)
+    if "z" not in columns or shapes.has_z.all():
+        columns["z"] = shapes.z
     return columns
 
 

@@ -35,19 +35,16 @@ def bring_points(
     errors name the addresses.
     """
     given = {
-        argument.name: _several(getattr(values, argument.name))
+        argument.name: several(getattr(values, argument.name))
         for argument in arguments
         if argument.kind in (KINDS["cloud"], KINDS["clouds"])
     }
-    if not any(map(_is_remote, (source for sources in given.values() for source in sources))):
+    if not any(map(is_remote, (source for sources in given.values() for source in sources))):
         return contextlib.nullcontext()
     from ..remote.cache import Surroundings, addresses_named, bring_all, cache_of
     from ..remote.fetching import Wanted
 
     names = [argument.name for argument in arguments]
-    most = MOST if values.limit is None else float(values.limit)
-    if not most >= 0.0:
-        raise BareEarthError(f"The limit must be a number of gigabytes, not {values.limit}.")
     edges = {name: getattr(values, name, None) for name in ("extent", "boundary")}
     area, crs = area_of(SimpleNamespace(**edges)), stated_crs(getattr(values, "crs", None))
     if area is not None:
@@ -56,7 +53,7 @@ def bring_points(
     if "extent" not in names:
         advice = "Fetch a part of it first, by 'bare-earth fetch' with an area"
     # A tool without parameters only describes the points.
-    wanted = Wanted(area, most=most * 1e9, crs=crs, is_measured=bool(sets))
+    wanted = Wanted(area, most=most_bytes(values), crs=crs, is_measured=bool(sets))
     progress = progress_of(values.progress)
     place = cache_of(values.cache), advice, progress.part(0.0, SHARE)
     inputs, found = bring_all(given, wanted, *place)
@@ -66,11 +63,21 @@ def bring_points(
     return addresses_named(found)
 
 
-def _several(given: Any) -> list[Any]:
+def most_bytes(values: SimpleNamespace) -> float:
+    """Return how many bytes may be fetched."""
+    most = MOST if values.limit is None else float(values.limit)
+    if not most >= 0.0:
+        raise BareEarthError(f"The limit must be a number of gigabytes, not {values.limit}.")
+    return most * 1e9
+
+
+def several(given: Any) -> list[Any]:
+    """Return sources, given as one or as several."""
     return [given] if isinstance(given, (str, PathLike)) else list(given)
 
 
-def _is_remote(source: Any) -> bool:
+def is_remote(source: Any) -> bool:
+    """Return whether a source is given by its address."""
     return isinstance(source, str) and is_address(source)
 
 

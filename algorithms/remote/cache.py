@@ -15,6 +15,7 @@ from typing import Iterator, Mapping, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import describe_write_error, replacing, write_errors_told
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..crs.measurable import require_measurable
 from ..crs.system import Crs
@@ -225,6 +226,38 @@ def addresses_named(found: Mapping[Path, str]) -> Iterator[None]:
         for path, address in found.items():
             error.args = (str(error).replace(str(path), address),)
         raise
+
+
+class Seen(NamedTuple):
+    """What is known of a remote point cloud before its points are fetched."""
+
+    address: str
+    crs: Crs
+    box: Box  # smallest x and y, largest x and y in this CRS
+
+
+def look(addresses: Sequence[str], cache: Path, progress: Progress = SILENT) -> list[Seen]:
+    """Return CRS and extent of the point clouds at addresses, all in the CRS of the first where a
+    list states the extent.
+    """
+    found: list[Seen] = []
+    with Transfers(progress) as transfers:
+        clouds = [
+            cloud
+            for address in map(checked, addresses)
+            for cloud in clouds_of(address, transfers, False, _HOW)
+        ]
+        # No part of a cloud lies there, so that hardly more than its header is read.
+        nowhere = Wanted(Surroundings((0.0, 0.0, 1e-6, 1e-6)))
+        for cloud in dict.fromkeys(clouds):
+            if found and cloud.box is not None:
+                west, south, east, north = cloud.box  # lists round
+                box = west - 1.0, south - 1.0, east + 1.0, north + 1.0
+                found.append(Seen(cloud.address, found[0].crs, box))
+                continue
+            part = _Kept(cloud, nowhere, cache, transfers).part(transfers.progress.quiet())
+            found.append(Seen(cloud.address, part.crs, part.box))
+    return found
 
 
 def clear(cache: Path) -> int:

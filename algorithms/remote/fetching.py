@@ -15,7 +15,7 @@ from ..crs.measurable import how_to_reproject, length_scale, wrong_lengths
 from ..crs.system import Crs
 from ..crs.wkt import read_wkt
 from ..survey.area import Area
-from ..survey.shapes import outside
+from ..survey.shapes import Outside, outside
 from .addresses import checked, is_address, name_of, shown
 from .copc import SUFFIX, CopcPart
 from .ept import DESCRIPTION, EptPart
@@ -224,11 +224,11 @@ def names_of(clouds: Iterable[str]) -> list[str]:
     return names
 
 
-def nothing_there(parts: Sequence[Part], address: str) -> BareEarthError:
+def nothing_there(parts: Sequence[Part], address: str) -> Outside:
     """Return the error for an area without points."""
     if len(parts) == 1 and parts[0].area is not None:
         return outside("the area", parts[0].area.bounds, parts[0].name, parts[0].box)
-    return BareEarthError(
+    return Outside(
         f"No point cloud of {name_of(address) or shown(address)} has points in the area. Give the"
         " area in the CRS of their points."
     )

@@ -110,7 +110,7 @@ def _by_pyogrio(
                 for place, kind in enumerate(layer.fields.values())
             ]
             shapes = np.empty(len(some), dtype=object)
-            shapes[:] = [_wkb(layer.kind, feature.corners) for feature in some]
+            shapes[:] = [wkb_of(layer.kind, feature.corners) for feature in some]
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # if there is no CRS
                 pyogrio.raw.write(
@@ -155,7 +155,7 @@ def _by_gdal(
             for place, value in enumerate(map(_or_none, feature.values)):
                 if value is not None:
                     record.SetField(place, value)
-            record.SetGeometry(ogr.CreateGeometryFromWkb(_wkb(layer.kind, feature.corners)))
+            record.SetGeometry(ogr.CreateGeometryFromWkb(wkb_of(layer.kind, feature.corners)))
             into.CreateFeature(record)
             count += 1
         into.CommitTransaction()
@@ -181,7 +181,7 @@ def _lists(kind: str, corners: Any) -> list[Any]:
     return places[0] if kind == "Point Z" else places
 
 
-def _wkb(kind: str, corners: Any) -> bytes:
+def wkb_of(kind: str, corners: Any) -> bytes:
     """Return a feature as well-known binary."""
     head = struct.pack("<BI", 1, _KINDS[kind])
     if kind == "Point Z":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 from pathlib import Path
@@ -16,6 +17,7 @@ from .area import Polygon
 from .corrections import CLASS_FIELD, Corrections
 from .shapes import Shapes
 from .vector_library import read_features
+from .wkb import geometries_of
 
 _WKT_PART = re.compile(r"[()]|[^()]+")
 # Errors while reading a text that is not valid GeoJSON or WKT.
@@ -34,40 +36,49 @@ _CRS_NAME = re.compile(r"(EPSG|ESRI|IGNF|OGC|CRS)[:/](?:[\w.]*[:/])?(\w+)$", re.
 _SRID = re.compile(r"\s*SRID\s*=\s*(\d+)\s*;", re.IGNORECASE)
 # Levels of lists: a line is a list of corners, a polygon a list of rings.
 _DEPTHS = {"LineString": 1, "Polygon": 2}
+# How messages name a table of geopandas.
+FRAME = "The GeoDataFrame"
 _WORDS = {"LineString": "line", "Polygon": "polygon", "Point": "point"}
 
 
-def read_boundary(path: Path) -> tuple[Polygon, ...]:
-    """Read the polygons of a file, and nothing else."""
+def is_frame(given: Any) -> bool:
+    """Return whether a user gives a GeoDataFrame or a GeoSeries of geopandas."""
+    return hasattr(given, "geometry") and hasattr(given, "to_crs")
+
+
+def read_boundary(path: Any) -> tuple[Polygon, ...]:
+    """Read the polygons of a file, or of a GeoDataFrame, and nothing else."""
     return _shapes(path, "Polygon", lambda rings, _: _polygon(rings))
 
 
-def read_corrections(path: Path) -> Corrections:
-    """Read the polygons of a file with their classes, and nothing else."""
-    if Path(path).suffix.lower() == ".wkt":
+def read_corrections(path: Any) -> Corrections:
+    """Read the polygons of a file, or of a GeoDataFrame, with their classes, and nothing else."""
+    if not is_frame(path) and Path(path).suffix.lower() == ".wkt":
         raise BareEarthError(f"{path} holds no classes. Give the corrections as GeoJSON.")
     found = _shapes(path, "Polygon", _polygon_with_class)
     polygons, classes = zip(*found)
     return Corrections(Shapes(polygons, found.crs, found.source), classes)
 
 
-def read_lines(path: Path) -> tuple[np.ndarray, ...]:
-    """Read the lines of a file, and nothing else."""
+def read_lines(path: Any) -> tuple[np.ndarray, ...]:
+    """Read the lines of a file, or of a GeoDataFrame, and nothing else."""
     return _shapes(path, "LineString", lambda corners, _: _line(corners))
 
 
-def read_points(path: Path) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
+def read_points(path: Any) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
     """Read x, y and z of the points of a file, as of `read_boundary` but no .wkt, float64 (3,), NaN
     for z where there is none, and all of their attributes.
     """
     return _shapes(path, "Point", lambda place, attributes: (_line([place])[0], attributes))
 
 
-def _shapes(path: Path, kind: str, shape_of: Callable[[Any, dict], Any]) -> Shapes:
+def _shapes(path: Any, kind: str, shape_of: Callable[[Any, dict], Any]) -> Shapes:
     """Return what `shape_of` returns for coordinates and attributes of each geometry of a kind."""
-    what = _WORDS[kind]
-    name = _TEXTS.get(Path(path).suffix.lower())
-    if name is None:
+    what, name = _WORDS[kind], None
+    if is_frame(path):
+        found, crs = _of_frame(path, kind)
+        path = FRAME
+    elif (name := _TEXTS.get(Path(path).suffix.lower())) is None:
         found, crs = read_features(path, kind, None if kind == "Point" else CLASS_FIELD)
     else:
         text = _text_of(path)
@@ -81,6 +92,22 @@ def _shapes(path: Path, kind: str, shape_of: Callable[[Any, dict], Any]) -> Shap
     if not any(map(len, shapes)):
         raise BareEarthError(f"{path} holds no {what}. Give one that does.")
     return Shapes(shapes, crs, str(path))
+
+
+def _of_frame(frame: Any, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:
+    """Return coordinates and attributes of each geometry of a kind, and the CRS of a frame."""
+    shapes, rows = frame.geometry, itertools.repeat({})
+    if hasattr(frame, "columns"):
+        rows = frame.drop(columns=shapes.name).to_dict("records")
+    found = (
+        (coordinates, attributes)
+        for data, attributes in zip(shapes.to_wkb(), rows)
+        for name, coordinates in (geometries_of(data) if data else ())
+        if name == kind
+    )
+    if shapes.crs is None:
+        return found, None
+    return found, ":".join(shapes.crs.to_authority() or ()) or shapes.crs.to_wkt()
 
 
 def _text_of(path: Path) -> str:

@@ -123,6 +123,16 @@ def draw_contours(
 ) -> Interval:
     """Write the contour lines of a raster into a new file; see `write_contours`."""
     raster = read_raster(source, window=NO_CELLS)
+    interval, layer, features = contours_of(raster, contours, progress)
+    count = feature_writer(output)(output, features, layer, progress)
+    progress.info(f"{count:,} contour lines, one every {interval.in_words()}")
+    return interval
+
+
+def contours_of(
+    raster: Raster, contours: Contours, progress: Progress
+) -> tuple[Interval, Layer, Iterator[Feature]]:
+    """Return the contour lines of a raster."""
     low, high = _range_of(raster, progress.part(0.0, 0.2))
     height = contours.interval(low, high, raster.frame.vertical_unit)
     interval = Interval(height, raster.unit_symbol)
@@ -138,9 +148,7 @@ def draw_contours(
     features = (
         Feature((number, line.height, int(line.is_index)), line.corners) for number, line in lines
     )
-    count = feature_writer(output)(output, features, layer, progress)
-    progress.info(f"{count:,} contour lines, one every {interval.in_words()}")
-    return interval
+    return interval, layer, features
 
 
 def _range_of(raster: Raster, progress: Progress) -> tuple[float, float]:

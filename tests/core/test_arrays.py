@@ -9,7 +9,8 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
-from surveys import ORIGIN, strip, write
+from surveys import ORIGIN, strip, write, write_points
+from test_water import lake_scene
 
 import bare_earth
 from bare_earth import arrays
@@ -59,12 +60,18 @@ def as_pyarrow(table):
     return pytest.importorskip("pyarrow").table(table)
 
 
+def as_geopandas(table):
+    geopandas = pytest.importorskip("geopandas")
+    x, y, z = (table.pop(name) for name in "XYZ")
+    return geopandas.GeoDataFrame(table, geometry=geopandas.points_from_xy(x, y, z), crs=25832)
+
+
 def test_all_functions_are_listed():
     assert sorted(FUNCTIONS) == array_names()
     assert set(array_names()) < set(dir(arrays))
 
 
-@pytest.mark.parametrize("kind", [dict, structured, as_pandas, as_pyarrow])
+@pytest.mark.parametrize("kind", [dict, structured, as_pandas, as_pyarrow, as_geopandas])
 def test_a_table_gets_the_labels_of_the_file(files, kind):
     raw, done = files
     found = arrays.classify(kind(columns(laspy.read(str(raw)))))
@@ -167,6 +174,74 @@ def test_xarray_has_the_conventions_of_rioxarray(files, tmp_path):
     assert tuple(array.rio.transform())[:6] == raster.transform
 
 
+def frame(corners, crs=25832, kind="polygons", **columns):
+    geopandas, shapely = pytest.importorskip("geopandas"), pytest.importorskip("shapely")
+    shapes = getattr(shapely, kind)(np.array(corners) + np.array(ORIGIN)[: np.shape(corners)[-1]])
+    return geopandas.GeoDataFrame(columns, geometry=np.atleast_1d(shapes), crs=25832).to_crs(crs)
+
+
+@pytest.mark.parametrize("crs", [25832, 4326, 25833])
+def test_areas_of_geopandas_are_brought_to_the_crs_of_the_points(files, crs):
+    las = laspy.read(str(files[0]))
+    square = [(40, 20), (140, 20), (140, 100), (40, 100), (40, 20)]
+    x, y = np.asarray(las.x) - ORIGIN[0], np.asarray(las.y) - ORIGIN[1]
+    near = (x > 39) & (x < 141) & (y > 19) & (y < 101)
+    inside = (x > 41) & (x < 139) & (y > 21) & (y < 99)
+    found = arrays.classify(las, crs=25832, boundary=frame(square, crs))
+    assert (found[~near] == 1).all() and (found[inside] == 2).mean() > 0.5
+    wall = [(50.5, 10, 66), (50.5, 90, 66)]
+    rasters = dict(crs=25832, rasters="dtm", classification=classes_of(files[1]))
+    lines = None, [np.array(wall) + ORIGIN], frame(wall, crs, "linestrings")
+    without, given, dtm = (
+        arrays.terrain(las, breaklines=some, **rasters)["dtm"].values for some in lines
+    )
+    assert np.nanmax(np.abs(dtm - given)) < 0.01 < np.nanmax(np.abs(dtm - without))
+    known = frame(square, crs, **{"class": [6]})
+    assert (arrays.classify(las, crs=25832, corrections=known)[inside] == 6).all()
+    with pytest.raises(bare_earth.BareEarthError, match="The GeoDataFrame holds no line"):
+        arrays.terrain(las, breaklines=known, **rasters)
+
+
+def test_features_are_those_of_the_files_functions(files, tmp_path):
+    geopandas = pytest.importorskip("geopandas")
+    las, crs = laspy.read(str(files[1])), "EPSG:25832"
+    dtm, lines = tmp_path / "dtm.tif", tmp_path / "lines.geojson"
+    bare_earth.terrain(files[1], dtm=dtm, crs=crs, raster_nodata=None)
+    bare_earth.contours(dtm, lines, interval=2.0)
+    raster = arrays.terrain(las, crs=crs)["dtm"]
+    contours = arrays.contours(raster, interval=2.0).to_geopandas()
+    wanted = geopandas.read_file(lines)
+    assert list(contours.columns) == list(wanted.columns) and contours.crs == wanted.crs
+    assert contours.ELEV.tolist() == wanted.ELEV.tolist() and len(contours) > 5
+    assert contours.geometry.geom_equals_exact(wanted.geometry, 0.002).all()
+    with pytest.raises(bare_earth.BareEarthError, match="Give a raster of heights"):
+        arrays.contours(arrays.terrain(las, rasters="hillshade")["hillshade"])
+
+    points = frame([(50, 50, 63), (90, 70, 65), (200, 30, 72)], 4326, "points", NAME=list("abc"))
+    errors = arrays.residuals(las, checkpoints=points, crs=crs).to_geopandas()
+    bare_earth.check(files[1], checkpoints=points, crs=crs, residuals=lines)
+    wanted = geopandas.read_file(lines)
+    assert errors.ERROR.tolist() == wanted.ERROR.tolist() and errors.NAME.tolist() == list("abc")
+    assert errors.crs.to_epsg() == 25832 and np.isfinite(errors.ERROR).any()
+
+    confidence = arrays.confidence(las, crs=crs, dtm_cell_size=2.0)
+    same = arrays.terrain(las, rasters="confidence", crs=crs, dtm_cell_size=2.0)["confidence"]
+    assert np.array_equal(confidence.values, same.values, equal_nan=True)
+
+
+def test_water_is_that_of_the_file(tmp_path):
+    geopandas = pytest.importorskip("geopandas")
+    scene = lake_scene("sparse")
+    source = write_points(tmp_path / "a.laz", scene.x, scene.y, scene.z, scene.classes, crs=25832)
+    bare_earth.water(source, tmp_path / "water.gpkg", breaklines_out=tmp_path / "lines.gpkg")
+    found = arrays.water(laspy.read(str(source)))
+    for name, path in (("water", "water.gpkg"), ("breaklines", "lines.gpkg")):
+        wanted, frame = geopandas.read_file(tmp_path / path), found[name].to_geopandas()
+        assert len(frame) and frame.geometry.geom_equals(wanted.geometry).all()
+        columns = frame.columns.drop("geometry").tolist()
+        assert frame[columns].to_csv() == wanted[columns].to_csv()
+
+
 def test_progress_is_a_callable_or_a_bar_of_tqdm(files):
     tqdm = pytest.importorskip("tqdm")
     las, shares = laspy.read(str(files[0])), []
@@ -224,26 +299,50 @@ def test_ground_that_is_not_there_is_told():
         arrays.terrain(X, X, X, cell_size=1)
 
 
-def test_mypy_accepts_a_script(tmp_path):
-    script = tmp_path / "script.py"
-    script.write_text(
-        "import laspy\nimport numpy as np\nfrom bare_earth import arrays\n"
-        "las = laspy.read('a.laz')\nmask = arrays.ground(las, method='slope', progress=print)\n"
-        "xyz = np.zeros((9, 3))\nheights = arrays.heights(xyz, ground=mask, crs='EPSG:25832')\n"
-        "print(heights.mean() + 1.0, mask.sum())\n"
-        "dtm = arrays.terrain(las, ground=mask, rasters=['dtm'])['dtm']\n"
-        "print(dtm.transform[0], dtm.values.shape, arrays.check(las).hold_out_rmse)\n"
-        "arrays.ground(las, metod='slope')\n"
-    )
+SCRIPT = """
+import laspy
+import numpy as np
+from bare_earth import arrays
+las = laspy.read('a.laz')
+mask = arrays.ground(las, method='slope', progress=print)
+xyz = np.zeros((9, 3))
+heights = arrays.heights(xyz, ground=mask, crs='EPSG:25832')
+print(heights.mean() + 1.0, mask.sum())
+dtm = arrays.terrain(las, ground=mask, rasters=['dtm'])['dtm']
+print(dtm.transform[0], dtm.values.shape, arrays.check(las).hold_out_rmse)
+lines = arrays.contours(dtm, interval=2.0)
+print(lines.values['ELEV'], lines.to_geopandas(), arrays.confidence(las).values.max())
+blocks = arrays.blocks(['tiles', 'https://example.org/a.copc.laz'], preset='hilly')
+print(blocks[0].extent[0], blocks[0]()['X'].mean(), arrays.terrain(blocks)['dtm'].values)
+arrays.ground(las, metod='slope')
+"""
+
+
+@pytest.fixture
+def script(tmp_path):
     (tmp_path / "bare_earth").symlink_to(ROOT, target_is_directory=True)
+    (tmp_path / "script.py").write_text(SCRIPT)
+    return tmp_path / "script.py"
+
+
+def only_error(command, script, mark):
+    command = [sys.executable, "-m", *map(str, command), str(script)]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=script.parent)
+    (line,) = (line for line in done.stdout.splitlines() if mark in line)
+    assert "script.py:16" in line and "metod" in line
+
+
+def test_mypy_accepts_a_script(script, tmp_path):
     (tmp_path / "mypy.ini").write_text(
         f"[mypy]\nstrict = True\nfollow_imports = silent\nignore_missing_imports = True\n"
         f"mypy_path = {tmp_path}\ncache_dir = {ROOT / 'build' / 'mypy-user'}\n"
     )
-    command = [sys.executable, "-m", "mypy", "--config-file", tmp_path / "mypy.ini", script]
-    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
-    (line,) = (line for line in done.stdout.splitlines() if ": error: " in line)
-    assert line.startswith("script.py:11") and 'Unexpected keyword argument "metod"' in line
+    only_error(["mypy", "--config-file", tmp_path / "mypy.ini"], script, ": error: ")
+
+
+def test_pyright_accepts_a_script(script):
+    pytest.importorskip("pyright")
+    only_error(["pyright", "--pythonpath", sys.executable], script, " error: ")
 
 
 @pytest.mark.long

@@ -40,6 +40,8 @@ USES = {
     "remote": "import zstandard\n"
     "done = bare_earth.fetch('s3://lidar/tile.copc.laz', 'part.laz'); assert done.point_count\n"
     "assert bare_earth.info('s3://lidar/tile.laz', cache='kept').point_count == done.point_count",
+    "geopandas": "dtm = arrays.terrain(laspy.read('ground.laz'))['dtm']\n"
+    "assert arrays.contours(dtm).to_geopandas().ELEV.min() > 0",
     "all": "bare_earth.terrain('ground.laz', contours='lines.gpkg', crs='EPSG:25832')",
 }
 pytestmark = pytest.mark.long

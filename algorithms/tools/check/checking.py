@@ -17,6 +17,7 @@ from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
 from ...report.units import round_length
 from ...survey.feature_files import FORMATS as LAYERS
+from ...survey.feature_files import feature_writer
 from ...survey.files import Inputs
 from ...survey.ground_classes import GroundClasses
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, TIN, FileTool, Input, Output
@@ -26,7 +27,7 @@ from .hold_out import HoldOut, hold_out
 from .land_covers import VVA
 from .page import checkpoint_html
 from .reading import FORMATS
-from .residuals import Residuals, residuals_of, write_layer, write_table
+from .residuals import Residuals, layer_of, residuals_of, write_table
 from .results import COUNTED, NOT_STATED, REASONS, Check
 from .survey_ground import SurveyGround
 
@@ -110,7 +111,8 @@ def check_points(
     if check.doubt:
         progress.warning(f"{check.doubt} {NOT_STATED}")
     if residuals and found is not None:
-        write_layer(residuals, found, points.survey, progress)
+        layer, features = layer_of(found, points.survey.crs)
+        feature_writer(residuals)(residuals, features, layer, progress)
     if table and found is not None:
         write_table(table, found)
     if report:

@@ -12,7 +12,7 @@ import numpy as np
 from ...core.errors import BareEarthError
 from ...crs.stated import stated_wkt
 from ...survey.shapes import Shapes
-from ...survey.vector_files import read_points
+from ...survey.vector_files import is_frame, read_points
 from .checkpoints import Checkpoints, OtherHeights
 from .columns import ColumnName, answer_in, columns_in, columns_of, parts_of
 from .tables import SUFFIXES, number_of, places_without_names, read_table
@@ -37,12 +37,12 @@ class Record(NamedTuple):
     place: np.ndarray | None = None  # float64 (3,); z is NaN without one, None for rows of tables
 
 
-def read_checkpoints(
-    path: Path | str, columns: str | None = None, crs: str | None = None
-) -> Checkpoints:
-    """Read checkpoints from a table or a vector file."""
-    chosen, path = columns_in(columns), Path(path)
-    suffix = path.suffix.lower()
+def read_checkpoints(path: Any, columns: str | None = None, crs: str | None = None) -> Checkpoints:
+    """Read checkpoints from a table, a vector file or a GeoDataFrame."""
+    chosen, suffix = columns_in(columns), ""
+    if not is_frame(path):
+        path = Path(path)
+        suffix = path.suffix.lower()
     if suffix == ".wkt":
         raise BareEarthError(f"{path} holds no names and land covers. Give CSV or GeoJSON.")
     usual = None
@@ -58,6 +58,7 @@ def read_checkpoints(
         ]
     else:
         points = read_points(path)
+        path = getattr(points, "source", path)
         stated = getattr(points, "crs", None)
         names = list(dict.fromkeys(name for _, attributes in points for name in attributes))
         records = [

@@ -9,10 +9,11 @@ from typing import Any, Iterator, NamedTuple
 import numpy as np
 
 from ...core.errors import BareEarthError, printable
-from ...core.progress import SILENT, Progress
+from ...core.progress import Progress
+from ...crs.system import Crs
 from ...crs.unit_names import FOOT
 from ...rasters.sampling import FAR_BELOW, HeightRaster, HeightSampler
-from ...survey.feature_files import Feature, Layer, feature_writer
+from ...survey.feature_files import Feature, Layer
 from ...survey.files import Survey
 from .checkpoints import Checkpoints
 from .land_covers import CONTROL, LandCovers, kinds_of
@@ -214,13 +215,10 @@ def _cause(offset: float) -> str:
     )
 
 
-def write_layer(
-    target: Path, found: Residuals, survey: Survey, progress: Progress = SILENT
-) -> None:
-    """Write the checkpoints with their errors as a layer of points."""
-    layer = Layer("checkpoints", "Point Z", FIELDS, survey.crs.wkt, survey.crs.epsg)
-    features = (Feature(row[2:], place) for row, place in zip(found.rows(), found.xyz[:, None]))
-    feature_writer(target)(target, features, layer, progress)
+def layer_of(found: Residuals, crs: Crs) -> tuple[Layer, Iterator[Feature]]:
+    """Return the checkpoints with their errors as a layer of points."""
+    layer = Layer("checkpoints", "Point Z", FIELDS, crs.wkt, crs.epsg)
+    return layer, (Feature(row[2:], place) for row, place in zip(found.rows(), found.xyz[:, None]))
 
 
 def write_table(target: Path, found: Residuals) -> None:

@@ -112,26 +112,32 @@ class SurveyWater:
         for number, line in self.breaklines:
             yield Feature((number, "breakline"), self._in_crs(line))
 
+    def layers(self) -> tuple[tuple[Layer, Iterator[Feature]], ...]:
+        """Return the polygons and the breaklines."""
+        crs = self.crs.wkt, self.crs.epsg
+        return (
+            (Layer("water", "Polygon", FIELDS, *crs), self.polygons()),
+            (Layer("breaklines", "LineString Z", LINE_FIELDS, *crs), self.lines()),
+        )
+
     def write(self, polygons: Path | None, lines: Path | None, progress: Progress) -> None:
         """Write the polygons and the breaklines into new files, if they are given."""
-        layers = (
-            (polygons, "water", "Polygon", FIELDS, self.polygons()),
-            (lines, "breaklines", "LineString Z", LINE_FIELDS, self.lines()),
-        )
-        for path, name, kind, fields, features in layers:
+        for path, (layer, features) in zip((polygons, lines), self.layers()):
             if path is not None:
-                layer = Layer(name, kind, fields, self.crs.wkt, self.crs.epsg)
                 feature_writer(path)(path, features, layer, progress)
 
 
 def water_of(
-    sources: Inputs,
+    sources: Inputs | SurveyGround,
     how: Water = Water(),
     classes: GroundClasses = GroundClasses(),
     progress: Progress = SILENT,
 ) -> tuple[SurveyWater, WaterSummary]:
     """Find the water of a survey, read in parts, so that memory depends on the area only."""
-    survey = SurveyGround.of(sources, classes, progress.part(0.0, 0.05))
+    if isinstance(sources, SurveyGround):
+        survey = sources
+    else:
+        survey = SurveyGround.of(sources, classes, progress.part(0.0, 0.05))
     unit = survey.frame.horizontal_unit
     boxes = np.array([tile.outer_box for tile in survey.survey.tiles]) * unit
     area = float((boxes[:, 2:] - boxes[:, :2]).prod(axis=1).sum())

@@ -1,0 +1,170 @@
+"""Functions on arrays that tell of the ground: errors at checkpoints, water, contour lines."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, Iterator
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.progress import Progress
+from ..core.threads import available_cpus, may_use
+from ..las.cloud import PointCloud
+from ..survey.ground_classes import GroundClasses, GroundCounts
+from ..tools.check.accuracy import Accuracy
+from ..tools.check.checking import CheckOptions, check_points
+from ..tools.check.residuals import layer_of, residuals_of
+from ..tools.check.results import Check
+from ..tools.check.survey_ground import SurveyGround
+from ..tools.contours import Contours, contours_of
+from ..tools.water.finding import Water
+from ..tools.water.tool import water_of
+from . import arguments
+from .arguments import REQUIRED, Argument, Kind
+from .array_arguments import ATTRIBUTES, GROUND, LAST, POINTS
+from .features import Features, heights_of
+from .functions import Function
+from .given import checkpoints_of, progress_of
+from .points import cloud_with_ground
+
+
+class _CloudGround(SurveyGround):
+    """The ground points of a cloud in memory."""
+
+    def __init__(self, cloud: PointCloud, ground: GroundClasses) -> None:
+        # As that of a file, so that cells begin at the same places.
+        (west, south, east, north), (x, y) = cloud.box, cloud.scale[:2]
+        box = west - x, south - y, east + x, north + y
+        tile = SimpleNamespace(path=cloud.path, count=cloud.count, outer_box=box)
+        survey: Any = SimpleNamespace(crs=cloud.crs, tiles=(tile,), box=box, count=cloud.count)
+        super().__init__(survey, ground)
+        self._cloud = cloud
+
+    def parts(
+        self, progress: Progress, near: np.ndarray | None = None, reach: float = 0.0
+    ) -> Iterator[tuple[PointCloud, np.ndarray]]:
+        """Yield the points in parts, and which of them are ground."""
+        self.counts = GroundCounts()
+        for where, part in self._cloud.parts():
+            yield part, self.ground.of(part, self.counts)
+            progress(where.stop / self._cloud.count)
+
+
+def _ground_points(values: SimpleNamespace, sets: list[Any]) -> _CloudGround:
+    """Return the ground points that the arguments of a function give."""
+    cloud = cloud_with_ground(values, GroundClasses.among(sets), progress_of(values.progress))
+    return _CloudGround(cloud, GroundClasses.among(sets))
+
+
+def _check(values: SimpleNamespace, sets: list[Any]) -> Check:
+    """Return the errors at checkpoints, or at points that are held out."""
+    progress, ground = progress_of(values.progress), GroundClasses.among(sets)
+    with may_use(available_cpus()):
+        return check_points(
+            _ground_points(values, sets),
+            checkpoints_of(values),
+            vegetated=values.vegetated,
+            accuracy=Accuracy.among(sets),
+            options=CheckOptions.among(sets),
+            ground=ground,
+            progress=progress,
+        )
+
+
+_VEGETATED = Argument.of(
+    "vegetated", "words", "land covers with one of these words are vegetated, and no others"
+)
+
+
+def of_check() -> Function:
+    """Return the function `check`."""
+    return Function(
+        "check",
+        "Compare the ground with checkpoints, or with ground points that are held out.\nThe figures"
+        " are those of check() for a file with the same points.",
+        POINTS,
+        (
+            GROUND, *ATTRIBUTES, *arguments.of_group("checkpoints"), _VEGETATED, *LAST,
+        ),
+        (Accuracy, CheckOptions, GroundClasses),
+        _check,
+        Check,
+    )  # fmt: skip
+
+
+def _residuals(values: SimpleNamespace, sets: list[Any]) -> Features:
+    """Return checkpoints with their errors."""
+    points, options = _ground_points(values, sets), CheckOptions.among(sets)
+    checkpoints = checkpoints_of(values)
+    if checkpoints is None:
+        raise BareEarthError("Give checkpoints.")
+    with may_use(available_cpus()):
+        found = residuals_of(
+            points, checkpoints, (None, None), tuple(values.vegetated or ()), options.max_edge,
+            options.min_confidence, progress_of(values.progress),
+        )  # fmt: skip
+    return Features.of(*layer_of(found, points.survey.crs))
+
+
+def of_residuals() -> Function:
+    """Return the function `residuals`."""
+    return Function(
+        "residuals",
+        "Measure the error of the ground at each checkpoint.\nThe values are those of the layer"
+        " that check() writes.",
+        POINTS,
+        (GROUND, *ATTRIBUTES, *arguments.of_group("checkpoints"), _VEGETATED, *LAST),
+        (CheckOptions, GroundClasses),
+        _residuals,
+        gives=Kind("Features", "The checkpoints: STATE, and where it is counted ERROR in metres."),
+    )
+
+
+def _water(values: SimpleNamespace, sets: list[Any]) -> dict[str, Features]:
+    """Return water and its breaklines by their names."""
+    classes, progress = GroundClasses.among(sets), progress_of(values.progress)
+    with may_use(available_cpus()):
+        points = _ground_points(values, sets)
+        found, _ = water_of(points, Water.among(sets), classes, progress=progress)
+    return {layer.name: Features.of(layer, features) for layer, features in found.layers()}
+
+
+def of_water() -> Function:
+    """Return the function `water`."""
+    return Function(
+        "water",
+        "Find lakes and rivers.\nThe polygons and lines are those that water() writes for a file"
+        " with the same points.",
+        POINTS,
+        (GROUND, *ATTRIBUTES, *LAST),
+        (Water, GroundClasses),
+        _water,
+        gives=Kind(
+            "dict[str, Features]",
+            '"water", polygons, and "breaklines", lines with heights: shores, islands, rivers.',
+        ),
+    )
+
+
+def _contours(values: SimpleNamespace, sets: list[Any]) -> Features:
+    """Return the contour lines of a raster."""
+    contours, progress = Contours.among(sets), progress_of(values.progress)
+    _, layer, features = contours_of(heights_of(values.raster), contours, progress)
+    return Features.of(layer, features)
+
+
+def of_contours() -> Function:
+    """Return the function `contours`."""
+    raster = 'a raster of heights, such as terrain(points)["dtm"]'
+    return Function(
+        "contours",
+        "Draw contour lines of a terrain model, of its heights smoothed for the lines only.\nThe"
+        " lines are those that contours() writes for a file with the same cells.",
+        (Argument("raster", Kind("Raster", "Raster"), raster, REQUIRED),),
+        (arguments.PROGRESS,),
+        (Contours,),
+        _contours,
+        flags={"contour_interval": "interval"},
+        gives=Kind("Features", "The lines: ELEV is the height, INDEX 1 for every fifth line."),
+    )

@@ -1,0 +1,274 @@
+"""A survey of many files as blocks: tasks that can be pickled, and that run anywhere."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, Iterator, NamedTuple
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.points import Box, box_round
+from ..core.progress import Progress
+from ..core.threads import SharedThreads
+from ..crs.matching import described, is_same_crs
+from ..crs.measurable import require_measurable
+from ..crs.stated import HOW, stated_wkt
+from ..crs.system import Crs
+from ..engine.block_grid import BlockGrid, BlockIndex, code, places_of
+from ..engine.jobs import PointJob
+from ..engine.memory import Resources
+from ..engine.memory_store import MemoryStore
+from ..engine.options import TileInput
+from ..engine.step import placed
+from ..engine.values import BlockFiles
+from ..las.cloud import PointCloud, survey_frame
+from ..las.opening import open_las
+from ..remote.addresses import shown
+from ..remote.cache import Surroundings, bring_here, cache_of, look
+from ..remote.fetching import Wanted
+from ..survey.files import Inputs, open_survey
+from ..survey.shapes import Outside, Place
+from ..survey.window import may_touch, read_window
+from ..tools import map_tool
+from .given import corrections_of, progress_of
+from .remote_points import is_remote, most_bytes, several, stated_crs
+
+# A task works in one thread, since others work at the same time.
+ONE_THREAD = Resources(threads=1)
+_COLUMNS = {
+    "Classification": "classification", "ReturnNumber": "return_number",
+    "NumberOfReturns": "number_of_returns", "Withheld": "withheld", "Overlap": "overlap",
+}  # fmt: skip
+
+
+class _Source(NamedTuple):
+    """A point cloud."""
+
+    name: str  # path or address
+    box: Box
+    outer: Box  # the same wider by what rounding can do
+
+
+class _Work(NamedTuple):
+    """How the points of a block are read and classified."""
+
+    grid: BlockGrid  # of the step that classifies
+    place: BlockIndex
+    is_classified: bool
+    box: Box  # of the points in the block, as far as files state theirs, in units of the CRS
+    crs: Crs
+    cache: Path | None  # None for the usual folder
+    most: float  # bytes that may be fetched
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Block:
+    """A block of a survey, as a task: a call reads its points, and classifies them.
+
+    A block holds no points and can be pickled. So Dask, joblib, Ray and others can call it wherever
+    the files have the same names.
+
+    Attributes
+    ----------
+    extent : tuple of float
+        Smallest x and y, largest x and y, in units of the CRS: of the points that a call returns.
+        Those on the eastern and northern border belong to the next blocks.
+    window : tuple of float
+        The same with the margin whose points help to classify: what a call reads.
+    sources : tuple of str
+        The files or addresses that may have points in the window.
+    crs : str or None
+        The CRS as well-known text (WKT), None if it is not known.
+    """
+
+    extent: Box
+    window: Box
+    sources: tuple[str, ...]
+    crs: str | None
+    work: _Work
+
+    def __repr__(self) -> str:
+        west, south, east, north = self.extent
+        return f"Block(x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g})"
+
+    def __call__(self, progress: Any = None) -> dict[str, np.ndarray]:
+        """Return the points in the block, as a table that functions on arrays take.
+
+        Parameters
+        ----------
+        progress : Progress, bar of tqdm, or callable that takes a float, optional
+            Receives the share of the work that is done.
+
+        Returns
+        -------
+        dict of numpy.ndarray
+            X, Y, Z, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap, each of
+            shape (n,), where n can be 0. All blocks together have the points of all files.
+
+        Raises
+        ------
+        BareEarthError
+            If a file cannot be read.
+        """
+        clouds = points_of(self, progress_of(progress))
+        table: dict[str, list[np.ndarray]] = {name: [] for name in (*"XYZ", *_COLUMNS)}
+        for cloud in clouds:
+            x, y = cloud.coordinates()
+            for name, axis in zip("XYZ", (x, y, cloud.z * cloud.scale[2] + cloud.offset[2])):
+                table[name].append(axis)
+            for name, field in _COLUMNS.items():
+                values = getattr(cloud, field)
+                table[name].append(np.zeros(cloud.count, bool) if values is None else values)
+        kinds = {**dict.fromkeys("XYZ", np.float64), "Withheld": np.bool_, "Overlap": np.bool_}
+        return {
+            name: np.concatenate([np.zeros(0, kinds.get(name, np.uint8)), *parts])
+            for name, parts in table.items()
+        }
+
+
+def are_blocks(points: Any) -> bool:
+    """Return whether a user gives blocks in the place of points."""
+    return isinstance(points, (list, tuple)) and any(isinstance(one, Block) for one in points)
+
+
+def blocks_of(values: SimpleNamespace, sets: list[Any]) -> list[Block]:
+    """Return the blocks of files and addresses, from south to north."""
+    progress = progress_of(values.progress)
+    inputs = {"input": Inputs((), is_survey=True), "corrections": corrections_of(values)}
+    (step,) = map_tool("classify").steps(sets, inputs, {})
+    stated, cache = stated_wkt(values.crs), values.cache and cache_of(values.cache)
+    given = several(values.sources)
+    found = list(_local([one for one in given if not is_remote(one)], sets, stated, progress))
+    for seen in look([one for one in given if is_remote(one)], cache_of(cache), progress):
+        found.append((seen.address, stated_crs(values.crs) or seen.crs, seen.box, None))
+    crs, box = found[0][1], box_round(np.array([box for _, _, box, _ in found]))
+    for name, other, _, _ in found:
+        _check_same(name, other, crs)
+    require_measurable("The survey", crs, box)
+    (step,) = placed([step], Place("the files", crs, box), progress)
+    grid = BlockGrid(survey_frame(crs), step, stated)
+    inside: dict[BlockIndex, list[_Source]] = {}
+    for name, _, box, tile in found:
+        source = _Source(name, box, tile.outer_box if tile else box)
+        for place in places_of(grid, tile) if tile else indices(grid, box):
+            inside.setdefault(place, []).append(source)
+    wanted = set(inside)
+    if values.extent is not None:
+        west, south, east, north = map(float, values.extent)
+        wanted &= {*indices(grid, (west, south, east, north))}
+        if not wanted:
+            raise BareEarthError(
+                "No block lies in the extent. Give the extent in the CRS of the points."
+            )
+    made = []
+    for place in sorted(wanted, key=lambda place: (place.row, place.column)):
+        extent = in_crs(grid, grid.blocks.block(*place).box)
+        window = extent if values.classified else grid.window([place])
+        near = {one for other in indices(grid, window) for one in inside.get(other, ())}
+        names = sorted(one.name for one in near if touch(one.outer, window))
+        whole = box_round(np.array([source.box for source in inside[place]]))
+        work = _Work(
+            grid, place, values.classified, shared_by(extent, whole), crs, cache, most_bytes(values)
+        )
+        made.append(Block(extent, window, tuple(names), crs.wkt, work))
+    return made
+
+
+def _local(
+    paths: list[Any], sets: list[Any], stated: str | None, progress: Progress
+) -> Iterator[tuple[str, Crs, Box, Any]]:
+    """Yield path, CRS, extent and header of each file; all must be readable."""
+    if not paths:
+        return
+    inputs = Inputs(paths, is_survey=True)
+    survey = open_survey(inputs.read_as(stated, TileInput.among(sets).recursive), progress)
+    if survey.broken:  # it would look like a void
+        raise BareEarthError(survey.broken[0].reason)
+    for tile in survey.tiles:
+        yield str(tile.path), survey.crs, tile.box, tile
+
+
+def _check_same(name: str, crs: Crs, other: Crs) -> None:
+    """Refuse a point cloud in another CRS than the others."""
+    if not is_same_crs(crs, other):
+        raise BareEarthError(
+            f"{shown(name)} is in another CRS ({described(crs)}) than others"
+            f" ({described(other)}). Reproject them to one CRS. If they are in one CRS all the"
+            f" same, give it: {HOW}."
+        )
+
+
+def in_crs(grid: BlockGrid, metres: Box) -> Box:
+    """Return a box in units of the CRS, given in metres of the frame of a grid."""
+    west, south, east, north = np.array(metres) / grid.frame.horizontal_unit
+    x, y = grid.frame.origin
+    return float(west + x), float(south + y), float(east + x), float(north + y)
+
+
+def indices(grid: BlockGrid, box: Box) -> list[BlockIndex]:
+    """Return where the blocks lie that touch a box in units of the CRS, from south to north."""
+    columns, rows = grid.places_in(box)
+    return [BlockIndex(column, row) for row in rows for column in columns]
+
+
+def touch(box: Box, other: Box) -> bool:
+    """Return whether two boxes touch."""
+    west, south, east, north = other
+    return box[0] <= east and box[2] >= west and box[1] <= north and box[3] >= south
+
+
+def shared_by(box: Box, other: Box) -> Box:
+    """Return what two boxes share."""
+    west, south = max(box[0], other[0]), max(box[1], other[1])
+    return west, south, min(box[2], other[2]), min(box[3], other[3])
+
+
+def points_of(block: Block, progress: Progress) -> list[PointCloud]:
+    """Return the points in a block with their classes, those of each file as one cloud."""
+    work, kept = block.work, []
+    grid, number = work.grid, code(work.place)
+    clouds = _read(block, progress.part(0.0, 1.0 if work.is_classified else 0.3))
+    if work.is_classified:
+        return [cloud.take(np.flatnonzero(grid.codes(cloud) == number)) for cloud in clouds]
+    job = PointJob((), None, BlockFiles(grid, {work.place: Path()}), (), 0.0)
+    store = MemoryStore(grid.frame, grid.blocks, grid.step.kind)
+    with SharedThreads(1).used():
+        failure = job.find(
+            clouds, store, ONE_THREAD, progress.part(0.3, 1.0), lambda *part: kept.append(part)
+        )
+    if failure:
+        progress.warning(failure)
+    found = []
+    for which, (cloud, blocks) in enumerate(kept):
+        inside = np.flatnonzero(blocks)
+        values = store.values(which)[inside]
+        values = np.zeros_like(values) if failure else values
+        found.append(grid.step.applied(cloud.take(inside), values))
+    return found
+
+
+def _read(block: Block, progress: Progress) -> Iterator[PointCloud]:
+    """Yield the points of each file in the window of a block."""
+    work, paths = block.work, [Path(name) for name in block.sources if not is_remote(name)]
+    remote, fetched = [name for name in block.sources if is_remote(name)], {}
+    if remote:
+        wanted = Wanted(Surroundings(block.window), most=work.most)
+        advice = "Allow more, by the argument limit"
+        with contextlib.suppress(Outside):
+            here = bring_here(remote, wanted, cache_of(work.cache), advice, progress.quiet())
+            fetched = here.paths
+    paths += fetched
+    for path, part in zip(paths, progress.shares(*[1.0] * len(paths))):
+        las = open_las(path, work.grid.stated)
+        if not may_touch(las, block.window):
+            continue
+        cloud = read_window(las, block.window, part, trust_header=True)
+        if path in fetched:
+            # A list can say what is not true.
+            _check_same(fetched[path], cloud.crs, work.crs)
+        if cloud.count:
+            yield cloud

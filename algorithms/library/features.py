@@ -1,0 +1,87 @@
+"""Points, lines and polygons in memory, as functions on arrays return them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Iterable
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..survey.feature_files import Feature, Layer, wkb_of
+from .rasters import Raster
+
+
+@dataclass(frozen=True, eq=False)
+class Features:
+    """Points, lines or polygons in memory, with their values.
+
+    Attributes
+    ----------
+    kind : str
+        "Point Z", "LineString", "LineString Z" or "Polygon".
+    geometries : list
+        Corners in units of the CRS: an array (1, 3) for each point, (n, 2) or (n, 3) for each
+        line, and for each polygon a list of closed rings (n, 2), of which the first is the border.
+    values : dict of list
+        One value for each geometry, by the names of the fields.
+    crs : str or None
+        The CRS as well-known text (WKT), None if it is not known.
+    name : str
+        What they are, such as "contours".
+    """
+
+    kind: str
+    geometries: list[Any]
+    values: dict[str, list[Any]]
+    crs: str | None
+    name: str
+
+    @classmethod
+    def of(cls, layer: Layer, features: Iterable[Feature]) -> Features:
+        """Return features that could be written as well."""
+        found = [*features]
+        columns = {name: [one.values[i] for one in found] for i, name in enumerate(layer.fields)}
+        return cls(layer.kind, [one.corners for one in found], columns, layer.wkt, layer.name)
+
+    def to_geopandas(self) -> Any:
+        """Return the features as `geopandas.GeoDataFrame`.
+
+        Returns
+        -------
+        geopandas.GeoDataFrame
+            With a column for each field, and the CRS.
+
+        Raises
+        ------
+        BareEarthError
+            If geopandas is not installed.
+        """
+        try:
+            import geopandas
+        except ImportError:
+            raise BareEarthError("This needs geopandas: pip install geopandas.") from None
+        shapes = [wkb_of(self.kind, corners) for corners in self.geometries]
+        geometry = geopandas.GeoSeries.from_wkb(shapes, crs=self.crs)
+        return geopandas.GeoDataFrame(self.values, geometry=geometry)
+
+
+def heights_of(raster: Any) -> Any:
+    """Return a raster of heights in memory as one that was read from a file."""
+    from ..crs.system import Crs, crs_of_wkt
+    from ..las.cloud import survey_frame
+    from ..rasters.geotiff import Raster as ReadRaster
+
+    class InMemory(ReadRaster):
+        def rows(self, start: int, end: int) -> np.ndarray:
+            return self.heights[max(start, 0) : end]
+
+    if not isinstance(raster, Raster) or raster.values.ndim != 2 or raster.values.dtype.kind != "f":
+        raise BareEarthError('Give a raster of heights, such as terrain(points)["dtm"].')
+    heights = np.asarray(raster.values)  # of dask arrays as well
+    if not np.isnan(raster.nodata):
+        heights = np.where(heights == np.float32(raster.nodata), np.float32(np.nan), heights)
+    size, _, west, _, height, north = raster.transform
+    crs = (crs_of_wkt(raster.crs) if raster.crs else None) or Crs()
+    place = west, size, 0.0, north, 0.0, height
+    return InMemory(heights, place, survey_frame(crs), whole=heights.shape)
