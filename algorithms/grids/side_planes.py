@@ -15,8 +15,10 @@ from .planes import means_and_moments, plane_slopes
 _NEIGHBOURS, _LEAST = 16, 4
 # Number of sides, in evenly spread directions.
 _SIDES = 8
-# Points that are judged at a time.
-_AT_ONCE = 1 << 13
+# The columns of x, y and z among the sums, of which the products are summed up as well.
+_PRODUCTS = ((1, 1), (1, 2), (2, 2), (1, 3), (2, 3), (3, 3))
+# Points that are judged at a time, so few that their neighbours stay in the processor's cache.
+_AT_ONCE = 1 << 11
 # Points of a leaf of the tree: more than usual, because there are few queries.
 _LEAF = 32
 # Square metres that are added to the variances of the neighbours' places, so that there is always a
@@ -74,15 +76,18 @@ class Sides:
         # counts.
         there = (distance[:, :-1] < distance[:, -1:]) & (distance[:, :-1] >= self._apart)
         which = np.where(there, which[:, :-1], 0)
-        x, y, z = (
-            np.where(there, of[which] - place[:, None], 0.0)
-            for of, place in zip(self._ground, points)
-        )
-        angles = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
-        ahead = x[:, :, None] * np.cos(angles) + y[:, :, None] * np.sin(angles) >= -1e-6
-        return (ahead & there[:, :, None]).astype(float).transpose(0, 2, 1) @ np.stack(
-            (np.ones_like(x), x, y, z, x * x, x * y, y * y, x * z, y * z, z * z), axis=-1
-        )
+        terms = np.empty((10, *which.shape))
+        terms[0] = 1.0
+        for term, of, place in zip(terms[1:4], self._ground, points):
+            np.subtract(of.take(which), place[:, None], out=term)
+        terms[1:4] *= there
+        for product, (one, two) in zip(terms[4:], _PRODUCTS):
+            np.multiply(terms[one], terms[two], out=product)
+        angles = 2.0 * np.pi * np.arange(_SIDES)[:, None] / _SIDES
+        ahead = terms[1][:, None] * np.cos(angles)
+        ahead += terms[2][:, None] * np.sin(angles)
+        beside = (ahead >= -1e-6) & there[:, None]
+        return beside.astype(float) @ terms.transpose(1, 2, 0)
 
 
 def _planes(sums: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -28,8 +28,14 @@ class CellVertices:
     def __init__(self, points: Points, vertices: np.ndarray, cells: Cells) -> None:
         cell = cells.index[vertices]
         x, y, z = points.take(vertices)
-        order = np.lexsort((z, y, x, cell))
-        cell, x, y, self._vertex = cell[order], x[order], y[order], vertices[order]
+        order = np.argsort(cell, kind="stable")
+        cell = cell[order]
+        # Only the few cells with several are sorted by the places of these.
+        equal = np.flatnonzero(cell[1:] == cell[:-1])
+        which = np.union1d(equal, equal + 1)
+        some = order[which]
+        order[which] = some[np.lexsort((z[some], y[some], x[some], cell[which]))]
+        x, y, self._vertex = x[order], y[order], vertices[order]
         # Of several at one place, the lowest.
         first = np.ones(len(order), dtype=bool)
         first[1:] = (np.diff(x) != 0.0) | (np.diff(y) != 0.0)

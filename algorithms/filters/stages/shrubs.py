@@ -21,7 +21,7 @@ from .breaks import mean_surface, openness_of
 # Seeds of blocks are neighbours within so many times their width, and not within this share of it.
 _REACH, _APART = 5.0, 0.5
 # Places at which planes are laid at a time.
-_AT_ONCE = 1 << 13
+_AT_ONCE = 1 << 11
 
 
 @dataclass(frozen=True)
