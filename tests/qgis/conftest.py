@@ -29,6 +29,11 @@ def qgis_app(tmp_path_factory):
     sys.path.append(str(Path(app.pkgDataPath()) / "python" / "plugins"))
     yield app
     QgsProject.instance().clear()
+    for widget in app.topLevelWidgets():
+        widget.deleteLater()
+    # As QGIS itself ends: it waits for threads of its pool, and ends those of its passwords. What
+    # runs on while Python ends can crash the process.
+    app.exitQgis()
 
 
 @pytest.fixture(scope="session", autouse=True)
