@@ -68,13 +68,11 @@ class QgisReader(WebReader):
         # A server that knows no ranges sends the whole file, which would fill the memory.
         reply.setReadBufferSize(most + 1)
         try:
-            reply.finished.connect(loop.quit)
-            length = QNetworkRequest.KnownHeaders.ContentLengthHeader
-            reply.metaDataChanged.connect(
-                lambda: loop.quit() if (reply.header(length) or 0) > most else None
-            )
-            reply.readyRead.connect(lambda: loop.quit() if reply.bytesAvailable() > most else None)
-            if not reply.isFinished():
+            # No function of Python is called by signals: an error in one, as where the reply is
+            # gone, ends QGIS.
+            for signal in (reply.finished, reply.metaDataChanged, reply.readyRead):
+                signal.connect(loop.quit)
+            while not (reply.isFinished() or self._closed or _length(reply) > most):
                 loop.exec()
             return self._answer(reply, check)
         finally:
@@ -100,6 +98,12 @@ class QgisReader(WebReader):
         if (length is not None and len(data) != length) or not reply.isFinished():
             raise Unfinished(f"it sent {len(data):,} bytes in place of those that it states")
         return data
+
+
+def _length(reply: QNetworkReply) -> int:
+    """Return the bytes that an answer states, or that have come."""
+    stated = reply.header(QNetworkRequest.KnownHeaders.ContentLengthHeader)
+    return max(reply.bytesAvailable(), stated or 0)
 
 
 def _request(place: str, headers: dict[str, str]) -> QNetworkRequest:

@@ -1,5 +1,6 @@
 """A real QGIS without a window, with the plugin's provider, and a scene whose truth is known."""
 
+import gc
 import os
 import shutil
 import subprocess
@@ -11,7 +12,8 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 import pytest
 import qm
 import translations
-from qgis.core import QgsApplication, QgsProcessingContext, QgsProject, QgsSettings
+from qgis.core import QgsApplication, QgsMapLayer, QgsProcessingContext, QgsProject, QgsSettings
+from qgis.PyQt import sip
 from qgis.PyQt.QtCore import QCoreApplication
 
 # For support.py, which the tests import too.
@@ -31,6 +33,12 @@ def qgis_app(tmp_path_factory):
     QgsProject.instance().clear()
     for widget in app.topLevelWidgets():
         widget.deleteLater()
+    # Layers close their files by GDAL, which ends below.
+    gc.collect()
+    for found in gc.get_objects():
+        is_layer = issubclass(type(found), QgsMapLayer) and not sip.isdeleted(found)
+        if is_layer and sip.ispyowned(found):
+            sip.delete(found)
     # As QGIS itself ends: it waits for threads of its pool, and ends those of its passwords. What
     # runs on while Python ends can crash the process.
     app.exitQgis()
