@@ -1501,6 +1501,8 @@ def fetch(
     resolution: float | None = None,
     limit: float = 2.0,
     skip_missing: bool = False,
+    to_utm: bool = False,
+    height_unit: Literal["stated", "metre", "foot", "us-foot"] = 'stated',
     follow: bool = False,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Fetched:
@@ -1535,6 +1537,14 @@ def fetch(
         to 100000 GB.
     skip_missing : bool, default False
         Go on if tiles of an EPT data set are missing on the server. A warning counts them.
+    to_utm : bool, default False
+        Whether points in Web Mercator, such as those of 3DEP, are transformed to the zone of
+        UTM (WGS 84) of the area, and their heights to metres. Nothing can be measured in Web
+        Mercator.
+    height_unit : {"stated", "metre", "foot", "us-foot"}, default "stated"
+        The unit of the heights of points that are transformed to UTM, if their CRS does not
+        state it. "stated": As the CRS states. "metre": Metre. "foot": International foot.
+        "us-foot": US survey foot.
     follow : bool, default False
         Whether a virtual point cloud or a STAC item may name files on servers that you did not
         name. Without it, they are named and nothing is downloaded. With it, the Planetary

@@ -11,7 +11,7 @@ from .lasfile import LasFile
 _LEGACY_RETURN_COUNT, _LAST_LEGACY_FORMAT = 5, 5
 
 
-def _with(layout: LasFile, *changes: tuple[fields.Field, Sequence[float]]) -> LasFile:
+def with_fields(layout: LasFile, *changes: tuple[fields.Field, Sequence[float]]) -> LasFile:
     """Return the layout with other values of fields of the header."""
     header = bytearray(layout.header)
     for field, values in changes:
@@ -21,18 +21,18 @@ def _with(layout: LasFile, *changes: tuple[fields.Field, Sequence[float]]) -> La
 
 def with_record_length(layout: LasFile, length: int) -> LasFile:
     """Return the layout with another record length."""
-    return _with(layout, (fields.RECORD_LENGTH, [length]))
+    return with_fields(layout, (fields.RECORD_LENGTH, [length]))
 
 
 def with_z_offset(layout: LasFile, offset: float) -> LasFile:
     """Return the layout with another offset of z."""
-    return _with(layout, (fields.OFFSET, [*layout.offset[:2], offset]))
+    return with_fields(layout, (fields.OFFSET, [*layout.offset[:2], offset]))
 
 
 def with_z_range(layout: LasFile, lowest: int, highest: int) -> LasFile:
     """Return the layout with another range of heights, given as integers."""
     scale, offset = layout.scale[2], layout.offset[2]
-    return _with(layout, (fields.Z_EXTENT, [end * scale + offset for end in (highest, lowest)]))
+    return with_fields(layout, (fields.Z_EXTENT, [end * scale + offset for end in (highest, lowest)]))
 
 
 def with_count(layout: LasFile, count: int) -> LasFile:
@@ -40,7 +40,7 @@ def with_count(layout: LasFile, count: int) -> LasFile:
     counts = [(fields.LEGACY_COUNT, _legacy(layout, [count]))]
     if layout.minor_version >= 4:
         counts.append((fields.COUNT, [count]))
-    return _with(layout, *counts)
+    return with_fields(layout, *counts)
 
 
 def with_statistics(
@@ -58,7 +58,7 @@ def with_statistics(
     changes.append((fields.LEGACY_RETURNS, _legacy(layout, returns[:_LEGACY_RETURN_COUNT])))
     if layout.minor_version >= 4:
         changes.append((fields.RETURNS, returns))
-    return _with(layout, *changes)
+    return with_fields(layout, *changes)
 
 
 def _legacy(layout: LasFile, counts: Sequence[int]) -> list[int]:

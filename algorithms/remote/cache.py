@@ -188,9 +188,8 @@ def _check_lengths(part: Part, crs: Crs) -> None:
         require_measurable(part.name, crs, part.box if part.area is None else part.area.bounds)
     except BareEarthError as error:
         raise BareEarthError(
-            f"{error} 'bare-earth fetch', in QGIS 'Download part of a remote point cloud',"
-            " downloads the part to reproject. Such clouds seldom state the unit of their heights:"
-            " look it up, and give it with the new CRS, such as EPSG:26913+6360 for feet."
+            f"{error} Or transform it while it is downloaded: 'bare-earth fetch' with --to-utm, in"
+            " QGIS 'Download part of a remote point cloud' with 'Transform Web Mercator to UTM'."
         ) from error
 
 

@@ -8,12 +8,11 @@ from pathlib import Path
 from typing import Iterable, Protocol, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.files import make_work_folder, write_errors_told
+from ..core.files import make_work_folder, temporary_folder, write_errors_told
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
-from ..crs.measurable import how_to_reproject, length_scale, wrong_lengths
+from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.system import Crs
-from ..crs.wkt import read_wkt
 from ..survey.area import Area
 from ..survey.shapes import Outside, outside
 from .addresses import checked, is_address, name_of, shown
@@ -23,12 +22,13 @@ from .files import LocalFile, RemoteFile
 from .lists import clouds_of
 from .parts import remove_parts
 from .transfers import Transfers
+from .utm import STATED, Utm, states_height_unit, utm_of
 
 _GIGABYTE = 1e9
 _ADVICE = "Choose a smaller area or a coarser resolution"
 _NO_HEIGHT_UNIT = (
-    " The unit of its heights is not stated; it can be metres or feet. Look, and state it when you"
-    " classify the points, such as --crs EPSG:26918+5703 for metres, and +6360 for US survey feet."
+    " The unit of its heights is not stated, and can be metres or feet: look it up, and give it with"
+    " --height-unit."
 )
 _UNSAFE = re.compile(r"[^\w.,+() -]")  # in names of files
 
@@ -43,6 +43,8 @@ class Wanted:
     skips_missing: bool = False  # whether tiles may be missing
     follows: bool = False  # whether lists may name servers that the user did not
     crs: Crs | None = None  # of the points, if the user states it
+    to_utm: bool = False  # whether points in Web Mercator are transformed
+    height_unit: str = STATED  # of such points, or one of `HEIGHT_UNITS`
     is_measured: bool = False  # whether lengths in it must be those on the ground
 
 
@@ -107,12 +109,13 @@ def fetch(
                     f"{len(parts)} point clouds have points there. Name a new folder as output,"
                     " without an ending: each becomes a file in it."
                 )
+            zones = [_zone_of(part, wanted, progress) for part in parts]
             check_size(parts, wanted.most, _ADVICE, progress)
             is_planned = True
             shares = progress.part(0.1, 0.7).shares(*(part.size for part in parts))
             for part, share in zip(parts, shares):
                 part.fetch(share)
-            counts = _written(parts, target, progress.part(0.7, 1.0))
+            counts = _written(parts, zones, target, progress.part(0.7, 1.0))
             if not counts:
                 is_planned = False
                 raise nothing_there(parts, address)
@@ -156,6 +159,24 @@ def _part(
     return CopcPart(file, wanted.area, wanted.resolution, progress)
 
 
+def _zone_of(part: Part, wanted: Wanted, progress: Progress) -> Utm | None:
+    """Return the zone of UTM to which points are transformed; warn of wrong lengths if not."""
+    box = part.box if part.area is None else part.area.bounds
+    if wanted.to_utm and (zone := utm_of(part.name, part.crs, box, wanted.height_unit)):
+        progress.info(
+            f"{part.name} is transformed from {part.crs.name} to UTM ({zone.zone}), and its heights"
+            " to metres."
+        )
+        return zone
+    if wrong := wrong_lengths(length_scale(part.crs, box)):
+        unit = "" if states_height_unit(part.crs) else _NO_HEIGHT_UNIT
+        progress.warning(
+            f"{part.name} is in a Mercator projection ({part.crs.name}), in which {wrong}. Its"
+            f" points are kept as they are. Transform them to UTM: --to-utm.{unit}"
+        )
+    return None
+
+
 def check_size(parts: Sequence[Part], most: float, advice: str, progress: Progress) -> None:
     """Tell how much will be downloaded; refuse too much, with advice."""
     size, points = sum(part.size for part in parts), sum(part.point_count for part in parts)
@@ -183,27 +204,31 @@ def check_size(parts: Sequence[Part], most: float, advice: str, progress: Progre
                 f"{part.name} is not COPC, so that no part of it can be read: all of it is"
                 f" downloaded ({in_words(part.size)}), not only the area."
             )
-    for part in parts:
-        # Such as those of 3DEP in Web Mercator.
-        box = part.box if part.area is None else part.area.bounds
-        if wrong := wrong_lengths(length_scale(part.crs, box)):
-            facts = read_wkt(part.crs.wkt or "")
-            unit = "" if facts is not None and facts.vertical_unit else _NO_HEIGHT_UNIT
-            progress.warning(
-                f"{part.name} is in a Mercator projection ({part.crs.name}), in which {wrong}. Its"
-                f" points are kept as they are. {how_to_reproject()}{unit}"
-            )
 
 
-def _written(parts: list[Part], target: Path, progress: Progress) -> list[int]:
+def _write(part: Part, zone: Utm | None, target: Path, progress: Progress) -> int:
+    """Write a file, transformed to a zone; return the number of points."""
+    if zone is None:
+        return part.write(target, progress)
+    with temporary_folder(target.parent) as folder:
+        count = part.write(folder / "points.laz", progress.part(0.0, 0.4))
+        if count:
+            zone.write(folder / "points.laz", target, progress.part(0.4, 1.0))
+    return count
+
+
+def _written(
+    parts: list[Part], zones: list[Utm | None], target: Path, progress: Progress
+) -> list[int]:
     """Write one file, or one for each part into a new folder; return their numbers of points."""
     if target.suffix:
-        counts = [parts[0].write(target, progress)]
+        counts = [_write(parts[0], zones[0], target, progress)]
     else:
         target.mkdir()
         counts, names = [], names_of([part.name for part in parts])
-        for part, name, share in zip(parts, names, progress.shares(*[1] * len(parts))):
-            counts.append(part.write(target / name, share))
+        shares = progress.shares(*[1] * len(parts))
+        for part, zone, name, share in zip(parts, zones, names, shares):
+            counts.append(_write(part, zone, target / name, share))
             if not counts[-1]:
                 (target / name).unlink(missing_ok=True)
     return [count for count in counts if count]

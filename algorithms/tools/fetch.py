@@ -9,6 +9,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..core.temporary import shown
 from ..remote.fetching import Fetched, Wanted, fetch
+from ..remote.utm import STATED
 from ..survey.area import Area
 from .declaration import CLOUD, FileTool, Input, Output
 
@@ -42,6 +43,26 @@ class Download(ParameterSet):
         advanced=True,
         help="Go on if tiles of an EPT data set are missing on the server. A warning counts them.",
     )
+    to_utm: bool = parameter(
+        False,
+        label="Transform Web Mercator to UTM",
+        help="Whether points in Web Mercator, such as those of 3DEP, are transformed to the zone of"
+        " UTM (WGS 84) of the area, and their heights to metres. Nothing can be measured in Web"
+        " Mercator.",
+    )
+    height_unit: str = parameter(
+        STATED,
+        label="Unit of the heights",
+        choices={
+            STATED: "As the CRS states",
+            "metre": "Metre",
+            "foot": "International foot",
+            "us-foot": "US survey foot",
+        },
+        advanced=True,
+        help="The unit of the heights of points that are transformed to UTM, if their CRS does not"
+        " state it.",
+    )
     follow: bool = parameter(
         False,
         label="Follow lists to other servers",
@@ -63,7 +84,10 @@ def download(
     # The folder for what is not finished is beside what the user names, not beside the temporary
     # file that is to become it.
     waiting = Path(f"{shown(output)}.parts")
-    wanted = Wanted(area, how.resolution, how.limit * 1e9, how.skip_missing, how.follow)
+    wanted = Wanted(
+        area, how.resolution, how.limit * 1e9, how.skip_missing, how.follow,
+        to_utm=how.to_utm, height_unit=how.height_unit,
+    )  # fmt: skip
     return fetch(address, output, wanted, waiting, progress)
 
 

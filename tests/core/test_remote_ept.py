@@ -240,8 +240,36 @@ def test_web_mercator_is_kept_with_a_warning(server, tmp_path, states_unit):
     wkt = f'COMPD_CS["c",{MERCATOR},{heights}]' if states_unit else MERCATOR
     points, address = add_ept(server, srs={"wkt": wkt})
     code, _, errors = said("fetch", address, tmp_path / "part.laz")
-    assert code == 0 and "Mercator projection" in errors and "Reproject it first" in errors
+    assert code == 0 and "Mercator projection" in errors and "--to-utm" in errors
     assert ("The unit of its heights is not stated" in errors) == (not states_unit)
+    assert np.allclose(table_of(tmp_path / "part.laz"), points, atol=1e-6)
+
+
+@pytest.mark.parametrize("ending", ["laz", "copc.laz"])
+def test_web_mercator_becomes_utm_and_heights_metres(server, tmp_path, ending):
+    pyproj = pytest.importorskip("pyproj")
+    mercator = pyproj.CRS.from_epsg(3857)
+    points, address = add_ept(server, srs={"wkt": mercator.to_wkt("WKT1_GDAL")})
+    target = tmp_path / f"part.{ending}"
+    with pytest.raises(BareEarthError, match=r"set does not state the unit .* --height-unit metre"):
+        bare_earth.fetch(address, target, extent=BOX, to_utm=True)
+    assert not [path for path, *_ in server.asked if "ept-data" in path]
+    done = bare_earth.fetch(address, target, extent=BOX, to_utm=True, height_unit="us-foot")
+    # x = 500,000 is a longitude of 4.5 degrees.
+    crs = read_crs(open_las(target))
+    assert crs.epsg == 32631 and done.point_count == len(clip(points))
+    expected = clip(points)
+    move = pyproj.Transformer.from_crs(mercator, 32631, always_xy=True)
+    expected[:, :2] = np.column_stack(move.transform(*expected[:, :2].T))
+    expected[:, 2] *= 1200 / 3937
+    found = table_of(target)
+    assert np.abs(found - expected).max() < 0.0051
+    assert np.abs(found[:, 2] - expected[:, 2]).max() < 1e-6
+
+
+def test_only_web_mercator_becomes_utm(server, tmp_path):
+    points, address = add_ept(server)
+    bare_earth.fetch(address, tmp_path / "part.laz", to_utm=True)
     assert np.allclose(table_of(tmp_path / "part.laz"), points, atol=1e-6)
 
 

@@ -139,7 +139,8 @@ PARAMETERS = {
         "REPORT",
     ],
     "bareearth:fetch": [
-        "ADDRESS", "EXTENT", "BOUNDARY", "RESOLUTION", "LIMIT", "SKIP_MISSING", "FOLLOW", "OUTPUT",
+        "ADDRESS", "EXTENT", "BOUNDARY", "RESOLUTION", "LIMIT", "TO_UTM", "HEIGHT_UNIT",
+        "SKIP_MISSING", "FOLLOW", "OUTPUT",
     ],
     "bareearth:quality": [
         "INPUT", "CRS", "SPECIFICATION", "CELL_SIZE", "VOID_DISTANCE", "GROUND_CLASSES", "OVERLAP",

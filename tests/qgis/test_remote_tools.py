@@ -202,11 +202,18 @@ def test_web_mercator_is_refused_before_the_download(server, tmp_path):
     server.asked.clear()
     with pytest.raises(
         QgsProcessingException,
-        match=r"Mercator.* Reproject .*Download part of .* heights: look it up",
+        match=r"Mercator.* Reproject .*Download part of .* UTM",
     ):
         run("terrainmodel", {"DTM": "dtm.tif"}, tmp_path, INPUT=address,
             EXTENT="500020,500060,5600010,5600055")  # fmt: skip
     assert not [path for path, *_ in server.asked if "ept-data" in path]
+    # The way out.
+    wkt = QgsCoordinateReferenceSystem("EPSG:3857").toWkt()
+    _, address = add_ept(server, "another", srs={"wkt": wkt})
+    part = run("fetch", {"OUTPUT": "part.laz"}, tmp_path, ADDRESS=address, TO_UTM=True,
+               HEIGHT_UNIT="foot")["OUTPUT"]  # fmt: skip
+    assert run("terrainmodel", {"DTM": "dtm.tif"}, tmp_path, INPUT=part)
+    assert (tmp_path / "dtm.tif").exists()
 
 
 def add_list(server, cloud):
