@@ -32,7 +32,9 @@ def with_z_offset(layout: LasFile, offset: float) -> LasFile:
 def with_z_range(layout: LasFile, lowest: int, highest: int) -> LasFile:
     """Return the layout with another range of heights, given as integers."""
     scale, offset = layout.scale[2], layout.offset[2]
-    return with_fields(layout, (fields.Z_EXTENT, [end * scale + offset for end in (highest, lowest)]))
+    return with_fields(
+        layout, (fields.Z_EXTENT, [end * scale + offset for end in (highest, lowest)])
+    )
 
 
 def with_count(layout: LasFile, count: int) -> LasFile:

@@ -11,6 +11,7 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
 from ..filters import METHODS
 from ..remote.addresses import is_address
+from ..tools.ground.method import TileMethod
 from .arguments import KINDS, Argument
 from .given import area_of, progress_of
 
@@ -43,12 +44,15 @@ def bring_points(
         return contextlib.nullcontext()
     from ..remote.cache import Surroundings, addresses_named, bring_all, cache_of
     from ..remote.fetching import Wanted
+    from ..tools.rasters.rows import RASTERS
 
     names = [argument.name for argument in arguments]
     edges = {name: getattr(values, name, None) for name in ("extent", "boundary")}
     area, crs = area_of(SimpleNamespace(**edges)), stated_crs(getattr(values, "crs", None))
     if area is not None:
-        area = Surroundings(area.box, area.polygons, _margin(values, sets), crs)
+        makes_rasters = any(getattr(values, name, None) for name in (*RASTERS, "contours"))
+        margin = margin_of(sets, hasattr(values, "explain") and not makes_rasters)
+        area = Surroundings(area.box, area.polygons, margin, crs)
     advice = "Choose a smaller area" if area else "Give an area (--extent or --boundary)"
     if "extent" not in names:
         advice = "Fetch a part of it first, by 'bare-earth fetch' with an area"
@@ -90,23 +94,14 @@ def stated_crs(text: str | None) -> Crs | None:
     return crs_of_wkt(wkt) if wkt else None
 
 
-def _margin(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> float:
+def margin_of(sets: Sequence[ParameterSet], is_method_alone: bool) -> float:
     """Return how far round the area points matter, in metres."""
-    from ..tools.rasters.rows import RASTERS
-
     # Rasters need the widest surroundings; a method alone needs fewer.
-    is_method_alone = hasattr(values, "explain") and not any(
-        getattr(values, name, None) for name in (*RASTERS, "contours")
-    )
-    return max(0.0 if is_method_alone else AROUND, reach_of(sets))
-
-
-def reach_of(sets: Sequence[ParameterSet]) -> float:
-    """Return how far points matter to the ground filter, in metres; 0.0 without one."""
-    reach = 0.0
-    for parameters in sets:
-        reach = max(reach, getattr(parameters, "context", None) or 0.0)
+    margin = 0.0 if is_method_alone else AROUND
+    for values in sets:
+        parameters = values.parameters if isinstance(values, TileMethod) else values
+        margin = max(margin, getattr(parameters, "context", None) or 0.0)
         for method in METHODS.values():
             if isinstance(parameters, method.parameters):
-                reach = max(reach, method.reach(parameters))
-    return reach
+                margin = max(margin, method.reach(parameters))
+    return margin

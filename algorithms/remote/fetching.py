@@ -27,8 +27,8 @@ from .utm import STATED, Utm, states_height_unit, utm_of
 _GIGABYTE = 1e9
 _ADVICE = "Choose a smaller area or a coarser resolution"
 _NO_HEIGHT_UNIT = (
-    " The unit of its heights is not stated, and can be metres or feet: look it up, and give it with"
-    " --height-unit."
+    " The unit of its heights is not stated, and can be metres or feet: look it up, and give it"
+    " with --height-unit."
 )
 _UNSAFE = re.compile(r"[^\w.,+() -]")  # in names of files
 

@@ -102,8 +102,8 @@ def utm_of(name: str, crs: Crs, box: Box, height_unit: str) -> Utm | None:
         raise BareEarthError("Points are transformed to UTM by pyproj: pip install pyproj.")
     if height_unit == STATED and not states_height_unit(crs):
         raise BareEarthError(
-            f"{name} does not state the unit of its heights. Look it up in the report of the survey,"
-            " and give it: --height-unit metre, foot or us-foot."
+            f"{name} does not state the unit of its heights. Look it up in the report of the"
+            " survey, and give it: --height-unit metre, foot or us-foot."
         )
     west, south, east, north = box
     degrees = to_wgs84(source, np.array([[(west + east) / 2.0, (south + north) / 2.0]]))

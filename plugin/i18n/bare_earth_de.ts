@@ -4,8 +4,8 @@
 <context>
     <name>BareEarth</name>
     <message>
-        <source>.las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one path in each line. May stay empty if a folder is given. Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent needs of it is downloaded first.</source>
-        <translation>Dateien .las, .laz und .copc.laz, virtuelle Punktwolken (.vpc) oder Textdateien (.txt) mit einem Pfad je Zeile. Darf leer sein, wenn ein Ordner angegeben ist. Auch eine entfernte Punktwolke (COPC, EPT, VPC) oder ihre Adresse (https://...): Was die Ausdehnung von ihr braucht, wird zuerst heruntergeladen.</translation>
+        <source>.las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one path in each line. May stay empty if a folder is given.</source>
+        <translation>Dateien .las, .laz und .copc.laz, virtuelle Punktwolken (.vpc) oder Textdateien (.txt) mit einem Pfad je Zeile. Darf leer sein, wenn ein Ordner angegeben ist.</translation>
     </message>
     <message>
         <source>0 to 1</source>
@@ -212,6 +212,10 @@ Mit einem Geländemodell werden die Höhen über diesem Raster gemessen, und die
     <message>
         <source>Area [m²]</source>
         <translation>Fläche [m²]</translation>
+    </message>
+    <message>
+        <source>As the CRS states</source>
+        <translation>Wie das KBS angibt</translation>
     </message>
     <message>
         <source>As the filter classifies them</source>
@@ -1150,6 +1154,10 @@ Längen sind Meter und Winkel Grad, gleich welche Einheit das KBS hat. Das Gelä
         <translation>Unterordner einbeziehen</translation>
     </message>
     <message>
+        <source>International foot</source>
+        <translation>Internationaler Fuß</translation>
+    </message>
+    <message>
         <source>Iteration angle</source>
         <translation>Iterationswinkel</translation>
     </message>
@@ -1404,6 +1412,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Methods, each with a preset. All others are compared with the first one.</source>
         <translation>Verfahren, jedes mit einer Voreinstellung. Alle anderen werden mit dem ersten verglichen.</translation>
+    </message>
+    <message>
+        <source>Metre</source>
+        <translation>Meter</translation>
     </message>
     <message>
         <source>Metres</source>
@@ -2390,6 +2402,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Das Geländemodell, von einem Licht oder von vieren beleuchtet.</translation>
     </message>
     <message>
+        <source>The unit of the heights of points that are transformed to UTM, if their CRS does not state it.</source>
+        <translation>Die Einheit der Höhen von Punkten, die nach UTM umgerechnet werden, wenn ihr KBS sie nicht angibt.</translation>
+    </message>
+    <message>
         <source>The usual one of the delivery</source>
         <translation>Die übliche der Lieferung</translation>
     </message>
@@ -2450,6 +2466,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Stadt</translation>
     </message>
     <message>
+        <source>Transform Web Mercator to UTM</source>
+        <translation>Web-Mercator nach UTM umrechnen</translation>
+    </message>
+    <message>
         <source>Triangles whose longest edge is shorter than this take no more points. Empty: all triangles can take points.</source>
         <translation>Dreiecke, deren längste Kante kürzer ist als dies, nehmen keine weiteren Punkte auf. Leer: Alle Dreiecke können Punkte aufnehmen.</translation>
     </message>
@@ -2470,6 +2490,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
         <translation>Fehler 2. Art [%]</translation>
     </message>
     <message>
+        <source>US survey foot</source>
+        <translation>US-Vermessungsfuß</translation>
+    </message>
+    <message>
         <source>USGS Lidar Base Specification, QL1</source>
         <translation>USGS Lidar Base Specification, QL1</translation>
     </message>
@@ -2480,6 +2504,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Unit of the cell size</source>
         <translation>Einheit der Zellgröße</translation>
+    </message>
+    <message>
+        <source>Unit of the heights</source>
+        <translation>Einheit der Höhen</translation>
     </message>
     <message>
         <source>Units of the CRS, such as its feet</source>
@@ -2560,6 +2588,10 @@ Für Mauern und Wälle machen Sie das Geländemodell mit Zellen von 0,25 bis 0,5
     <message>
         <source>Whether a virtual point cloud or a STAC item may name files on servers that you did not name. Without it, they are named and nothing is downloaded. With it, the Planetary Computer is asked for signatures of its files.</source>
         <translation>Ob eine virtuelle Punktwolke oder ein STAC-Item Dateien auf Servern nennen darf, die Sie nicht genannt haben. Sonst werden sie genannt, und nichts wird heruntergeladen. Mit dieser Option wird auch der Planetary Computer um Signaturen für seine Dateien gebeten.</translation>
+    </message>
+    <message>
+        <source>Whether points in Web Mercator, such as those of 3DEP, are transformed to the zone of UTM (WGS 84) of the area, and their heights to metres. Nothing can be measured in Web Mercator.</source>
+        <translation>Ob Punkte in Web-Mercator, wie die von 3DEP, in die UTM-Zone (WGS 84) des Gebiets umgerechnet werden, und ihre Höhen in Meter. In Web-Mercator kann nichts gemessen werden.</translation>
     </message>
     <message>
         <source>Whitebox (one scale, 2 m, 45 deg, 1 m)</source>

@@ -4,8 +4,8 @@
 <context>
     <name>BareEarth</name>
     <message>
-        <source>.las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one path in each line. May stay empty if a folder is given. Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent needs of it is downloaded first.</source>
-        <translation>Fichiers .las, .laz et .copc.laz, nuages de points virtuels (.vpc), ou fichiers texte (.txt) avec un chemin par ligne. Peut rester vide si un dossier est donné. Ou bien un nuage distant (COPC, EPT, VPC) ou son adresse (https://...) : ce que l'emprise en demande est d'abord téléchargé.</translation>
+        <source>.las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one path in each line. May stay empty if a folder is given.</source>
+        <translation>Fichiers .las, .laz et .copc.laz, nuages de points virtuels (.vpc), ou fichiers texte (.txt) avec un chemin par ligne. Peut rester vide si un dossier est donné.</translation>
     </message>
     <message>
         <source>0 to 1</source>
@@ -212,6 +212,10 @@ Avec un modèle de terrain, les hauteurs sont mesurées au-dessus de ce raster, 
     <message>
         <source>Area [m²]</source>
         <translation>Surface [m²]</translation>
+    </message>
+    <message>
+        <source>As the CRS states</source>
+        <translation>Celle du SCR</translation>
     </message>
     <message>
         <source>As the filter classifies them</source>
@@ -1150,6 +1154,10 @@ Les longueurs sont en mètres et les angles en degrés, quelle que soit l'unité
         <translation>Inclure les sous-dossiers</translation>
     </message>
     <message>
+        <source>International foot</source>
+        <translation>Pied international</translation>
+    </message>
+    <message>
         <source>Iteration angle</source>
         <translation>Angle d'itération</translation>
     </message>
@@ -1404,6 +1412,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Methods, each with a preset. All others are compared with the first one.</source>
         <translation>Méthodes, chacune avec un préréglage. Toutes les autres sont comparées à la première.</translation>
+    </message>
+    <message>
+        <source>Metre</source>
+        <translation>Mètre</translation>
     </message>
     <message>
         <source>Metres</source>
@@ -2390,6 +2402,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Le modèle de terrain, éclairé par une lumière ou par quatre.</translation>
     </message>
     <message>
+        <source>The unit of the heights of points that are transformed to UTM, if their CRS does not state it.</source>
+        <translation>L'unité des altitudes des points transformés en UTM, si leur SCR ne l'indique pas.</translation>
+    </message>
+    <message>
         <source>The usual one of the delivery</source>
         <translation>Celle habituelle de la livraison</translation>
     </message>
@@ -2450,6 +2466,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Ville</translation>
     </message>
     <message>
+        <source>Transform Web Mercator to UTM</source>
+        <translation>Transformer Web Mercator en UTM</translation>
+    </message>
+    <message>
         <source>Triangles whose longest edge is shorter than this take no more points. Empty: all triangles can take points.</source>
         <translation>Les triangles dont le plus long côté est plus court que ceci ne prennent plus de points. Vide : tous les triangles peuvent prendre des points.</translation>
     </message>
@@ -2470,6 +2490,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
         <translation>Erreur de type II [%]</translation>
     </message>
     <message>
+        <source>US survey foot</source>
+        <translation>Pied US (survey)</translation>
+    </message>
+    <message>
         <source>USGS Lidar Base Specification, QL1</source>
         <translation>USGS Lidar Base Specification, QL1</translation>
     </message>
@@ -2480,6 +2504,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Unit of the cell size</source>
         <translation>Unité de la taille de cellule</translation>
+    </message>
+    <message>
+        <source>Unit of the heights</source>
+        <translation>Unité des altitudes</translation>
     </message>
     <message>
         <source>Units of the CRS, such as its feet</source>
@@ -2560,6 +2588,10 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     <message>
         <source>Whether a virtual point cloud or a STAC item may name files on servers that you did not name. Without it, they are named and nothing is downloaded. With it, the Planetary Computer is asked for signatures of its files.</source>
         <translation>Si un nuage de points virtuel ou un élément STAC peut nommer des fichiers sur des serveurs que vous n’avez pas nommés. Sinon, ils sont nommés et rien n’est téléchargé. Avec cette option, les signatures de ses fichiers sont aussi demandées au Planetary Computer.</translation>
+    </message>
+    <message>
+        <source>Whether points in Web Mercator, such as those of 3DEP, are transformed to the zone of UTM (WGS 84) of the area, and their heights to metres. Nothing can be measured in Web Mercator.</source>
+        <translation>Indique si les points en Web Mercator, comme ceux de 3DEP, sont transformés dans le fuseau UTM (WGS 84) de la zone, et leurs altitudes en mètres. Rien ne peut être mesuré en Web Mercator.</translation>
     </message>
     <message>
         <source>Whitebox (one scale, 2 m, 45 deg, 1 m)</source>

@@ -42,7 +42,15 @@ from .. import compat
 from ..i18n import mark, tr
 from ..styles.loaded import filter_of, has_edits
 from .feedback import Refusal
-from .remote import ALSO_REMOTE, Remote, remote_at, remote_of, without_provider
+from .remote import (
+    ADDRESS_HELP,
+    ALSO_REMOTE,
+    REMOTE,
+    Remote,
+    remote_at,
+    remote_of,
+    without_provider,
+)
 from .stated_crs import crs_of_text
 
 # As a name, so that the widget is imported only in dialogs, not in qgis_process.
@@ -50,7 +58,7 @@ _WIDGET = f"{__package__}.widgets.PointCloudWidget"
 # Help of the fields of `add_survey` and `add_clouds`.
 _FILES_HELP = (
     ".las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one"
-    f" path in each line. May stay empty if a folder is given.{ALSO_REMOTE}"
+    " path in each line. May stay empty if a folder is given."
 )
 _FOLDER_HELP = (
     "All .las, .laz and .copc.laz files in this folder are used, too. All files together are one"
@@ -220,6 +228,8 @@ def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
     files = QgsProcessingParameterMultipleLayers("INPUT", "Point clouds", compat.FILES, None, True)
     algorithm.addParameter(files, _FILES_HELP)
     _add_folder(algorithm)
+    # The list of files of QGIS offers no layers, and nothing can be typed into it.
+    algorithm.addParameter(PointCloudInput(REMOTE, "Remote point cloud", None, True), ADDRESS_HELP)
 
 
 def clouds_of(
@@ -229,6 +239,8 @@ def clouds_of(
     texts = algorithm.parameterAsFileList(parameters, "INPUT", context)
     texts.append(algorithm.parameterAsString(parameters, "INPUT_FOLDER", context))
     paths = [_named(text, context) for text in texts if text]
+    if not compat.is_empty(parameters.get(REMOTE)):
+        paths.append(source_of(algorithm, parameters, REMOTE, context))
     if not paths:
         raise Refusal(mark("Choose point clouds, or a folder of them."))
     return paths

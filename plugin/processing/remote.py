@@ -28,8 +28,8 @@ ALSO_REMOTE = (
     " Also a remote point cloud (COPC, EPT, VPC), or its address (https://...): what the extent"
     " needs of it is downloaded first."
 )
-# The fields of inputs that can be remote.
-PART, LIMIT = "EXTENT", "LIMIT"
+# The fields of inputs that can be remote; of points, those only for remote ones.
+PART, LIMIT, ADDRESS, REMOTE = "EXTENT", "LIMIT", "ADDRESS", "REMOTE"
 _PART_HELP = (
     "The points of a remote point cloud that lie in this rectangle are downloaded, and are all that"
     " is used. Only for point clouds that are not on this computer."

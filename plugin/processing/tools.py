@@ -45,8 +45,6 @@ _LATE = ("checkpoints", "polygons")
 _PARTS = ("area", "extent")
 # Outputs of these kinds are files of points.
 _POINTS = ("cloud", "points")
-# Metres round the area that are downloaded as well, if the ground filter does not look farther.
-_AROUND = 200.0
 # What to do if it is too much.
 _ADVICE = "Choose a smaller extent"
 _MANY = mark(
@@ -182,13 +180,18 @@ class ToolAlgorithm(BareEarthAlgorithm):
         if area is None:
             return
         # Imported here, so that QGIS starts faster.
-        from ...algorithms.library.remote_points import SHARE, reach_of, stated_crs
+        from ...algorithms.library.remote_points import SHARE, margin_of, stated_crs
         from ...algorithms.remote.cache import Surroundings, bring_all, cache_of
         from ...algorithms.remote.fetching import Wanted
 
         # Without a field for an area, the part is taken as the whole.
-        is_of_area = any(declared.kind in _PARTS for declared in self._inputs)
-        margin = max(_AROUND, reach_of(self.chosen(parameters, context))) if is_of_area else 0.0
+        is_of_area, margin = any(declared.kind in _PARTS for declared in self._inputs), 0.0
+        if is_of_area:
+            rasters = (output.field_name for output in self._outputs if output.kind == "raster")
+            is_alone = getattr(self._tool, "classifies", False) and all(
+                compat.is_empty(parameters.get(name)) for name in rasters
+            )
+            margin = margin_of(self.chosen(parameters, context), is_alone)
         crs, limit = stated_crs(self.stated), self.parameterAsDouble(parameters, LIMIT, context)
         part = Surroundings(area.box, area.polygons, margin, crs)
         wanted = Wanted(part, most=limit * 1e9, crs=crs, is_measured=True)

@@ -38,7 +38,7 @@ from ..i18n import tr
 from ..styles.loaded import file_of
 from .choices import LABELS, ChoiceParameter, value_of, values_of
 from .compositions import DELIVERY, FOLDER
-from .remote import PART, extent_of_map
+from .remote import ADDRESS, PART, REMOTE, extent_of_map
 
 _STATE = Qt.ItemDataRole.CheckStateRole
 # A box with choices is at least so many letters wide.
@@ -294,9 +294,14 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
         if self.wrappedWidget() is None:
             return
         if self._suggested is None and compat.is_null(value):
-            layers = _clouds(self.widgetContext().project())
-            if self.parameterDefinition().name() == "ADDRESS":  # of what is to be downloaded
+            layers, name = (
+                _clouds(self.widgetContext().project()),
+                self.parameterDefinition().name(),
+            )
+            if name == ADDRESS:
                 layers = [layer for layer in layers if file_of(layer) is None]
+            elif name == REMOTE:  # beside a list of files
+                layers = []
             value = self._suggested = layers[0].id() if layers else ""
         self._suggested = self._suggested or ""
         self._box.setValue(value or None, context)

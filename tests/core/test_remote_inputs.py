@@ -15,8 +15,10 @@ from surveys import ORIGIN, strip, write, write_classified, write_points
 import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.las import copc_octree
+from bare_earth.algorithms.library.remote_points import margin_of
 from bare_earth.algorithms.remote import files, transfers, whole
 from bare_earth.algorithms.remote.cache import cache_of
+from bare_earth.algorithms.tools.ground.method import TileMethod
 
 WEST, SOUTH = ORIGIN[:2]
 BOX = (WEST + 100, SOUTH + 20, WEST + 180, SOUTH + 90)
@@ -198,6 +200,11 @@ def test_secrets_are_nowhere(server, tiles, tmp_path):
     for path in tmp_path.rglob("*"):
         assert "s3cr3t" not in str(path)
         assert path.is_dir() or b"s3cr3t" not in path.read_bytes()
+
+
+def test_the_method_of_many_files_needs_what_it_looks_at():
+    filters = [(TileMethod(method="slope", preset="city"), 300.0), (TileMethod(), 180.0)]
+    assert [margin_of([values], True) for values, _ in filters] == [far for _, far in filters]
 
 
 def test_the_tutorial_runs(server, tiles, tmp_path, monkeypatch):

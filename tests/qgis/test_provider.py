@@ -76,7 +76,7 @@ PARAMETERS = {
         *SHARED_PARAMETERS,
     ],
     "bareearth:classifytiles": [
-        "INPUT", "INPUT_FOLDER", "CRS", "EXTENT", "BOUNDARY",
+        "INPUT", "INPUT_FOLDER", "REMOTE", "CRS", "EXTENT", "BOUNDARY",
         "METHOD", "PRESET",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OVERLAP", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "HIGH_NOISE_CLASS", "HIGH_NOISE_HEIGHT",

@@ -109,8 +109,8 @@ def heights_in(path):
 @pytest.mark.parametrize("name", GIVEN)
 def test_every_tool_reads_a_remote_point_cloud(name, address, server, tmp_path, log, registry):
     field = "CLASSIFIED" if name == "assess" else "INPUT"
-    points = [address] if name == "classifytiles" else address
-    more = {field: points, "EXTENT": EXTENT}
+    field = "REMOTE" if name == "classifytiles" else field
+    more = {field: address, "EXTENT": EXTENT}
     if name == "assess":
         more["REFERENCE"] = address
     algorithm = registry.algorithmById(f"bareearth:{name}")
