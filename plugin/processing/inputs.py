@@ -229,7 +229,9 @@ def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
     algorithm.addParameter(files, _FILES_HELP)
     _add_folder(algorithm)
     # The list of files of QGIS offers no layers, and nothing can be typed into it.
-    algorithm.addParameter(PointCloudInput(REMOTE, "Remote point cloud", None, True), ADDRESS_HELP)
+    remote = PointCloudInput(REMOTE, "Remote point cloud", None, True)
+    remote.setFlags(remote.flags() | compat.ADVANCED)
+    algorithm.addParameter(remote, ADDRESS_HELP)
 
 
 def clouds_of(

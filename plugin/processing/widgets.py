@@ -294,15 +294,8 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
         if self.wrappedWidget() is None:
             return
         if self._suggested is None and compat.is_null(value):
-            layers, name = (
-                _clouds(self.widgetContext().project()),
-                self.parameterDefinition().name(),
-            )
-            if name == ADDRESS:
-                layers = [layer for layer in layers if file_of(layer) is None]
-            elif name == REMOTE:  # beside a list of files
-                layers = []
-            value = self._suggested = layers[0].id() if layers else ""
+            project = self.widgetContext().project()
+            value = self._suggested = _suggestion(self.parameterDefinition().name(), project)
         self._suggested = self._suggested or ""
         self._box.setValue(value or None, context)
         _show_choice(_names_in(self._box))
@@ -354,6 +347,15 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
 def _names_in(box: QgsProcessingMapLayerComboBox) -> QComboBox:
     """Return the list of layers and files in a box of QGIS."""
     return box.findChildren(QComboBox)[0]  # of this class, since PyQt does not know its own
+
+
+def _suggestion(name: str, project: QgsProject | None) -> str:
+    """Return the id of the layer that a new dialog shows in a field, given its name; or empty."""
+    layers = _clouds(project)
+    if name == ADDRESS:  # of what is to be downloaded
+        layers = [layer for layer in layers if file_of(layer) is None]
+    is_beside_files = name == REMOTE
+    return layers[0].id() if layers and not is_beside_files else ""
 
 
 def _clouds(project: QgsProject | None) -> list[QgsPointCloudLayer]:

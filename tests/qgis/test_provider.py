@@ -139,8 +139,8 @@ PARAMETERS = {
         "REPORT",
     ],
     "bareearth:fetch": [
-        "ADDRESS", "EXTENT", "BOUNDARY", "RESOLUTION", "LIMIT", "TO_UTM", "HEIGHT_UNIT",
-        "SKIP_MISSING", "FOLLOW", "OUTPUT",
+        "ADDRESS", "EXTENT", "BOUNDARY", "RESOLUTION", "LIMIT", "SKIP_MISSING", "TO_UTM",
+        "HEIGHT_UNIT", "FOLLOW", "OUTPUT",
     ],
     "bareearth:quality": [
         "INPUT", "CRS", "SPECIFICATION", "CELL_SIZE", "VOID_DISTANCE", "GROUND_CLASSES", "OVERLAP",
