@@ -122,6 +122,7 @@ def test_the_whole_benchmark_writes_the_page(folder, capsys, monkeypatch):
         assert (folder / "images" / picture).stat().st_size > 1000
 
 
+@pytest.mark.long
 def test_parts_print_what_was_asked_for(folder, capsys):
     accuracy.main(["--isprs", "--method", "slope"])
     printed = capsys.readouterr().out

@@ -9,11 +9,11 @@ from benchmarks.scenes import KINDS, REPORTING_SEEDS, TUNING_SEEDS, make
 SHARE = {"drone_images": 0.25, "drone_noisy": 0.3, "drone_2000": 0.2, "water_gaps": 0.45}
 
 
-# Every fourth, and all with `make test-long`.
+# Every eighth, and all with `make test-long`.
 @pytest.mark.parametrize(
     "kind",
     [
-        pytest.param(kind, marks=pytest.mark.long if number % 4 else ())
+        pytest.param(kind, marks=pytest.mark.long if number % 8 else ())
         for number, kind in enumerate(KINDS)
     ],
 )

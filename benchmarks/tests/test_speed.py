@@ -50,6 +50,7 @@ def measured(*commands):
     return [Cost(*fields) for fields in json.loads(done.stdout)]
 
 
+@pytest.mark.long
 def test_cost_is_that_of_the_process():
     busy = "import time\nwhile time.process_time() < 0.25: pass"
     parent = (
@@ -130,6 +131,7 @@ def test_pieces_of_a_large_survey_are_small_and_cover_a_square(tmp_path, monkeyp
     assert (np.diff(las.gps_time) >= 0).all()
 
 
+@pytest.mark.long
 def test_all_take_turns_and_who_is_stopped_is_left_out(survey, tmp_path):
     small = tmp_path / "small.laz"
     tiles.write(1000, small)

@@ -203,9 +203,9 @@ def load_all():
     from pyproj import Transformer
     from rasterio.crs import CRS
 
-    for each in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
-        if not each.name.endswith("__main__"):
-            importlib.import_module(each.name)
+    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+        if not module.name.endswith("__main__"):
+            importlib.import_module(module.name)
     for name in ("laspy", "lazrs", "scipy.spatial", "scipy.ndimage", "scipy.sparse.linalg",
                  "scipy.interpolate", "rasterio.shutil", "rasterio.io"):  # fmt: skip
         importlib.import_module(name)
@@ -221,7 +221,7 @@ def main(folder, seed, count, first=0):
     before = [Original(*fields) for fields in pickle.loads((folder / "originals").read_bytes())]
     work = Path(tempfile.mkdtemp(dir=folder))
     for name, suffix in (("a.las", ".las"), ("b.laz", ".laz")):
-        sound = next(each for each in before if each.suffix == suffix)
+        sound = next(path for path in before if path.suffix == suffix)
         (work / name).write_bytes(sound.content)
     load_all()
     ends, parts, begun = collections.Counter(), collections.Counter(), time.monotonic()

@@ -16,6 +16,8 @@ from bare_earth.algorithms.core import temporary as temporary_module
 from bare_earth.algorithms.engine import workers
 from bare_earth.algorithms.las.laszip import with_chunk_size
 
+# The command line speaks English here, and need not look for another language each time.
+os.environ["LANGUAGE"] = "C"
 # Where Python is told to keep no bytecode, each process that a test starts compiles scipy anew:
 # that takes longer than what it is to show. Here it is kept, and not among the sources, as
 # tools/environment does it.
@@ -28,6 +30,10 @@ LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 HEADER_SIZES = (227, 227, 227, 235, 375)
 # The formats that each version defines.
 FORMATS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
+EVERY = [(version, point_format) for version, kinds in FORMATS.items() for point_format in kinds]
+# These begin first; and these share the code that they parse.
+SLOWEST = ("test_goldens.py", "test_deliveries.py", "test_tiles.py", "test_tutorials.py")
+READ_THE_CODE = ("test_docstrings.py", "test_security.py", "test_walls.py", "test_windows.py")
 GPS_TIMES = {1: 20, 3: 20, 4: 20, 5: 20, 6: 22, 7: 22, 8: 22, 9: 22, 10: 22}
 SCALE, OFFSET = (0.01, 0.01, 0.001), (400_000.0, 5_000_000.0, 100.0)
 
@@ -213,6 +219,11 @@ def pytest_runtest_setup(item):
         pytest.skip("long: `make test-long` runs it")
 
 
+def pytest_collection_modifyitems(items):
+    """Begin with the files that take longest, so that no process waits for another one at last."""
+    items.sort(key=lambda item: item.path.name not in SLOWEST)
+
+
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config, log):
     """Give each process whole files, so that what the tests of a file share is made once."""
@@ -220,12 +231,19 @@ def pytest_xdist_make_scheduler(config, log):
         return None
     from xdist.scheduler import LoadFileScheduling
 
-    return LoadFileScheduling(config, log)
+    class Scheduling(LoadFileScheduling):
+        def _split_scope(self, nodeid):
+            file = nodeid.partition("::")[0]
+            return "code" if file.endswith(READ_THE_CODE) else file
+
+    config.option.loadscopereorder = False
+    return Scheduling(config, log)
 
 
 def pytest_collection_finish():
-    """Keep what all tests share from being looked through for garbage again and again."""
+    """Keep what all tests share from being looked through for garbage, and look less often."""
     gc.freeze()
+    gc.set_threshold(20_000)
 
 
 @pytest.fixture

@@ -23,7 +23,7 @@ def with_sub_pages(content, depth=1):
     if start + size != len(data):
         raise ValueError("the hierarchy is not at the end")
     entries = [_ENTRY.unpack_from(data, at) for at in range(start, start + size, _ENTRY.size)]
-    above = [each for each in entries if each[0] < depth]
+    above = [record for record in entries if record[0] < depth]
     pages = {}
     for entry in entries:
         if entry[0] >= depth:
@@ -35,7 +35,7 @@ def with_sub_pages(content, depth=1):
         page = b"".join(_ENTRY.pack(*member) for member in members)
         pointers.append((depth, *branch, at, len(page), -1))
         at, rest = at + len(page), rest + page
-    data[start:] = b"".join(_ENTRY.pack(*each) for each in (*above, *pointers)) + rest
+    data[start:] = b"".join(_ENTRY.pack(*value) for value in (*above, *pointers)) + rest
     struct.pack_into("<Q", data, _ROOT + 8, first)
     struct.pack_into("<Q", data, start - 60 + 20, len(data) - start)
     return bytes(data)

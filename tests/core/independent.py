@@ -145,7 +145,7 @@ def meaning(points, point_format):
     if point_format in TIMES:
         columns.append(at(TIMES[point_format], "<i8"))
     if point_format in COLOURS:
-        columns += [at(COLOURS[point_format] + 2 * each, "<u2") for each in range(3)]
+        columns += [at(COLOURS[point_format] + 2 * number, "<u2") for number in range(3)]
     columns += list(points[:, LENGTHS[point_format] :].T)
     return columns
 

@@ -64,13 +64,13 @@ def compare(water, lines, dtm, *others):
     """
     rasters = [_raster(path) for path in (dtm, *others)]
     heights, to = rasters[0]
-    levels = [(each["ID"], line) for each, (line,) in features(lines)]
+    levels = [(feature["ID"], line) for feature, (line,) in features(lines)]
     found = {}
     for fields, rings in features(water):
         inside = _inside(rings, heights, to)
         if not inside.any():
             continue
-        missing = sum(int(np.isnan(each[inside]).sum()) for each, _ in rasters)
+        missing = sum(int(np.isnan(raster[inside]).sum()) for raster, _ in rasters)
         low, high = fields["LEVEL_LOW"], fields["LEVEL"]
         off = np.maximum(heights[inside] - high, low - heights[inside])
         near = [0.0]

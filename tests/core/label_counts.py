@@ -33,13 +33,13 @@ PRESETS = [("tin-densification", "lidar360"), ("slope", "whitebox"), ("grid-mini
 PRESETS += [(method, preset) for method in METHODS for preset in ("automatic", "steep", "city")]
 BRIDGES = ("bridge_over_road", "bridge_over_railway", "bridge_over_river", "viaduct", "plaza")
 UNSURE = ("gorge", "steep_forest", "sparse_village", "water_gaps")
-SOME = ("hills", "sparse_village", "complex_on_slope", "water_gaps")
+SOME = ("sparse_village", "complex_on_slope")
 
 
 @functools.lru_cache(maxsize=1)
 def scene_of(kind):
     """Return one scene, small enough to be classified in a moment."""
-    return make(kind, seed=11, density=SCENES[kind], size=60.0 if SCENES[kind] > 4.0 else 90.0)
+    return make(kind, seed=11, density=SCENES[kind], size=60.0 if SCENES[kind] > 4.0 else 80.0)
 
 
 @functools.lru_cache(maxsize=12)

@@ -131,7 +131,7 @@ def _texts():
     yield ".vpc", json.dumps(collection).encode()
     polygon = {"type": "Polygon", "coordinates": [RING]}
     line = {"type": "LineString", "coordinates": [[*corner, 100.0] for corner in RING]}
-    shapes = [{"type": "Feature", "geometry": each, "properties": {}} for each in (polygon, line)]
+    shapes = [{"type": "Feature", "geometry": value, "properties": {}} for value in (polygon, line)]
     yield ".geojson", json.dumps({"type": "FeatureCollection", "features": shapes}).encode()
     corners = ", ".join(f"{x} {y}" for x, y in RING)
     yield ".wkt", f"POLYGON (({corners}))\nMULTILINESTRING Z (({corners}))\n".encode()
@@ -141,7 +141,7 @@ def mutant(originals, seed, number):
     """Return the suffix and the bytes of a file of which some are wrong, and what was done."""
     random = np.random.default_rng([seed, number])
     suffix = random.choice(list(SHARES), p=list(SHARES.values()))
-    of_kind = [each for each in originals if each.suffix == suffix]
+    of_kind = [source for source in originals if source.suffix == suffix]
     original = of_kind[random.integers(len(of_kind))]
     data, done = bytearray(original.content), []
     for _ in range(random.integers(1, 5)):
@@ -202,4 +202,4 @@ def _change_text(data, low, high, random, keep_length):
 
 if __name__ == "__main__":
     place = Path(sys.argv[1])
-    (place / "originals").write_bytes(pickle.dumps([tuple(each) for each in originals(place)]))
+    (place / "originals").write_bytes(pickle.dumps([tuple(fields) for fields in originals(place)]))

@@ -13,7 +13,7 @@ import laspy
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.core.progress import SILENT
+from bare_earth import Progress
 from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine.jobs import TileJob
@@ -61,7 +61,7 @@ def write(path, integers, shift=(0, 0, 0), classes=1):
     return path
 
 
-def write_classified(source, target, classes, progress=SILENT):
+def write_classified(source, target, classes, progress=Progress()):
     """Write a file with other classes, and nothing else changed."""
     write_changed(source, target, Edits(classification=classes), progress)
 

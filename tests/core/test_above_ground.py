@@ -169,9 +169,9 @@ def test_scattered_points_and_steep_planes_have_none():
 @pytest.mark.parametrize(
     ("kind", "size", "least"),
     [
-        ("village", 120.0, 0.94),
+        pytest.param("village", 120.0, 0.94, marks=pytest.mark.long),
         ("hillside_village", 90.0, 0.93),
-        ("city_blocks", 90.0, 0.97),
+        pytest.param("city_blocks", 90.0, 0.97, marks=pytest.mark.long),
         ("car_park", 90.0, 0.98),
     ],
 )

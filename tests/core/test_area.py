@@ -33,8 +33,8 @@ def star(corners=41, radius=9.0, seed=3):
 def by_path(rings, x, y):
     path = pytest.importorskip("matplotlib.path")
     odd = np.zeros(len(x), bool)
-    for each in rings:
-        odd ^= path.Path(each).contains_points(np.column_stack((x, y)))
+    for corners in rings:
+        odd ^= path.Path(corners).contains_points(np.column_stack((x, y)))
     return odd
 
 
@@ -55,7 +55,7 @@ def test_a_polygon_with_a_hole(direction):
 
 def test_rings_need_not_be_closed():
     x, y = places()
-    closed, opened = (Area(polygons=((ring(each),),)) for each in (SQUARE, SQUARE[:-1]))
+    closed, opened = (Area(polygons=((ring(value),),)) for value in (SQUARE, SQUARE[:-1]))
     assert np.array_equal(closed.contains(x, y), opened.contains(x, y))
 
 
@@ -85,7 +85,7 @@ def test_each_place_on_a_shared_border_belongs_to_one_polygon():
     outside = ring([(8, 0), (6, 6), (0, 8), (-6, 6), (-8, 0), (-6, -6), (0, -8), (6, -6)])
     fan = [np.array([(0, 0), a, b]) for a, b in zip(outside, np.roll(outside, -1, axis=0))]
     x, y = (axis.ravel().astype(float) for axis in np.mgrid[-5:6, -5:6])
-    held = np.sum([Area(polygons=((each,),)).contains(x, y) for each in fan], axis=0)
+    held = np.sum([Area(polygons=((corners,),)).contains(x, y) for corners in fan], axis=0)
     assert (held == 1).all()
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+from matrices import quick
 from realdata import real
 from surveys import ORIGIN, strip, write, write_points
 from test_water import lake_scene
@@ -332,6 +333,7 @@ def only_error(command, script, mark):
     assert "script.py:16" in line and "metod" in line
 
 
+@pytest.mark.long
 def test_mypy_accepts_a_script(script, tmp_path):
     (tmp_path / "mypy.ini").write_text(
         f"[mypy]\nstrict = True\nfollow_imports = silent\nignore_missing_imports = True\n"
@@ -340,6 +342,7 @@ def test_mypy_accepts_a_script(script, tmp_path):
     only_error(["mypy", "--config-file", tmp_path / "mypy.ini"], script, ": error: ")
 
 
+@pytest.mark.long
 def test_pyright_accepts_a_script(script):
     pytest.importorskip("pyright")
     only_error(["pyright", "--pythonpath", sys.executable], script, " error: ")
@@ -354,7 +357,7 @@ def test_all_real_tiles_get_the_labels_of_the_file(path, tmp_path):
         test_real_tiles_get_the_labels_of_the_file(path.name, tmp_path)
 
 
-@pytest.mark.parametrize("name", REAL)
+@pytest.mark.parametrize("name", quick(REAL, "house_slope.laz"))
 def test_real_tiles_get_the_labels_of_the_file(name, tmp_path):
     pytest.importorskip("pyproj")
     source, target = real(f"real/{name}"), tmp_path / "done.laz"

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from matrices import covering
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
@@ -23,21 +24,24 @@ def _kept(method, x, y, z, which):
     return METHODS[method].classify(Points(x, y, z), parameters)[which].mean()
 
 
-@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(
-    ("density", "height", "width", "bend"),
-    [(4.0, 0.5, 4.0, 0.0), (4.0, 1.2, 5.0, 0.5), (12.0, 0.8, 5.0, 1.0), (2.0, 0.6, 4.0, 0.0)],
+    ("bank", "method"),
+    covering(
+        [(4.0, 0.5, 4.0, 0.0), (4.0, 1.2, 5.0, 0.5), (12.0, 0.8, 5.0, 1.0), (2.0, 0.6, 4.0, 0.0)],
+        list(METHODS),
+    ),
 )
-def test_banks_stay(method, density, height, width, bend):
+def test_banks_stay(method, bank):
+    density, height, width, bend = bank
     x, y, land, raised = _field(density, height, width, bend=bend)
     z = surveyed(x, y, land + raised)
     assert _kept(method, x, y, z, raised > 0.5 * height) > 0.75
     assert _kept(method, x, y, z, raised < 0.01) > 0.99
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize(("height", "width"), [(0.8, 4.0), (1.2, 5.0)])
-def test_banks_under_trees_stay(method, height, width):
+@pytest.mark.parametrize(("method", "bank"), covering(list(METHODS), [(0.8, 4.0), (1.2, 5.0)]))
+def test_banks_under_trees_stay(method, bank):
+    height, width = bank
     # Two of seven points are below the crowns, a tenth of them on bushes.
     x, y, land, raised = _field(14.0, height, width, bend=0.5)
     random = np.random.default_rng(2)

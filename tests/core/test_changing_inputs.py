@@ -9,6 +9,7 @@ import sys
 import numpy as np
 import pytest
 import surveys
+from matrices import covering
 
 from bare_earth import BareEarthError, Progress, classify, heights, key_points, terrain
 
@@ -117,10 +118,7 @@ def test_a_changed_input_is_told_or_made_no_difference(
     assert not list(tmp_path.glob(".*"))
 
 
-@pytest.mark.parametrize("change", CHANGES)
-@pytest.mark.parametrize(
-    "when", [0.4, *(pytest.param(when, marks=pytest.mark.long) for when in (0.1, 0.6, 0.8))]
-)
+@pytest.mark.parametrize(("change", "when"), covering(list(CHANGES), [0.4, 0.6, 0.1, 0.8]))
 def test_a_changed_tile_of_a_survey_is_told_or_made_no_difference(tmp_path, change, when):
     def survey(name, progress=None):
         folder, out = tmp_path / name, tmp_path / f"{name}-out"

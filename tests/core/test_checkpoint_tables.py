@@ -177,7 +177,7 @@ def test_the_name_of_a_file_says_the_kind_if_nothing_else_does(tmp_path, kind):
 
 
 def test_a_column_that_says_yes_or_no_to_plants(tmp_path):
-    rows = "".join(f"{X},{Y},{Z},{each}\n" for each in ("yes", "no", "1", "none", "forest"))
+    rows = "".join(f"{X},{Y},{Z},{name}\n" for name in ("yes", "no", "1", "none", "forest"))
     found = read(tmp_path, "x,y,z,Vegetation\n" + rows)
     kinds = [LandCovers().kind("", cover) for cover in found.covers]
     assert kinds == ["VVA", "NVA", "VVA", "NVA", "VVA"]
@@ -225,7 +225,7 @@ def layer(tmp_path, heights, **fields):
 
 
 GIVEN = [Z, Z + 1, Z + 2]
-HIGHER = [each + 47 for each in GIVEN]
+HIGHER = [option + 47 for option in GIVEN]
 
 
 @pytest.mark.parametrize(
@@ -237,7 +237,7 @@ HIGHER = [each + 47 for each in GIVEN]
      (HIGHER, {"ortho_ht": GIVEN}, GIVEN, "not z of the points"),
      (GIVEN, {"Height": HIGHER}, GIVEN, "not the attribute Height"),
      (GIVEN, {"Elevation": GIVEN}, GIVEN, None),
-     (GIVEN, {"elev_ft": [each / 0.3048 for each in GIVEN]}, GIVEN, None)],
+     (GIVEN, {"elev_ft": [option / 0.3048 for option in GIVEN]}, GIVEN, None)],
 )  # fmt: skip
 def test_z_of_the_geometry_or_of_an_attribute(tmp_path, heights, fields, expected, note):
     found = read_checkpoints(layer(tmp_path, heights, **fields))
@@ -354,5 +354,5 @@ FIELD = {  # counted checkpoints without and with vegetation
 def test_files_from_the_field(name):
     given = read_checkpoints(real(f"field2/{name}"))
     found = check([real("field2/ground.laz")], given)
-    counts = [0 if each is None else each.count for each in (found.nva, found.vva)]
+    counts = [0 if figures is None else figures.count for figures in (found.nva, found.vva)]
     assert tuple(counts) == FIELD[name] and found.nva.rmse < 0.03

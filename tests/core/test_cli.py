@@ -30,12 +30,12 @@ from benchmarks.scenes.simple import village
 EAST, NORTH = ORIGIN[:2]
 # Another value than the default for each kind of parameter, and how it is written.
 OTHER_VALUES = {
-    "boolean": lambda each: (not each.default, None),
-    "choice": lambda each: next((key, key) for key in each.choices if key != each.default),
-    "integer": lambda each: ((each.default or 14) + 3, str((each.default or 14) + 3)),
-    "number": lambda each: ((each.default or 2.0) * 0.75, str((each.default or 2.0) * 0.75)),
-    "integers": lambda each: ((1, 5), "1 5"),
-    "numbers": lambda each: ((4.0, 1.5), "4 1.5"),
+    "boolean": lambda known: (not known.default, None),
+    "choice": lambda known: next((key, key) for key in known.choices if key != known.default),
+    "integer": lambda known: ((known.default or 14) + 3, str((known.default or 14) + 3)),
+    "number": lambda known: ((known.default or 2.0) * 0.75, str((known.default or 2.0) * 0.75)),
+    "integers": lambda known: ((1, 5), "1 5"),
+    "numbers": lambda known: ((4.0, 1.5), "4 1.5"),
 }
 
 
@@ -192,9 +192,7 @@ def test_verbose_tells_where_an_error_arose(error, file, out, capsys, monkeypatc
     assert told.splitlines()[-1].startswith("bare-earth: ")
 
 
-@pytest.mark.parametrize(
-    ("words", "code"), [(["--version"], 0), (["--help"], 0), (["classify"], 2), (["info", "x"], 1)]
-)
+@pytest.mark.parametrize(("words", "code"), [(["--version"], 0), (["info", "x"], 1)])
 def test_as_a_command(words, code):
     done = subprocess.run(command(*words), env=environment(), capture_output=True, text=True)
     assert done.returncode == code and "Traceback" not in done.stderr
@@ -284,16 +282,16 @@ def options():
             )
 
 
-@pytest.mark.parametrize(("method", "declared", "each"), list(options()))
-def test_each_parameter_reaches_the_classifier(method, declared, each, monkeypatch):
+@pytest.mark.parametrize(("method", "declared", "known"), list(options()))
+def test_each_parameter_reaches_the_classifier(method, declared, known, monkeypatch):
     calls = steps_of_runs(monkeypatch)
-    value, text = OTHER_VALUES[each.kind](each)
-    flag = each.name.replace("_", "-")
+    value, text = OTHER_VALUES[known.kind](known)
+    flag = known.name.replace("_", "-")
     words = [f"--{flag}", *text.split()] if text else [f"--{flag}" if value else f"--no-{flag}"]
     words += ["--method", method.name, "--dtm", "a.tif"]
     assert run("classify", "in.las", "out.las", *words) == 0
     expected = [
-        kind(**{each.name: value}) if kind is declared else kind()
+        kind(**{known.name: value}) if kind is declared else kind()
         for kind in (method.parameters, Selection, TerrainModel)
     ]
     ground, rasters = calls[0][LabelGround], calls[0][MakeRasters]

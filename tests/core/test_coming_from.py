@@ -7,6 +7,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+from matrices import quick
 from remote_server import serving
 from surveys import ORIGIN, strip, write
 
@@ -52,7 +53,7 @@ def server(work):
         yield running
 
 
-@pytest.mark.parametrize("words", COMMANDS)
+@pytest.mark.parametrize("words", quick(COMMANDS, *COMMANDS[::4]))
 def test_a_command_of_the_page_runs(words, work, server, tmp_path, monkeypatch):
     pytest.importorskip("rasterio")
     folder = tmp_path / "work"

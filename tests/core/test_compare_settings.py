@@ -104,7 +104,7 @@ def test_the_profile_lies_where_the_terrains_differ_most_or_where_it_is_wanted(
     texts = Tags(made[1]).texts
     (about,) = (text for text in texts if text.startswith("The profile runs"))
     start, end = re.findall(r"(\d+) m east and (\d+) m north", about)
-    numbers = [int(each) for each in (*start, *end)]
+    numbers = [int(value) for value in (*start, *end)]
     along_x = numbers[1] == numbers[3]
     # In metres from the corner of the window, which lies 20 m inside.
     low, high = HALL[2:] if along_x else HALL[:2]
@@ -149,7 +149,7 @@ def test_feet_are_converted(made, tmp_path):
     assert "(262 x 262 ft, 80 x 80 m)" in page and "164 ft (50 m) round the window" in page
     axes = re.findall(r">(-?[\d.]+) (\w+)</text>", page)
     assert {unit for _, unit in axes} == {"ft"}
-    assert {"100 ft", "200 ft"} <= {" ".join(each) for each in axes}  # of 262 ft
+    assert {"100 ft", "200 ft"} <= {" ".join(axis) for axis in axes}  # of 262 ft
     heights = [float(number) for number, _ in axes if 300 < float(number) < 400]
     assert heights  # the plane is 100 m high
     assert f"{summary.settings[1]['terrain_difference'] / FOOT:.2f} ft" in page

@@ -259,7 +259,7 @@ def test_many_files_give_the_raster_of_one(wall, tmp_path):
     assert np.array_equal(*rasters, equal_nan=True)
 
 
-@pytest.mark.parametrize("how", ["one", "parts", "many"])
+@pytest.mark.parametrize("how", ["one", pytest.param("parts", marks=pytest.mark.long), "many"])
 def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how, las):
     # A lake with points on it, in a slope; a wall that a line knows.
     x, y = scatter(SIZE, 1.0, seed=4)

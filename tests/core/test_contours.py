@@ -74,7 +74,7 @@ def test_lines_are_those_of_a_library():
         mine = [line.places for line in found if line.level == level]
         assert len(mine) == len(expected)
         for some in (mine, expected):
-            some[:] = [np.hypot(*np.diff(each, axis=0).T).sum() for each in some]
+            some[:] = [np.hypot(*np.diff(shape, axis=0).T).sum() for shape in some]
         assert sorted(mine) == pytest.approx(sorted(expected), abs=1e-9)
     assert len(found) > 300
 
@@ -144,7 +144,7 @@ def test_small_rings_are_left_out_and_large_ones_stay(tmp_path):
     lengths = {}
     for least in (0.0, 4.6, 18.0):
         contours(path, lines, interval=0.5, contour_smoothing=0, contour_min_length=least)
-        lengths[least] = [np.hypot(*np.diff(each, axis=0).T).sum() for each in read(lines)[2]]
+        lengths[least] = [np.hypot(*np.diff(shape, axis=0).T).sum() for shape in read(lines)[2]]
         assert min(lengths[least]) >= least
     assert [len(value) for value in lengths.values()] == [6, 4, 2]
 
@@ -178,7 +178,7 @@ def test_strips_of_a_raster_make_no_difference(tmp_path, monkeypatch):
         for name in ("one", "many")
     )
     # The mean of a ring depends on the place at which it begins.
-    assert [each[:2] for each in one] == [each[:2] for each in many] and len(one) > 10
+    assert [item[:2] for item in one] == [item[:2] for item in many] and len(one) > 10
 
 
 def test_intervals_are_one_two_or_five(tmp_path):
@@ -201,11 +201,11 @@ def test_the_commands_draw_the_same_lines(tmp_path):
     write_points(tmp_path / "in.laz", x, y, 50 + 0.1 * x + 2 * np.sin(y / 9), 2)
     source, dtm = str(tmp_path / "in.laz"), str(tmp_path / "dtm.tif")
     words = ["--contour-interval", "0.5"]
-    names = [str(tmp_path / f"{each}.geojson") for each in "abc"]
+    names = [str(tmp_path / f"{letter}.geojson") for letter in "abc"]
     assert main(["terrain", source, "--dtm", dtm, "--contours", names[0], *words]) == 0
     assert main(["contours", dtm, names[1], "--interval", "0.5", "--json"]) == 0
     assert main(["terrain", source, "--contours", names[2], *words]) == 0
-    one, two, three = ((tmp_path / f"{each}.geojson").read_bytes() for each in "abc")
+    one, two, three = ((tmp_path / f"{letter}.geojson").read_bytes() for letter in "abc")
     assert one == two == three and one.count(b"LineString") > 20
     out = str(tmp_path / "out.laz")
     assert main(["classify", source, out, "--contours", names[0]]) == 0

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from fulldisks import TELLS, become_full
 from laspy import CopcReader
+from matrices import covering
 from surveys import write_classified
 
 from bare_earth import BareEarthError, Cancelled, Progress, info
@@ -67,8 +68,8 @@ def test_every_point_is_kept_with_all_its_fields(las, point_format, name):
     names += sorted(
         both & {"gps_time", "red", "green", "blue", "nir", "overlap", "scanner_channel"}
     )
-    for each in names:
-        np.testing.assert_array_equal(after[each][other], before[each][one], err_msg=each)
+    for key in names:
+        np.testing.assert_array_equal(after[key][other], before[key][one], err_msg=key)
     np.testing.assert_array_equal(after.classification[other], classes_of(500)[one])
     if point_format < 6:
         degrees = np.asarray(before.scan_angle_rank)[one]
@@ -245,8 +246,7 @@ def test_points_in_one_place_end_the_octree_all_the_same(las, few_in_memory, cou
     assert much.read_bytes() == little.read_bytes()
 
 
-@pytest.mark.parametrize("spread", [50, 3000, 40_000])
-@pytest.mark.parametrize("stray", [0, 2])
+@pytest.mark.parametrize(("spread", "stray"), covering([50, 3000, 40_000], [0, 2]))
 def test_the_same_bytes_however_few_points_fit_into_memory(las, few_in_memory, spread, stray):
     records = cloud_of(15_000, spread=spread)
     # So far that all others lie in few of the cells that are told apart at a time.
@@ -260,13 +260,12 @@ def test_the_same_bytes_however_few_points_fit_into_memory(las, few_in_memory, s
         found = reader.query()
     assert np.array_equal(order_of(found), order_of(laspy.read(little)))
     assert len(np.unique(found["X"])) == len(np.unique(laspy.read(source)["X"]))
-    for each in progress:
-        assert each.fractions == sorted(each.fractions) and each.fractions[-1] == 1.0
+    for told in progress:
+        assert told.fractions == sorted(told.fractions) and told.fractions[-1] == 1.0
     assert len(progress[1].fractions) > 50
 
 
-@pytest.mark.parametrize("name", ["in.las", "in.laz"])
-@pytest.mark.parametrize("point_format", [0, 3, 5, 8, 10])
+@pytest.mark.parametrize(("point_format", "name"), covering([0, 3, 5, 8, 10], ["in.las", "in.laz"]))
 def test_the_same_bytes_of_other_formats_and_edits(las, few_in_memory, point_format, name):
     version = 4 if point_format > 5 else 3
     extra_record = las.vlr(b"LASF_Spec", 4, extra_bytes_vlr(b"amount"))

@@ -17,10 +17,10 @@ def widest(profile, is_ground=None, rule=RULE):
     """
     profile = np.asarray(profile, dtype=np.float32)
     is_ground = np.isfinite(profile) if is_ground is None else is_ground
-    heights, is_ground = (np.tile(each, (LENGTH, 1)) for each in (profile, is_ground))
+    heights, is_ground = (np.tile(value, (LENGTH, 1)) for value in (profile, is_ground))
     heights = np.pad(heights, BORDER, constant_values=np.nan)
     relief = Relief(1.0, 1.0, BORDER, 0, 0.0, heights, np.pad(is_ground, BORDER))
-    sections = raised_sections(relief, lambda each: np.isfinite(each.heights), rule)
+    sections = raised_sections(relief, lambda relief: np.isfinite(relief.heights), rule)
     return int((sections.steps[sections.direction == 0] + 1).max(initial=0))
 
 

@@ -291,7 +291,7 @@ def test_records_that_contradict_each_other_are_told(las, values, told):
     assert crs.vertical_unit == pytest.approx(SURVEY) and crs.datum.epsg == 5103
     warnings = [text for text in progress.warnings if "contradict each other" in text]
     assert len(warnings) == (told is not None)
-    assert all(told in each and "--crs" in each for each in warnings)
+    assert all(told in words and "--crs" in words for words in warnings)
 
 
 def test_the_code_of_a_compound_crs_gives_both_parts(las):

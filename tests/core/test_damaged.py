@@ -488,7 +488,7 @@ def test_many_shapes_are_read_in_a_time_that_grows_with_their_number(tmp_path):
 def test_a_pipe_is_not_waited_for(tmp_path, name):
     path = tmp_path / name
     os.mkfifo(path)
-    readers = {".vpc": read_vpc, ".txt": lambda each: open_survey([each])}
+    readers = {".vpc": read_vpc, ".txt": lambda path: open_survey([path])}
     readers[".geojson"] = read_boundary
     with pytest.raises(BareEarthError, match="is a pipe or a device"):
         readers.get(path.suffix, read_cloud)(path)

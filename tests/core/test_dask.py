@@ -267,6 +267,7 @@ def test_a_cluster_whose_workers_are_all_gone_is_told(survey, tmp_path, monkeypa
             classify([folder], out, progress=Killer(), scheduler=address, **FAST)
         assert time.monotonic() - begun < 30.0
     summary = classify([folder], out, resume=True, **FAST)
+    assert not summary.failures, "\n".join(summary.failures.values())
     assert summary.done_count == 16 and bytes_of(out) == expected
     assert not temporary_in(out)
 

@@ -12,6 +12,7 @@ import pytest
 import toy_delivery
 from conftest import Heard
 from independent_water import compare, corners_in_flat_water
+from matrices import quick
 from scipy.spatial import cKDTree
 from surveys import classes_of, finished, heights_of, write_points
 
@@ -143,7 +144,7 @@ def with_water(has_key_points=False):
 
 def files_of(folder):
     found = (path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
-    return {each for each in found if not each.startswith(("points/", ".bare-earth/"))}
+    return {name for name in found if not name.startswith(("points/", ".bare-earth/"))}
 
 
 class Stops(Progress):
@@ -171,27 +172,23 @@ def test_a_delivery_of_one_file_has_all_its_files(made, scene, name):
         *files_of(folder), "points/whole.laz"
     }  # fmt: skip
     page = (folder / "index.html").read_text(encoding="utf-8")
-    for each in files_of(folder) - {"index.html", "delivery.json"}:
-        assert f'href="{each}"' in page
+    for file in files_of(folder) - {"index.html", "delivery.json"}:
+        assert f'href="{file}"' in page
     assert f"{summary.ground_count:,}" in page and summary.point_count == len(scene[0])
     # Nothing is left of the folder in which it was made, and no page names it.
     assert not [name for name in os.listdir(folder.parent) if name.startswith(".")]
     pages = [path.read_text(encoding="utf-8") for path in folder.glob("*.html")]
-    assert not any(".~" in each or str(folder.parent) in each for each in pages)
+    assert not any(".~" in text or str(folder.parent) in text for text in pages)
 
 
-@pytest.mark.parametrize(
-    "name", [*list(FILES)[:4], pytest.param("drone-site", marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize("name", quick(FILES, "forestry", "flood"))
 def test_two_files_get_the_same_as_one(made, scene, name):
     (one, folder), (many, other) = made(name), made(name, is_one=False)
     assert files_of(folder) == files_of(other)
     assert one.class_counts == many.class_counts and one.cell_size == many.cell_size
-    for each in ("dtm.tif", "dsm.tif", "terrain_with_buildings.tif"):
-        if (folder / each).exists():
-            assert np.array_equal(
-                heights_of(folder / each), heights_of(other / each), equal_nan=True
-            )
+    for key in ("dtm.tif", "dsm.tif", "terrain_with_buildings.tif"):
+        if (folder / key).exists():
+            assert np.array_equal(heights_of(folder / key), heights_of(other / key), equal_nan=True)
     written = {path.name for path in (other / "points").glob("*.laz")}
     assert written == {"east.laz", "west.laz"} and os.path.exists(many.cloud)
 
@@ -275,7 +272,7 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
     ground = np.isin(classes, (2, 9, 20))
     expected = truth(x[ground] - EAST, y[ground] - NORTH)
     assert np.array_equal(classes[ground], expected) and ground.sum() > 10_000
-    counts = dict(zip(*(each.tolist() for each in np.unique(classes, return_counts=True))))
+    counts = dict(zip(*(code.tolist() for code in np.unique(classes, return_counts=True))))
     assert min(counts[9], counts[20]) > 50 and counts[2] == summary.ground_count
     page = rows_of_classes(tmp_path / "out" / "index.html")
     assert page == summary.class_counts == summary.quality.classes == counts
@@ -284,7 +281,7 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
     assert {f"points/{Path(summary.cloud).name}"} <= set(record["files"])
 
 
-@pytest.mark.parametrize("is_one", [True, False])
+@pytest.mark.parametrize("is_one", quick([True, False], False))
 def test_key_points_are_among_the_ground_that_water_leaves(scene, watered, tmp_path, is_one):
     how, folder = with_water(has_key_points=True), tmp_path / "out"
     summary, folder = (deliver(scene[1], folder, **how), folder) if is_one else watered(how)
@@ -309,7 +306,7 @@ def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scen
     assert {Path(tile["assets"]["data"]["href"]).name for tile in listed} == tiles
     assert 9 in classes_of(points / "classified-overview.copc.laz")
     files = json.loads((tmp_path / "out" / "delivery.json").read_text())["files"]
-    assert {each for each in files if not (tmp_path / "out" / each).is_file()} == set()
+    assert {file for file in files if not (tmp_path / "out" / file).is_file()} == set()
     assert {name for name in os.listdir(tmp_path / "out") if name[0] == "."} == {".bare-earth"}
 
 
@@ -317,7 +314,7 @@ def test_water_that_was_found_gives_classes_in_one_file_and_in_two(made):
     (one, folder), (many, _) = made("flood"), made("flood", is_one=False)
     (water,) = read_boundary(folder / "water.gpkg")
     las = laspy.read(one.cloud)
-    x, y, classes = (np.asarray(las[each]) for each in ("x", "y", "classification"))
+    x, y, classes = (np.asarray(las[name]) for name in ("x", "y", "classification"))
     inside = Area(None, (water,)).contains(x, y)
     shore = np.concatenate([along(ring, 0.01, is_closed=True)[:, :2] for ring in water])
     beside = cKDTree(shore).query(np.column_stack((x, y)))[0]
@@ -353,7 +350,8 @@ def test_a_survey_is_as_the_base_specification_asks(made):
 
 
 def test_a_specification_brings_the_classes_that_it_asks_for(scene, tmp_path):
-    summary = deliver(scene[1], tmp_path / "out", specification="ign", hold_out_share=None)
+    how = {"specification": "ign", "hold_out_share": None, "method": "slope"}
+    summary = deliver(scene[1], tmp_path / "out", **how)
     truth, classes = scene[0][:, 5], classes_of(summary.cloud)
     assert np.mean(classes[truth == 6] == 6) > 0.9 and np.mean(classes[truth == 5] == 5) > 0.9
     assert summary.cell_size == 0.5
@@ -409,7 +407,7 @@ def test_checkpoints_are_compared_with_points_and_terrain_model(scene, tmp_path)
     assert not (tmp_path / "far").exists()
 
 
-@pytest.mark.parametrize("share", [0.0, 0.3, 0.8, 1.0])
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
 def test_a_cancel_leaves_nothing_of_one_file(scene, tmp_path, share):
     with pytest.raises(Cancelled):
         deliver(scene[1], tmp_path / "out", progress=Stops(share), **SMALL)
@@ -425,7 +423,7 @@ def test_many_files_can_be_continued_after_a_cancel(scene, tmp_path):
     before = {path: path.stat().st_mtime_ns for path in (target / "points").glob("*.laz")}
     assert len(before) == 2
     deliver(scene[2], target, resume=True, **SMALL)
-    assert {each: each.stat().st_mtime_ns for each in before} == before
+    assert {file: file.stat().st_mtime_ns for file in before} == before
     assert files_of(target) == (ALWAYS | FILES["drone-site"]) - {"accuracy.html"}
 
 
@@ -448,8 +446,7 @@ def classes_by_file(folder):
     ("count", "has_key_points"),
     [
         (1, False),
-        (2, True),
-        *(pytest.param(*each, marks=pytest.mark.long) for each in ((1, True), (2, False))),
+        *(pytest.param(*row, marks=pytest.mark.long) for row in ((1, True), (2, False), (2, True))),
     ],
 )
 def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
@@ -471,12 +468,12 @@ def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
     found = classes_by_file(target)
     whole, folder = watered(how)
     expected = classes_by_file(folder)
-    assert all(np.array_equal(found[each], expected[each]) for each in expected)
+    assert all(np.array_equal(found[key], expected[key]) for key in expected)
     assert summary.class_counts == whole.class_counts and (found["west.laz"] == 9).any()
     assert files_of(target) == files_of(folder)
 
 
-@pytest.mark.parametrize("resume", [True, False])
+@pytest.mark.parametrize("resume", quick([True, False], True))
 def test_a_second_run_classifies_files_with_classes_of_water_again(
     scene, watered, tmp_path, resume
 ):
@@ -486,7 +483,9 @@ def test_a_second_run_classifies_files_with_classes_of_water_again(
     before = classes_by_file(target)
     second = deliver(scene[2], target, resume=resume, progress=progress, **how)
     assert second.class_counts == first.class_counts
-    assert all(np.array_equal(before[name], each) for name, each in classes_by_file(target).items())
+    assert all(
+        np.array_equal(before[name], classes) for name, classes in classes_by_file(target).items()
+    )
     assert any("2 finished files are made again" in text for text in progress.infos) == resume
     if not resume:
         return
@@ -516,11 +515,11 @@ def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
     deliver(scene[2], target, resume=True, **how)
     expected = classes_by_file(watered(how)[1])
     assert all(
-        np.array_equal(each, expected[name]) for name, each in classes_by_file(target).items()
+        np.array_equal(classes, expected[name]) for name, classes in classes_by_file(target).items()
     )
 
 
-@pytest.mark.parametrize("is_one", [True, False])
+@pytest.mark.parametrize("is_one", quick([True, False], False))
 def test_a_delivery_is_kept_beside_an_old_one_that_a_program_has_open(
     scene, tmp_path, windows, is_one
 ):
@@ -545,8 +544,8 @@ def test_a_delivery_is_kept_beside_an_old_one_that_a_program_has_open(
         deliver(source, target, progress=Opens(), **SMALL)
     # Nothing is half new. Of many files, the points are there, so the page is not.
     said = {"delivery.json", "index.html"}
-    assert {key: each for key, each in content().items() if key not in said or is_one} == {
-        key: each for key, each in before.items() if key not in said or is_one
+    assert {key: data for key, data in content().items() if key not in said or is_one} == {
+        key: data for key, data in before.items() if key not in said or is_one
     }
     kept = tmp_path / "out-new"
     assert files_of(kept) == before.keys() and (kept / "points").exists() == is_one
@@ -610,7 +609,9 @@ def test_what_cannot_be_delivered_is_said_before_any_work(scene, tmp_path):
 
 
 def test_cells_follow_the_density_of_the_ground():
-    sizes = [DELIVERIES["archaeology"].cell_size(each, "none") for each in (40, 5, 1, 0.1, 0.01)]
+    sizes = [
+        DELIVERIES["archaeology"].cell_size(number, "none") for number in (40, 5, 1, 0.1, 0.01)
+    ]
     assert sizes == [0.25, 0.5, 1.0, 2.0, 5.0]
     assert DELIVERIES["drone-site"].cell_size(150.0, "none") == 0.1
     assert DELIVERIES["survey"].cell_size(0.1, "lbs-ql1") == 0.5
@@ -670,7 +671,7 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     assert (f"{100 * share:.1f} % of the area is farther than 3 m" in page) == (share > 0)
     # The scene is sparse, and the specification asks for 2 points in a square metre.
     assert told["page"] == str(target / "index.html") and Path(told["page"]).exists()
-    states = {each.name: each.state for each in summary.quality.comparison}
+    states = {item.name: item.state for item in summary.quality.comparison}
     passed = list(states.values()).count("pass")
     share, _, names = told["comparisons"].partition("; not: ")
     assert share == f"{passed} of {len(states)} pass" and states["Density"] == "fail"
@@ -702,11 +703,11 @@ def test_many_files_with_heights_are_done_already_after_a_finished_delivery(made
     shutil.copytree(folder, target)
     before = {path: path.stat().st_mtime_ns for path in (target / "points").glob("*.laz")}
     assert len(before) == 2
-    for each in before:
-        assert "HeightAboveGround" in laspy.read(each).point_format.dimension_names
+    for file in before:
+        assert "HeightAboveGround" in laspy.read(file).point_format.dimension_names
     second = deliver(scene[2], target, delivery="forestry", resume=True, progress=progress)
     assert "2 files are done already." in progress.infos
-    assert {each: each.stat().st_mtime_ns for each in before} == before
+    assert {file: file.stat().st_mtime_ns for file in before} == before
     assert second.class_counts == first.class_counts and {3, 5, 6} & first.class_counts.keys()
     assert second.ground_count == first.ground_count == first.class_counts[2]
 
@@ -719,7 +720,7 @@ def test_records_of_many_files_are_not_among_the_points(scene, tmp_path):
     assert set(os.listdir(target / ".bare-earth")) == {"east.laz.json", "west.laz.json"}
     files = json.loads((target / "delivery.json").read_text())["files"]
     assert {name for name in files if name.startswith("points/")} == {
-        f"points/{each}" for each in handed
+        f"points/{key}" for key in handed
     }
     # A run that goes on finds them, also after one that was stopped; one file has none.
     with pytest.raises(FinishedFilesStay):
@@ -740,10 +741,10 @@ def square(west, south, east, north):
 def features(path):
     """Return the values of the fields, and the coordinates of each feature."""
     known, _, _, columns = pytest.importorskip("pyogrio").raw.read(path)
-    rows = [dict(zip(known["fields"].tolist(), each)) for each in zip(*columns)]
+    rows = [dict(zip(known["fields"].tolist(), row)) for row in zip(*columns)]
     assert known["crs"] == "EPSG:25832"
     is_water = Path(path).stem == "water"
-    shapes = [each[0] for each in read_boundary(path)] if is_water else read_lines(path)
+    shapes = [polygon[0] for polygon in read_boundary(path)] if is_water else read_lines(path)
     assert len(rows) == len(shapes)
     return list(zip(rows, shapes))
 
@@ -752,7 +753,7 @@ def line(*corners):
     return np.add(corners, (EAST, NORTH, 0.0))
 
 
-@pytest.mark.parametrize("is_one", [True, False])
+@pytest.mark.parametrize("is_one", quick([True, False], False))
 def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp_path, is_one):
     # A lake, a river across both files, water without ground near it; a dyke, and an edge.
     lake, river = square(96.0, 25.0, 136.0, 65.0), square(60.0, 3.0, 90.0, 9.0)
@@ -815,7 +816,7 @@ def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp
 
 def test_breaklines_of_the_user_are_delivered_beside_water_that_was_found(scene, tmp_path):
     dyke = line((5.0, 45.0, 107.0), (12.0, 45.0, 107.5))
-    how = {"hold_out_share": None, "breaklines": (dyke,)}
+    how = {"hold_out_share": None, "method": "slope", "breaklines": (dyke,)}
     summary = deliver(scene[1], tmp_path / "out", delivery="flood", **how)
     (row, _), *others = features(summary.layers["water"])
     assert row["GRADE"] != "given" and not others

@@ -102,8 +102,8 @@ def test_beyond_a_facet_that_is_too_steep_the_mirror_image_is_judged():
     image = 2.0 * np.array([(40.0, 20.0), (40.0, 20.0), (30.0, 20.0)]) - at
     heights = step(image) + np.array([0.0, 0.1, 0.0])
     rules = {"surface": step, "noise_distance": 0.01, "iteration_angle": 0.1}
-    for each, expected in ((0, True), (1, False), (2, True)):
-        one = at[each : each + 1], heights[each : each + 1]
+    for value, expected in ((0, True), (1, False), (2, True)):
+        one = at[value : value + 1], heights[value : value + 1]
         assert joining(*one, max_terrain_angle=30.0, **rules).tolist() == [expected]
         assert not joining(*one, max_terrain_angle=80.0, **rules).any()
 

@@ -32,6 +32,8 @@ def _exported():
 def _definitions(node, exported, is_public=False):
     """Yield classes and functions inside a node, each with whether users see its docstring."""
     for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.expr):
+            continue
         if not isinstance(child, _DEFINITIONS):
             yield from _definitions(child, exported, is_public)
             continue

@@ -5,14 +5,14 @@ import struct
 import laspy
 import numpy as np
 import pytest
+from conftest import EVERY
+from matrices import covering
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.writing import write_changed
 
-VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
-EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
 VALUES = np.linspace(-1.5, 40.0, 60).astype(np.float32)
 HEIGHTS = Edits(extra=ExtraDimension("HeightAboveGround", "Above ground, metre", VALUES))
 
@@ -25,10 +25,11 @@ def described(las, *descriptors):
     return las.vlr(b"LASF_Spec", 4, b"".join(descriptors), b"as it was")
 
 
-@pytest.mark.parametrize("written", ["las", "laz"])
-@pytest.mark.parametrize("read", ["las", "laz"])
-@pytest.mark.parametrize(("version", "point_format"), EVERY)
-def test_four_bytes_are_added_and_the_rest_stays(las, version, point_format, read, written):
+@pytest.mark.parametrize(
+    ("layout", "read", "written"), covering(EVERY, ["las", "laz"], ["las", "laz"])
+)
+def test_four_bytes_are_added_and_the_rest_stays(las, layout, read, written):
+    version, point_format = layout
     source = las.make(
         f"in.{read}",
         version=version,
@@ -137,16 +138,16 @@ def test_a_record_behind_the_points_moves_before_them(las, written):
     ],
 )
 def test_what_cannot_be_followed_is_refused(las, descriptors, text):
-    record = described(las, *(descriptor(*each) for each in descriptors))
+    record = described(las, *(descriptor(*value) for value in descriptors))
     source = las.make(version=4, point_format=6, extra=4, vlrs=[record])
     with pytest.raises(BareEarthError, match=text):
         write_changed(source, las.folder / "out.las", HEIGHTS)
     assert list(las.folder.iterdir()) == [source]
 
 
-@pytest.mark.parametrize(("version", "point_format"), EVERY)
-@pytest.mark.parametrize("name", ["in.las", "in.laz"])
-def test_other_heights_change_z_and_its_range(las, name, version, point_format):
+@pytest.mark.parametrize(("layout", "name"), covering(EVERY, ["in.las", "in.laz"]))
+def test_other_heights_change_z_and_its_range(las, layout, name):
+    version, point_format = layout
     source = las.make(name, version=version, point_format=point_format, extra=2)
     target = las.folder / "out.las"
     z = np.arange(60, dtype=np.int32) * 100 - 500

@@ -253,9 +253,8 @@ LARGE_RASTER = """
 import subprocess, sys
 from pathlib import Path
 import numpy as np
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError, Progress
 from bare_earth.algorithms.core.points import Frame
-from bare_earth import Progress
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
 from bare_earth.algorithms.rasters.writing import Rows, write_geotiff
 
@@ -271,7 +270,7 @@ for megabytes in (1, 40, 64, 66, 70, 120, 220):
         print("done", end=" ")
     except BareEarthError as error:
         print(error, end=" ")
-    print(target.read_bytes() == b"old", [each.name for each in target.parent.iterdir()])
+    print(target.read_bytes() == b"old", [path.name for path in target.parent.iterdir()])
     subprocess.run(["umount", sys.argv[1]], check=True)
 """
 
@@ -352,7 +351,7 @@ def test_runs_that_write_into_one_folder_leave_each_other_alone(inputs, tmp_path
     second = _run(*survey[:2], out, *survey[2:])
     assert begun.poll() is None and second.returncode == 1
     assert "Another run writes into" in second.stderr
-    assert [each.wait() for each in (begun, *others)] == [0] * 4
+    assert [value.wait() for value in (begun, *others)] == [0] * 4
     expected = {path.name: path.read_bytes() for path in alone.glob("*.laz")}
     for number in range(1, 3):
         expected[f"one-{number}.laz"] = expected["one-0.laz"]

@@ -93,6 +93,6 @@ def test_the_work_of_a_tool_takes_what_it_declares(command):
     names = {declared.name for declared in (*tool.inputs, *tool.outputs)}
     if any(declared.kind == "clouds" for declared in tool.inputs):
         names.discard("crs")  # the files know it
-    sets = {name for name, each in taken.items() if isinstance(each.default, tool.sets)}
+    sets = {name for name, value in taken.items() if isinstance(value.default, tool.sets)}
     assert tool.command == command and set(taken) == {*names, *sets, "progress"}
     assert not tool.titles or len(tool.titles) == len(tool.sets)

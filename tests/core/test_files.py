@@ -117,8 +117,8 @@ def test_what_another_run_writes_right_now_is_left_alone(tmp_path, left_by):
     with subprocess.Popen([sys.executable, "-c", code], stdin=-1, stdout=-1) as other:
         other.stdout.readline()
         theirs, far = left_by(other.pid), left_by(1, "else")
-        for each in (theirs, far):
-            (tmp_path / each).write_text("half")
+        for value in (theirs, far):
+            (tmp_path / value).write_text("half")
         with replacing(tmp_path / "mine.las") as mine:
             beside = mine.with_name(f"{mine.name}.index")  # what a library makes beside it
             beside.write_text("half")
@@ -303,17 +303,17 @@ def test_what_was_made_is_kept_where_a_program_has_an_old_output_open_at_the_end
     # Nothing is half new.
     assert all((tmp_path / name).read_text() == "old" for name in names)
     kept = ["dtm-new.tif", "dsm-new2.tif", "lines-new.dbf", "lines-new.shp"]
-    assert all((tmp_path / each).read_text() == "new" for each in kept)
+    assert all((tmp_path / path).read_text() == "new" for path in kept)
     assert "Cannot write" in str(told.value) and "lines.dbf: another program uses" in str(
         told.value
     )
-    assert all(str(tmp_path / each) in str(told.value) for each in kept)
+    assert all(str(tmp_path / path) in str(told.value) for path in kept)
     assert len(os.listdir(tmp_path)) == len([*names, *kept, "dsm-new.tif"])
 
 
 def test_outputs_get_their_names_together_and_what_they_outdate_goes(tmp_path):
-    for each in ("dtm.tif", "dtm.tif.aux.xml", "lines.shp", "lines.qix"):
-        (tmp_path / each).write_text("old")
+    for name in ("dtm.tif", "dtm.tif.aux.xml", "lines.shp", "lines.qix"):
+        (tmp_path / name).write_text("old")
     with Outputs() as outputs:
         outputs.file(tmp_path / "dtm.tif", ["dtm.tif.aux.xml"]).write_text("new")
         lines = outputs.files(tmp_path / "lines.shp", ["lines.dbf", "lines.qix"])
@@ -424,7 +424,7 @@ def test_folders_are_exchanged_as_a_whole_or_not_at_all(number, windows, tmp_pat
     assert {path.name: path.read_text() for path in old.iterdir()} == dict.fromkeys("bcd", "old")
     assert {path.name: path.read_text() for path in new.iterdir()} == dict.fromkeys("abc", "new")
     windows.in_use.clear()
-    for each in aside.iterdir():
-        each.unlink()
+    for file in aside.iterdir():
+        file.unlink()
     exchange(moves, outdated, aside)
     assert {path.name: path.read_text() for path in old.iterdir()} == dict.fromkeys("abc", "new")

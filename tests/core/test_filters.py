@@ -5,6 +5,7 @@ import functools
 import laspy
 import numpy as np
 import pytest
+from matrices import covering, quick
 from realdata import real
 from runs import CancelAt
 
@@ -33,27 +34,26 @@ CLASSIC = [
 SMALL_CELLS = METHODS["grid-minimum"].parameters(cell_size=0.01)
 
 
-@pytest.mark.parametrize("parameters", PARAMETERS)
-@pytest.mark.parametrize("count", [1, 2, 3, 10])
+@pytest.mark.parametrize(("parameters", "count"), covering(PARAMETERS, [1, 2, 3, 10]))
 def test_a_handful_of_points_is_classified_without_an_error(parameters, count):
     line = np.arange(count, dtype=float)
     points = Points(3.0 * line, 2.0 * line, 0.1 * line)
     assert method_of(parameters).classify(points, parameters).all()
 
 
-@pytest.mark.parametrize("parameters", [*PARAMETERS, *CLASSIC])
-@pytest.mark.parametrize("count", [1, 2, 5, 10])
+@pytest.mark.parametrize(("parameters", "count"), covering([*PARAMETERS, *CLASSIC], [1, 2, 5, 10]))
 def test_points_at_one_place_are_classified_without_an_error(parameters, count):
     together = Points(*np.ones((3, count)))
     assert method_of(parameters).classify(together, parameters).all()
 
 
-@pytest.mark.parametrize("method", METHODS.values(), ids=list(METHODS))
-@pytest.mark.parametrize("density", [1.0, 4.0, pytest.param(8.0, marks=pytest.mark.long), 20.0])
-@pytest.mark.parametrize("slope", [0.0, 0.3])
+@pytest.mark.parametrize(
+    ("method", "density", "slope"),
+    covering(list(METHODS), [1.0, 4.0, 20.0], [0.0, 0.3]),
+)
 def test_houses_trees_and_low_noise_are_told_from_the_slope_they_stand_on(method, density, slope):
     points, truth = village(slope, density=density)
-    found = method.classify(points, method.parameters())
+    found = METHODS[method].classify(points, METHODS[method].parameters())
     assert error(found, truth) < 3.0
     assert not found[points.z > 112.0 + 80.0 * slope].any()
     assert not found[points.z < 95.0].any()
@@ -110,14 +110,16 @@ def test_a_hall_goes_where_points_are_sparse(kind, seed, density):
         assert found[scene.ground].mean() > 0.98, name
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
 def test_a_raised_square_stays_where_points_of_its_ramp_are_sparse(method):
     scene = make("plaza", seed=4001, density=1.0)
     labels, _ = classify_cloud(scene.cloud(), METHODS[method].parameters())
     assert (labels == 2)[scene.ground].mean() > 0.99
 
 
-@pytest.mark.parametrize(("method", "seed"), [("slope", 806), ("grid-minimum", 801)])
+@pytest.mark.parametrize(
+    ("method", "seed"), [("slope", 806), pytest.param("grid-minimum", 801, marks=pytest.mark.long)]
+)
 def test_the_topmost_tread_of_a_terrace_stays(method, seed):
     # It drops on one side, and the survey ends on the others.
     scene = make("terraces", seed=seed)
@@ -145,7 +147,7 @@ def test_caravans_in_rows_go(method):
     assert found[~caravan].mean() > 0.98
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "grid-minimum", "slope"))
 def test_a_raised_square_with_one_ramp_stays(method):
     scene = make("plaza", seed=504)
     found = METHODS[method].classify(scene.points, METHODS[method].parameters())
@@ -197,7 +199,7 @@ def test_scattered_low_outliers_do_not_take_the_ground_of_a_dense_cloud_away(met
     assert any("Low outliers are scattered" in text for text in told.infos)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "grid-minimum", "slope"))
 def test_scattered_points_of_images_take_no_ground_away(method):
     # In each 16th cell of a metre one point lies 1 to 12 m below the ground.
     scene = make("photogrammetry", seed=5, density=25.0, size=90.0)
@@ -206,7 +208,7 @@ def test_scattered_points_of_images_take_no_ground_away(method):
     assert found[~scene.ground].mean() < 0.25
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "grid-minimum", "slope"))
 @pytest.mark.parametrize(
     ("kind", "density"), [("gorge", 10.0), pytest.param("quarry", 10.0, marks=pytest.mark.long)]
 )
@@ -244,8 +246,9 @@ def test_the_isprs_samples_come_out_as_measured(method, samples, most_error, lea
     assert np.mean([result.kappa for result in found]) >= least_kappa
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("name", ["solar-tilted", "rows-planters"])
+@pytest.mark.parametrize(
+    ("method", "name"), covering(list(METHODS), ["solar-tilted", "rows-planters"])
+)
 def test_rows_of_panels_and_planters_go(method, name):
     path = real(f"field2/{name}.laz")
     is_row = np.asarray(laspy.read(path).user_data) == 0

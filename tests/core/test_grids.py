@@ -285,7 +285,7 @@ def test_values_of_blocks_are_interpolated_alike_in_a_stack():
     rows, columns = np.arange(30), np.arange(40)
     found = between_blocks(stack, 10, rows, columns)
     assert found.shape == (5, 30, 40)
-    assert np.array_equal(found, [between_blocks(each, 10, rows, columns) for each in stack])
+    assert np.array_equal(found, [between_blocks(layer, 10, rows, columns) for layer in stack])
     place = ((np.arange(3) + 0.5) * 10 - 0.5, (np.arange(4) + 0.5) * 10 - 0.5)
     plane = 2.0 * place[0][:, None] - place[1]
     inner = between_blocks(plane, 10, np.arange(5, 25), np.arange(5, 35))

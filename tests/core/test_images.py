@@ -40,7 +40,7 @@ def test_the_distance_for_images_is_not_for_a_distance_that_was_given(block):
 
     def in_images(**values):
         rules = METHOD.pipeline(points, TinDensification(**values), Progress()).rules
-        (rule,) = (each for each in rules if isinstance(each, Densification))
+        (rule,) = (part for part in rules if isinstance(part, Densification))
         return rule.in_images
 
     assert in_images() == Densification().in_images == 0.5

@@ -4,6 +4,7 @@ import laspy
 import numpy as np
 import pytest
 from conftest import Heard
+from matrices import quick
 from realdata import real
 from runs import said
 from surveys import heights_of, write_points
@@ -63,6 +64,7 @@ def test_roads_on_the_ground_are_terrain_and_those_above_it_are_not(town, tmp_pa
     assert (heights[flyover:] > BRIDGE - 0.7).all()
 
 
+@pytest.mark.long
 def test_many_files_give_the_roads_of_one(town, tmp_path, threads_for_processes):
     for name in ("one", "many"):
         (tmp_path / name).mkdir()
@@ -99,7 +101,7 @@ def test_known_ground_that_keeps_its_class_is_ground_for_the_rasters(town, tmp_p
     assert dtm[5, 85] > 50.0 + BRIDGE
 
 
-@pytest.mark.parametrize("source", ["one.las", "many"])
+@pytest.mark.parametrize("source", quick(["one.las", "many"], "one.las"))
 def test_water_stays_and_the_log_says_so(tmp_path, source, threads_for_processes):
     file, folder = real("field/water-class9.laz"), tmp_path / "many"
     folder.mkdir()

@@ -67,7 +67,7 @@ def test_pip_agrees_on_what_this_python_can_load():
     python = f"cp{sys.version_info[0]}{sys.version_info[1]}"
     supported = {str(tag) for tag in tags.sys_tags()}
     # Old interfaces and generic platforms that no wheel of lazrs has are not asked about.
-    of_wheels = {each for each in supported if f"-{python}-" in each or "-abi3-" in each}
+    of_wheels = {value for value in supported if f"-{python}-" in value or "-abi3-" in value}
     assert of_wheels and all(here.takes(wheel) for wheel in of_wheels)
     system = next(iter(of_wheels)).split("-", 2)[2]
     for other in (f"cp27-cp27m-{system}", f"{python}-{python}-win_mips", f"cp399-cp399-{system}"):
@@ -185,9 +185,9 @@ def test_a_plugin_that_is_installed_again_uses_nothing_that_windows_still_holds(
     def all_but_what_is_loaded(path, *rest, **words):
         if Path(path) != support.folder and Path(path) not in support.folder.parents:
             delete(path, *rest, **words)
-        for each in Path(path).rglob("*"):
-            if each.is_file() and each.suffix != ".pyd":
-                each.unlink()
+        for file in Path(path).rglob("*"):
+            if file.is_file() and file.suffix != ".pyd":
+                file.unlink()
 
     with monkeypatch.context() as held:
         held.setattr(shutil, "rmtree", all_but_what_is_loaded)
@@ -317,6 +317,7 @@ def test_pip_is_brought_along_where_there_is_none(support, index, tmp_path, monk
     assert run([str(python), "-m", "pip"], {}).code != 0
 
 
+@pytest.mark.long
 def test_no_wheel_for_this_python_is_told(support, index):
     make_wheel(index / f"{PACKAGE}-1.0-cp27-cp27m-win_amd64.whl", tag="cp27-cp27m-win_amd64")
     with pytest.raises(BareEarthError, match=r"the package index has none for cp3\d+ and \w+"):

@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def test_there_are_few_names_and_all_are_listed():
-    public = [each for each in dir(bare_earth) if not each.startswith("_")]
+    public = [name for name in dir(bare_earth) if not name.startswith("_")]
     assert set(bare_earth.__all__) - {"__version__"} <= set(public)
     assert len(public) <= 30
     assert set(names()) <= set(bare_earth.__all__)

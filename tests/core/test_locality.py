@@ -4,12 +4,12 @@ import dataclasses
 
 import numpy as np
 import pytest
+from matrices import quick
 from realdata import real
 from runs import memory_store
 from surveys import cut, finished, points_of, strip, write
 
-from bare_earth import classify
-from bare_earth.algorithms.core.progress import SILENT
+from bare_earth import Progress, classify
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.las.cloud import survey_frame
@@ -70,15 +70,9 @@ def test_what_is_cut_off_changes_nothing_farther_away_than_the_filter_looks(para
         assert np.mean(found != whole[left]) < 0.01
 
 
-# The others are left to `make test-long`: the test above has all methods.
-@pytest.mark.parametrize(
-    ("name", "parameters"),
-    [
-        pytest.param(name, how, marks=() if name[0] == "i" and how is PARAMETERS[-1] else LONG)
-        for name in ("isprs/samp31.laz", "real/ahn3_urban.laz")
-        for how in PARAMETERS
-    ],
-)
+@pytest.mark.long  # the test above has all methods
+@pytest.mark.parametrize("name", ["isprs/samp31.laz", "real/ahn3_urban.laz"])
+@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_crops_and_stray_points_of_real_surveys_change_nothing_far_away(name, parameters):
     cloud = read_cloud(real(name))
     if cloud.count > 500_000:  # half of them are quicker
@@ -94,7 +88,7 @@ def test_crops_and_stray_points_of_real_surveys_change_nothing_far_away(name, pa
         assert np.array_equal(found[:-1], whole)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "slope"))
 def test_files_in_the_west_change_nothing_far_away(method, wide, tmp_path):
     integers = np.column_stack((wide.x, wide.y, wide.z)).astype(np.int64)
     reach = METHODS[method].reach(METHODS[method].parameters())
@@ -108,8 +102,9 @@ def test_files_in_the_west_change_nothing_far_away(method, wide, tmp_path):
     assert len(found) > 3_000 and np.array_equal(found, whole)
 
 
-@pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
-def test_quartering_crowded_blocks_changes_no_label_of_a_real_survey(parameters):
+@pytest.mark.parametrize("method", quick(METHODS, "slope"))
+def test_quartering_crowded_blocks_changes_no_label_of_a_real_survey(method):
+    parameters = METHODS[method].parameters()
     cloud, labels = read_cloud(real("isprs/samp11.laz")), []
     cloud = some(cloud, np.flatnonzero(cloud.x < np.quantile(cloud.x, 0.25)))
     for most in (10_000_000, 4000):
@@ -117,6 +112,6 @@ def test_quartering_crowded_blocks_changes_no_label_of_a_real_survey(parameters)
         every = (cloud, np.ones(cloud.count, dtype=bool))
         store = memory_store([every], survey_frame(cloud.crs), blocks)
         assert (len(list(blocks.over(store))) > 1) == (most == 4000)
-        LabelGround(parameters, cut=blocks).work(store, Resources(), SILENT)
+        LabelGround(parameters, cut=blocks).work(store, Resources(), Progress())
         labels.append(store.values(0))
     assert np.array_equal(*labels)

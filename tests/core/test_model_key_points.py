@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from matrices import quick
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points
@@ -61,9 +62,9 @@ def test_a_looser_tolerance_keeps_fewer():
     points = _hills()
     counts = [
         np.count_nonzero(
-            model_key_points(points, ModelKeyPoints(tolerance_above=each, tolerance_below=each))
+            model_key_points(points, ModelKeyPoints(tolerance_above=number, tolerance_below=number))
         )
-        for each in (0.05, 0.1, 0.2, 0.5, 1.0)
+        for number in (0.05, 0.1, 0.2, 0.5, 1.0)
     ]
     assert counts == sorted(counts, reverse=True) and counts[0] > 4 * counts[-1]
 
@@ -78,7 +79,7 @@ def test_neither_the_order_of_the_points_nor_the_threads_matter():
 
 
 def test_points_on_a_regular_grid_with_straight_borders():
-    x, y = (each.ravel() for each in np.meshgrid(np.arange(0.0, 60.0), np.arange(0.0, 40.0)))
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(0.0, 60.0), np.arange(0.0, 40.0)))
     points = Points(x + 0.1, y + 0.3, np.sin(x / 5) + np.where(y == 0, 0.4, 0.0))
     keys = model_key_points(points)
     assert np.abs(_residuals(points, keys)).max() <= 0.15 + 1e-6
@@ -86,7 +87,7 @@ def test_points_on_a_regular_grid_with_straight_borders():
 
 
 def test_on_a_lattice_it_does_not_matter_which_diagonals_the_tin_has():
-    x, y = (each.ravel() for each in np.meshgrid(np.arange(0.0, 50.0, 0.5), np.arange(80.0)))
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(0.0, 50.0, 0.5), np.arange(80.0)))
     noise = np.random.default_rng(4).normal(0.0, 0.05, len(x))
     points = Points(x, y, 5.0 * np.sin(x / 20.0) + 3.0 * np.cos(y / 13.0) + noise)
     keys = model_key_points(points)
@@ -109,7 +110,7 @@ def _parts(points, side, parameters):
     return keys
 
 
-@pytest.mark.parametrize("grid_size", [7.0, 10.0])
+@pytest.mark.parametrize("grid_size", quick([7.0, 10.0], 7.0))
 def test_a_part_with_its_surroundings_has_the_key_points_of_the_whole(grid_size):
     points, parameters = _hills(300.0), ModelKeyPoints(grid_size=grid_size)
     whole, parts = model_key_points(points, parameters), _parts(points, 100.0, parameters)
@@ -144,7 +145,7 @@ def test_a_gap_wider_than_the_grid_keeps_the_tolerance():
 
 def test_of_points_at_one_place_the_lowest_counts():
     points = _hills(40.0)
-    points = Points(*(np.append(each, each[:50]) for each in points))
+    points = Points(*(np.append(point, point[:50]) for point in points))
     points.z[-50:] += 3.0
     keys = model_key_points(points)
     assert not keys[-50:].any()

@@ -56,7 +56,7 @@ def found(monkeypatch, folder, names, seconds=60, waited=300):
     monkeypatch.setattr(campaign, "WAITED", waited)
     monkeypatch.setattr(campaign, "work_on", lambda source, random: ENDS[source]())
     numbers = range(len(names))
-    answers = dict(campaign.answers_of(numbers, lambda each: (names[each], None), folder))
+    answers = dict(campaign.answers_of(numbers, lambda number: (names[number], None), folder))
     assert list(answers) == list(numbers)
     return {names[number]: answer for number, answer in answers.items()}
 

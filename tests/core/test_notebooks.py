@@ -18,7 +18,14 @@ def cells(notebook, kind):
     return ["".join(cell["source"]) for cell in whole["cells"] if cell["cell_type"] == kind]
 
 
-@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "notebook",
+    [
+        pytest.param(path, marks=pytest.mark.long if "cluster" in path.stem else ())
+        for path in NOTEBOOKS
+    ],
+    ids=lambda path: path.stem,
+)
 def test_a_notebook_runs(notebook, tmp_path, monkeypatch):
     for name in NEEDED:
         pytest.importorskip(name)

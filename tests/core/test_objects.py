@@ -209,7 +209,7 @@ def test_the_trend_of_a_place_does_not_depend_on_where_the_grid_begins():
     # Three blocks from the new border: the medians of their neighbours matter.
     for one, other in zip(whole.of_rows(60, 120), part.of_rows(60 - 11, 120 - 11)):
         assert np.array_equal(one[:, 60:], other[:, 60 - 8 :])
-    row, column = (each.ravel() for each in np.mgrid[60:119, 60:119])
+    row, column = (axis.ravel() for axis in np.mgrid[60:119, 60:119])
     expected = whole.along(row, column, 1, 1)
     assert np.array_equal(part.along(row - 11, column - 8, 1, 1), expected)
     unanchored = Trend(heights[11:, 8:], 1.0).of_rows(49, 109)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from conftest import Heard
 from fulldisks import TELLS, become_full
+from matrices import covering
 from realdata import real
 from runs import CancelAt, environment
 
@@ -103,7 +104,7 @@ def same_in_memory_and_on_disk(source, folder, method, **options):
         pytest.param("grid-minimum", {"low_noise_class": True}, marks=LONG),
         pytest.param("slope", {"low_noise_class": True}, marks=LONG),
         ("slope", {"seed_classes": (9,), "returns": "all", "others": "unclassified"}),
-        ("slope", {"seed_classes": (9,), "from_classes": (1, 2, 7)}),
+        pytest.param("slope", {"seed_classes": (9,), "from_classes": (1, 2, 7)}, marks=LONG),
         ("grid-minimum", {"extent": (EAST + 20, NORTH + 10, EAST + 110, NORTH + 60)}),
     ],
 )
@@ -139,7 +140,7 @@ def test_ground_points_only_in_memory_and_on_disk(small, tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "free"),
-    [pytest.param("in.las", 0, marks=LONG), ("in.laz", 0), ("in.laz", 1 << 40)],
+    [*(pytest.param(name, 0, marks=LONG) for name in ("in.las", "in.laz")), ("in.laz", 1 << 40)],
 )
 def test_heights_above_ground_in_memory_and_on_disk(small, tmp_path, monkeypatch, name, free):
     # A compressed file is kept on a disk with room, so that it is decompressed once.
@@ -156,8 +157,7 @@ def test_heights_above_ground_in_memory_and_on_disk(small, tmp_path, monkeypatch
 # Stray points
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(("method", "size"), covering(METHODS, list(SIZES)))
 def test_a_stray_point_far_away_stops_nothing(method, size, tmp_path):
     source = write(tmp_path / "in.las", 8000, stray=(1e6, 1e6, 1e6))
     summary, _ = run(source, tmp_path / "out", method, SIZES[size])
@@ -172,7 +172,7 @@ def test_a_stray_point_far_away_stops_nothing(method, size, tmp_path):
 # Limits
 
 
-@pytest.mark.parametrize("kind", ["las", "laz"])
+@pytest.mark.parametrize("kind", [pytest.param("las", marks=LONG), "laz"])
 def test_a_copc_file_is_made_of_points_that_do_not_fit(small, small_nodes, kind, tmp_path):
     source, sorted_on_disk = write(tmp_path / f"in.{kind}"), []
     for size, resources in SIZES.items():
@@ -226,10 +226,7 @@ def test_the_same_errors_on_disk(options, words, tmp_path):
 # Ends
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize(
-    "fraction", [0.05, 0.6, 0.95, *(pytest.param(share, marks=LONG) for share in (0.0, 0.3, 0.8))]
-)
+@pytest.mark.parametrize(("fraction", "size"), covering((0.3, 0.6, 0.95), list(SIZES)))
 def test_a_cancel_leaves_nothing(small, fraction, size, tmp_path):
     source = write(tmp_path / "in.las", 8000, shape=(130.0, 70.0))
     progress = CancelAt(fraction)

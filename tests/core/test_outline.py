@@ -6,6 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
+from matrices import quick
 from runs import said
 from scipy import ndimage
 from scipy.spatial import cKDTree
@@ -143,7 +144,7 @@ def hillside(tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize("cell", [pytest.param(0.5, marks=pytest.mark.long), 1.0, 3.0])
+@pytest.mark.parametrize("cell", quick([0.5, 1.0, 3.0], 3.0))
 def test_the_outermost_cells_of_tiles_on_a_slope_are_as_good_as_the_others(
     hillside, tmp_path, cell
 ):
@@ -161,6 +162,7 @@ def test_the_outermost_cells_of_tiles_on_a_slope_are_as_good_as_the_others(
     assert np.array_equal(one, found, equal_nan=True)
 
 
+@pytest.mark.long
 def test_the_rasters_of_two_tiles_of_a_forest_have_sound_borders_and_no_seam(
     tmp_path, threads_for_processes
 ):
@@ -234,7 +236,8 @@ def test_no_raster_has_values_in_the_inner_corner_of_a_survey_like_an_l(tmp_path
         assert known[_is_l(x + 2.0, y + 2.0)].mean() > 0.95
 
 
-@pytest.mark.parametrize("names", SOME_AND_ALL, ids=len)
+@pytest.mark.long
+@pytest.mark.parametrize("names", [SOME, tuple(RASTERS)], ids=len)
 def test_the_field_strip_has_no_values_beyond_its_points(tmp_path, names):
     import laspy
     from realdata import real
@@ -335,7 +338,7 @@ def _in_l(x, y):
     return (x > 20) & (x < 250) & (y > 20) & (y < 280) & ((x < 90) | (y < 80))
 
 
-@pytest.mark.parametrize("more", [[], ["--area-only"]])
+@pytest.mark.parametrize("more", quick([[], ["--area-only"]], []))
 def test_a_boundary_clips_the_rasters_of_classify(tmp_path, boundary, more):
     path, *_ = _cloud(tmp_path / "in", lambda x, y: x >= 0.0, trees=False)
     dtm, shade = tmp_path / "dtm.tif", tmp_path / "shade.tif"

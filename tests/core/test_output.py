@@ -5,6 +5,8 @@ import struct
 import laspy
 import numpy as np
 import pytest
+from conftest import EVERY
+from matrices import covering
 
 import bare_earth
 from bare_earth import BareEarthError
@@ -13,11 +15,6 @@ from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.extrabytes import ExtraDimension
 from bare_earth.algorithms.las.writing import write_changed
 from bare_earth.algorithms.tools.heights import HEIGHT_DIMENSION
-
-VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
-EVERY = [
-    (version, point_format) for version, formats in VERSIONS.items() for point_format in formats
-]
 
 
 def masked(count=60):
@@ -29,9 +26,9 @@ def returns_of(records, point_format):
     return np.bincount(records[:, 14] & bits, minlength=16)[1:16].tolist()
 
 
-@pytest.mark.parametrize("suffix", ["las", "laz"])
-@pytest.mark.parametrize(("version", "point_format"), EVERY)
-def test_of_the_points_that_are_kept_nothing_is_lost(las, version, point_format, suffix):
+@pytest.mark.parametrize(("layout", "suffix"), covering(EVERY, ["las", "laz"]))
+def test_of_the_points_that_are_kept_nothing_is_lost(las, layout, suffix):
+    version, point_format = layout
     behind = [las.evlr(b"behind", 9, b"the points")] if version == 4 else ()
     source = las.make(
         f"in.{suffix}", version=version, point_format=point_format, extra=3, evlrs=behind,

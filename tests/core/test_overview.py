@@ -13,7 +13,7 @@ from bare_earth.algorithms.survey import overview
 from bare_earth.algorithms.survey.files import find_files
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 
-SIDE = 60.0
+SIDE, LONG = 40.0, pytest.mark.long
 
 
 def write_tile(path, west, point_format=6, scale=0.001, extra=False):
@@ -80,7 +80,9 @@ def test_a_run_with_copc_writes_points_of_every_file(tiles, tmp_path):
     }  # fmt: skip
 
 
-@pytest.mark.parametrize(("kind", "wanted"), [("laz", True), ("copc.laz", False)])
+@pytest.mark.parametrize(
+    ("kind", "wanted"), [("laz", True), pytest.param("copc.laz", False, marks=pytest.mark.long)]
+)
 def test_without_copc_or_without_the_option_there_is_none(kind, wanted, tiles, tmp_path):
     classify(tiles, tmp_path / "out")
     assert overview.overview_of(tmp_path / "out" / "classified.vpc").is_file()

@@ -16,7 +16,7 @@ _NAMED = re.compile(r"`((?:algorithms|plugin|tests|tools|benchmarks|docs)/[\w/.\
 def test_the_files_that_a_page_names_are_there(page):
     named = _NAMED.findall((ROOT / page).read_text(encoding="utf-8"))
     assert named
-    assert [each for each in named if not (ROOT / each).exists()] == []
+    assert [path for path in named if not (ROOT / path).exists()] == []
 
 
 def test_the_architecture_names_every_room():

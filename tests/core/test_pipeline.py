@@ -6,8 +6,8 @@ import functools
 import numpy as np
 import pytest
 
+from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.pipeline import GridRule, Pipeline, Rule, Stage
 from bare_earth.algorithms.filters.state import GridState, State
@@ -24,7 +24,7 @@ def village():
 
 
 def pipeline_of(method, preset, points):
-    return METHODS[method].pipeline(points, METHODS[method].parameters(preset=preset), SILENT)
+    return METHODS[method].pipeline(points, METHODS[method].parameters(preset=preset), Progress())
 
 
 @pytest.mark.parametrize(("method", "preset"), PRESETS)
@@ -65,12 +65,12 @@ def changed(before, state):
 
 @pytest.mark.parametrize(("method", "preset"), PRESETS)
 def test_a_rule_changes_only_what_it_says(method, preset):
-    state = State(village(), SILENT)
+    state = State(village(), Progress())
     for rule in pipeline_of(method, preset, state.points).rules:
         if isinstance(rule, GridRule):
             for grid in state.grids:
                 before = arrays_of(grid)
-                rule.apply(grid, SILENT)
+                rule.apply(grid, Progress())
                 assert changed(before, grid) <= set(rule.writes), rule.name
         else:
             before = arrays_of(state)
@@ -79,14 +79,16 @@ def test_a_rule_changes_only_what_it_says(method, preset):
     assert 0.2 < state.ground.mean() < 1.0
 
 
-# What the second method shares with the first is left out of the first, of both in the long tests.
+# What a method shares with another one is left out of one of them, of all in the long tests.
 @pytest.mark.parametrize(
     ("method", "shared"),
     [
-        ("tin-densification", True),
         ("grid-minimum", False),
-        pytest.param("grid-minimum", True, marks=pytest.mark.long),
         ("slope", True),
+        *(
+            pytest.param(name, True, marks=pytest.mark.long)
+            for name in ("grid-minimum", "tin-densification")
+        ),
     ],
 )
 def test_a_pipeline_works_without_any_of_its_rules(method, shared):

@@ -6,6 +6,7 @@ import os
 import laspy
 import numpy as np
 import pytest
+from matrices import covering
 from runs import CancelAt
 from surveys import cut, strip
 from surveys import write as write_strip
@@ -44,15 +45,13 @@ def scene(path, point_format=6, version="1.4", wkt=None, offset=0.0, count=30):
     return np.append(plane, 100 + 1.5 + 3.0), np.append(roof, False)
 
 
-@pytest.fixture(params=[(0, "1.2"), (3, "1.2"), (5, "1.3"), (6, "1.4"), (8, "1.4"), (10, "1.4")])
-def each_format(request):
-    return request.param
+LAYOUTS = [(0, "1.2"), (3, "1.2"), (5, "1.3"), (6, "1.4"), (8, "1.4"), (10, "1.4")]
 
 
-@pytest.mark.parametrize("suffix", [".las", ".laz", ".copc.laz"])
-def test_heights_as_an_extra_dimension(tmp_path, each_format, suffix):
+@pytest.mark.parametrize(("layout", "suffix"), covering(LAYOUTS, [".las", ".laz", ".copc.laz"]))
+def test_heights_as_an_extra_dimension(tmp_path, layout, suffix):
     source, target = tmp_path / "in.las", tmp_path / f"out{suffix}"
-    plane, _ = scene(source, *each_format)
+    plane, _ = scene(source, *layout)
     summary = bare_earth.heights(source, target)
     before, after = laspy.read(source), laspy.read(target)
     order = np.argsort(np.asarray(after.intensity))
@@ -68,9 +67,10 @@ def test_heights_as_an_extra_dimension(tmp_path, each_format, suffix):
         assert np.array_equal(np.asarray(after[name])[order], before[name]), name
 
 
-def test_heights_as_z(tmp_path, each_format):
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_heights_as_z(tmp_path, layout):
     source, target = tmp_path / "in.las", tmp_path / "out.laz"
-    plane, _ = scene(source, *each_format, offset=50.0)
+    plane, _ = scene(source, *layout, offset=50.0)
     summary = bare_earth.heights(source, target, output_as="z")
     before, after = laspy.read(source), laspy.read(target)
     assert np.allclose(after.z, np.asarray(before.z) - plane, atol=0.0006)
@@ -212,10 +212,10 @@ def test_no_ground_is_told(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["in.las"]
 
 
-@pytest.mark.parametrize("suffix", [".las", ".laz", ".copc.laz"])
-def test_key_points_get_a_class(tmp_path, each_format, suffix):
+@pytest.mark.parametrize(("layout", "suffix"), covering(LAYOUTS, [".las", ".laz", ".copc.laz"]))
+def test_key_points_get_a_class(tmp_path, layout, suffix):
     source, target = tmp_path / "in.las", tmp_path / f"out{suffix}"
-    _, roof = scene(source, *each_format)
+    _, roof = scene(source, *layout)
     summary = bare_earth.key_points(source, target)
     before, after = laspy.read(source), laspy.read(target)
     classes = np.asarray(after.classification)[np.argsort(np.asarray(after.intensity))]
@@ -226,9 +226,10 @@ def test_key_points_get_a_class(tmp_path, each_format, suffix):
     assert not keys[roof].any() and not keys[-1]
 
 
-def test_key_points_get_a_flag(tmp_path, each_format):
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_key_points_get_a_flag(tmp_path, layout):
     source, target = tmp_path / "in.las", tmp_path / "out.laz"
-    scene(source, *each_format)
+    scene(source, *layout)
     las = laspy.read(source)
     las.key_point[:] = 1
     las.write(str(source))

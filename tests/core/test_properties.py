@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
+from matrices import quick
 
 pytest.importorskip("hypothesis")
 from hypothesis import HealthCheck, given, settings
@@ -61,7 +62,7 @@ def ground_of(survey, method, east=EAST, north=NORTH, **options):
         return classes_of(target) == 2
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "slope"))
 @SETTINGS
 @given(survey=surveys(), seed=st.integers(0, 1000))
 def test_labels_do_not_depend_on_the_order_of_the_points(method, survey, seed):
@@ -70,7 +71,7 @@ def test_labels_do_not_depend_on_the_order_of_the_points(method, survey, seed):
     assert np.array_equal(ground_of(shuffled, method), ground_of(survey, method)[order])
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
 @SETTINGS
 @given(survey=surveys(), east=st.integers(-50, 50), north=st.integers(-50, 50))
 def test_labels_do_not_depend_on_where_the_survey_lies(method, survey, east, north):
@@ -78,7 +79,7 @@ def test_labels_do_not_depend_on_where_the_survey_lies(method, survey, east, nor
     assert np.array_equal(ground_of(survey, method, **moved), ground_of(survey, method))
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "grid-minimum"))
 @SETTINGS
 @given(survey=surveys(), up=st.integers(-400, 8000))
 def test_labels_do_not_depend_on_the_height_of_the_survey(method, survey, up):
@@ -87,7 +88,7 @@ def test_labels_do_not_depend_on_the_height_of_the_survey(method, survey, up):
     assert np.array_equal(raised, ground_of(survey, method))
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "slope"))
 @SETTINGS
 @given(survey=surveys())
 def test_labels_do_not_depend_on_which_axis_is_which(method, survey):
@@ -97,7 +98,7 @@ def test_labels_do_not_depend_on_which_axis_is_which(method, survey):
     assert np.count_nonzero(swapped != ground_of(survey, method)) <= 1
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
 @SETTINGS
 @given(survey=surveys(), which=st.floats(0.0, 0.999))
 def test_a_point_that_is_there_twice_changes_no_label(method, survey, which):
@@ -107,7 +108,7 @@ def test_a_point_that_is_there_twice_changes_no_label(method, survey, which):
     assert np.array_equal(found, np.append(ground, ground[twice]))
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "grid-minimum"))
 @SETTINGS
 @given(survey=surveys(), which=st.floats(0.0, 0.999), up=st.floats(1.0, 50.0))
 def test_raising_a_point_never_makes_it_ground(method, survey, which, up):
@@ -123,7 +124,7 @@ def test_raising_a_point_never_makes_it_ground(method, survey, which, up):
     assert not ground_of((*survey[:2], z), method)[raised]
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "slope"))
 @SETTINGS
 @given(
     count=st.integers(900, 3000), angle=st.floats(0.0, 45.0), azimuth=st.floats(0.0, 360.0),
@@ -182,7 +183,7 @@ def test_labels_do_not_depend_on_threads_and_memory(survey, threads, memory):
     assert np.array_equal(found, ground_of(survey, METHODS[0]))
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
 @SETTINGS
 @given(survey=surveys(1500), far=st.integers(5, 900))
 def test_points_far_away_change_nothing_here(method, survey, far):
@@ -201,6 +202,7 @@ def _inside_hull(x, y, ground):
     return tin.find_simplex(np.column_stack((x, y))) >= 0
 
 
+@pytest.mark.long
 def test_the_generated_surveys_hold_ground_and_objects():
     shares = []
 

@@ -8,9 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from bare_earth import BareEarthError, Cancelled
+from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.core.points import Frame, Points
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.rasters import writing
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
 from bare_earth.algorithms.rasters.writing import Rows, write_geotiff
@@ -52,7 +51,7 @@ def test_stray_points_are_blamed_if_a_large_raster_has_points_in_few_of_its_squa
     with pytest.raises(BareEarthError, match="stray coordinates"):
         RasterGrid.over(square(30_000.0), Frame(), 5.0)
     full = np.arange(0.0, 19_000.0, 990.0)
-    everywhere = Points(*(each.ravel() for each in np.meshgrid(full, full)), np.zeros(400))
+    everywhere = Points(*(axis.ravel() for axis in np.meshgrid(full, full)), np.zeros(400))
     RasterGrid.over(everywhere, Frame(), 1.0)
     with pytest.raises(BareEarthError, match="larger cell size"):
         RasterGrid.over(everywhere, Frame(), 0.9)
@@ -81,7 +80,7 @@ def test_the_geotiff_is_tiled_deflated_and_has_nodata_and_crs(tmp_path, kind):
     grid = RasterGrid.over(square(300.0), Frame(origin=(5e5, 5.7e6), wkt=wkt), 1.0)
     values = np.arange(grid.rows * grid.columns).reshape(grid.rows, grid.columns).astype(kind)
     nodata = NODATA if kind == "float32" else 0
-    write_geotiff(tmp_path / "a.tif", values, grid, nodata, SILENT, "Height")
+    write_geotiff(tmp_path / "a.tif", values, grid, nodata, Progress(), "Height")
     with rasterio.open(tmp_path / "a.tif") as raster:
         assert np.array_equal(raster.read(1), values)
         assert raster.profile["tiled"] and raster.profile["compress"] == "deflate"
@@ -93,7 +92,7 @@ def test_the_geotiff_is_tiled_deflated_and_has_nodata_and_crs(tmp_path, kind):
 def test_a_crs_that_is_not_understood_is_left_out_with_a_warning(tmp_path):
     warnings = []
 
-    class Listener(type(SILENT)):
+    class Listener(Progress):
         def warning(self, text):
             warnings.append(text)
 
@@ -108,21 +107,20 @@ FULL_DISK = """
 import resource, sys
 import numpy as np
 from pathlib import Path
-from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth import BareEarthError, Progress
 from bare_earth.algorithms.core.points import Frame
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
 from bare_earth.algorithms.rasters.writing import write_geotiff
 
 values = np.random.default_rng(1).random((300, 300)).astype(np.float32)
 grid = RasterGrid(0.0, 300.0, 1.0, 300, 300, Frame())
 target = Path(sys.argv[1])
-write_geotiff(target.with_name("whole.tif"), values, grid, -9999.0, SILENT, "Height")
+write_geotiff(target.with_name("whole.tif"), values, grid, -9999.0, Progress(), "Height")
 size = target.with_name("whole.tif").stat().st_size
 for missing in (size - 1, 100_000, 20_000, 200, 1):  # the end is written when the file is closed
     resource.setrlimit(resource.RLIMIT_FSIZE, (size - missing, resource.RLIM_INFINITY))
     try:
-        write_geotiff(target, values, grid, -9999.0, SILENT, "Height")
+        write_geotiff(target, values, grid, -9999.0, Progress(), "Height")
         print("written all the same")
     except BareEarthError as error:
         print(error)
@@ -154,7 +152,7 @@ def test_cells_that_find_no_room_to_wait_on_disk_are_told_before_any_is_made(tmp
     rows = Rows((side, side), "uint8", (pytest.fail("a row was made") for _ in range(1)))
     grid = RasterGrid(0.0, float(side), 1.0, side, side, Frame())
     with pytest.raises(BareEarthError, match=r"Cannot write .*out\.tif: the disk is full\."):
-        write_geotiff(target, rows, grid, 255, SILENT, "classes")
+        write_geotiff(target, rows, grid, 255, Progress(), "classes")
     assert asked == [tmp_path] and target.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [target]
 
@@ -178,15 +176,15 @@ def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_
     grid = RasterGrid(0.0, 9.0, 1.0, 9, 9, Frame())
     with pytest.raises(Cancelled):
         write_geotiff(
-            tmp_path / "a.tif", Rows((9, 9), "uint8", strips()), grid, 255, SILENT, "classes"
+            tmp_path / "a.tif", Rows((9, 9), "uint8", strips()), grid, 255, Progress(), "classes"
         )
-    assert [each for each in removed if each.endswith(".cells.tif")] and not os.listdir(tmp_path)
+    assert [file for file in removed if file.endswith(".cells.tif")] and not os.listdir(tmp_path)
 
 
 def test_a_crs_that_geotiff_cannot_hold_is_left_out_with_a_warning_and_no_side_car(tmp_path):
     warnings = []
 
-    class Listener(type(SILENT)):
+    class Listener(Progress):
         def warning(self, text):
             warnings.append(text)
 
@@ -208,5 +206,5 @@ def test_statistics_of_the_raster_before_are_removed(tmp_path):
     statistics = tmp_path / "a.tif.aux.xml"
     statistics.write_text("<PAMDataset></PAMDataset>")
     values = np.zeros((grid.rows, grid.columns), np.float32)
-    write_geotiff(target, values, grid, NODATA, SILENT, "Height")
+    write_geotiff(target, values, grid, NODATA, Progress(), "Height")
     assert target.exists() and not statistics.exists()

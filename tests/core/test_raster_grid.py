@@ -114,6 +114,7 @@ def test_a_shifted_grid_is_the_same_in_one_file_and_in_many(
         assert found.mask[0].all() and found.mask[:, 0].all()
 
 
+@pytest.mark.long
 def test_the_same_grid_from_disk(source, tmp_path):
     like = given(tmp_path / "like.tif")
     much = made(tmp_path / "much", source, "--crs", CRS, "--like", like)
@@ -249,7 +250,10 @@ def test_three_feet_are_three_feet(tmp_path):
     assert np.array_equal(raster.read(1), metres.read(1))
 
 
-@pytest.mark.parametrize(("option", "nodata"), [("-32768", -32768.0), ("none", np.nan)])
+@pytest.mark.parametrize(
+    ("option", "nodata"),
+    [("-32768", -32768.0), pytest.param("none", np.nan, marks=pytest.mark.long)],
+)
 def test_cells_without_data_have_the_value_that_is_asked_for(source, tmp_path, option, nodata):
     box = 499_990, 5_700_000, 500_050, 5_700_050
     usual = made(tmp_path / "usual", source, "--raster-extent", *box)

@@ -21,7 +21,7 @@ def toy(monkeypatch):
 @pytest.fixture
 def ground(tmp_path):
     """Write a plane that rises by 1 m to the east in each metre."""
-    x, y = (each.ravel() for each in np.mgrid[25:4000:50, 25:4000:50])
+    x, y = (axis.ravel() for axis in np.mgrid[25:4000:50, 25:4000:50])
     (tmp_path / "in").mkdir()
     return write(tmp_path / "in" / "in.laz", np.column_stack((x, y, x)), classes=2)
 

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import laspy
 import numpy as np
 import pytest
+from matrices import quick
 from runs import CancelAt
 from surveys import cut, strip, write, write_points
 
@@ -80,7 +81,7 @@ CLOUDS = {
 }
 
 
-@pytest.mark.parametrize("name", CLOUDS)
+@pytest.mark.parametrize("name", quick(CLOUDS, "uneven", "lake", "sparse"))
 def test_a_terrain_model_in_blocks_is_that_of_one_tin(small_blocks, tmp_path, name):
     cloud = CLOUDS[name]
     found, x, y = _made(cloud, tmp_path)
@@ -105,7 +106,7 @@ def test_gaps_wider_than_the_longest_edge_stay_open(small_blocks, tmp_path):
     assert np.isfinite(found[inside]).all()
 
 
-@pytest.mark.parametrize("max_edge", [None, 20.0])
+@pytest.mark.parametrize("max_edge", quick([None, 20.0], 20.0))
 def test_blocks_of_any_size_give_the_same_rasters(tmp_path, monkeypatch, max_edge):
     names = "dtm", "dsm", "chm", "hillshade"
     rasters = []
@@ -210,7 +211,7 @@ def test_a_cancelled_survey_goes_on_with_the_rasters_that_are_left(
     assert not list((tmp_path / "more").rglob("*.npz"))
 
 
-@pytest.mark.parametrize("source", ["one.laz", "many"])
+@pytest.mark.parametrize("source", quick(["one.laz", "many"], "many"))
 def test_files_that_do_not_fit_into_memory_give_the_same_rasters(survey, of_one, tmp_path, source):
     assert _same(of_one, _of_files(survey / source, tmp_path / "other", memory=0.001))
 

@@ -4,6 +4,8 @@ import laspy
 import lazrs
 import numpy as np
 import pytest
+from conftest import EVERY
+from matrices import covering
 from realdata import real
 from runs import CancelAt, said
 
@@ -13,13 +15,10 @@ from bare_earth.algorithms.core import progress
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.reading import read_cloud, read_parts
 
-VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
-EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
 
-
-@pytest.mark.parametrize("name", ["in.las", "in.laz"])
-@pytest.mark.parametrize(("version", "point_format"), EVERY)
-def test_each_column_is_what_the_bytes_say(las, version, point_format, name):
+@pytest.mark.parametrize(("layout", "name"), covering(EVERY, ["in.las", "in.laz"]))
+def test_each_column_is_what_the_bytes_say(las, layout, name):
+    version, point_format = layout
     records = las.records(point_format, extra=2)
     cloud = read_cloud(las.make(name, version=version, point_format=point_format, records=records))
     xyz = records[:, :12].copy().view("<i4")
@@ -96,9 +95,10 @@ def test_returns_from_zero_give_the_ground_and_stay_as_they_are(tmp_path, name):
     assert code == 0 and told.count("begin at 0") == 1 and "no return number" not in told
     one, other = laspy.read(source), laspy.read(target)
     order = [
-        np.lexsort((each.return_number, each.gps_time, each.Y, each.X)) for each in (one, other)
+        np.lexsort((value.return_number, value.gps_time, value.Y, value.X))
+        for value in (one, other)
     ]
-    number, truth = (np.asarray(one[each])[order[0]] for each in ("return_number", "user_data"))
+    number, truth = (np.asarray(one[key])[order[0]] for key in ("return_number", "user_data"))
     np.testing.assert_array_equal(np.asarray(other.return_number)[order[1]], number)
     ground = np.asarray(other.classification)[order[1]] == 2
     assert ground[truth == 1].mean() > 0.99 and ground[truth == 0].mean() < 0.01

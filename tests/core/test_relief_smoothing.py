@@ -117,6 +117,7 @@ def test_the_terrain_model_is_the_same_and_the_pictures_are_smoother(tmp_path):
         assert np.std(smooth[name][inner]) < 0.7 * np.std(plain[name][inner])
 
 
+@pytest.mark.long
 def test_strips_and_files_make_no_seams(tmp_path, monkeypatch):
     whole = drawn(write(tmp_path / "in.laz"), tmp_path / "a")
     monkeypatch.setattr(outline, "_CELLS_A_STRIP", 1)
@@ -162,10 +163,8 @@ def test_the_command_makes_the_relief_of_a_raster(tmp_path, monkeypatch):
         assert raster.descriptions == ("Local relief, m",)
 
 
-@pytest.mark.parametrize(
-    ("name", "most"),
-    [pytest.param("hawaii_forest", 0.75, marks=pytest.mark.long), ("conifer_1", 0.75)],
-)
+@pytest.mark.long
+@pytest.mark.parametrize(("name", "most"), [("hawaii_forest", 0.75), ("conifer_1", 0.75)])
 def test_real_forests_are_less_speckled(tmp_path, name, most):
     path = tmp_path / "dtm.tif"
     bare_earth.terrain(real(f"real/{name}.laz"), dtm=path, dtm_cell_size=CELL)

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from remote_server import serving
 
-from bare_earth import BareEarthError
-from bare_earth.algorithms.core.errors import Cancelled
-from bare_earth.algorithms.core.progress import SILENT, Notes, Progress
+from bare_earth import BareEarthError, Cancelled, Progress
+from bare_earth.algorithms.core.progress import Notes
 from bare_earth.algorithms.remote import connections, transfers
 from bare_earth.algorithms.remote.addresses import beside, checked, ends_with, referred, shown
 from bare_earth.algorithms.remote.files import RemoteFile
@@ -31,7 +30,7 @@ def no_pauses(monkeypatch):
     monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
 
 
-def fetched(address, folder, progress=SILENT, pieces=PIECES):
+def fetched(address, folder, progress=Progress(), pieces=PIECES):
     """Return the pieces as they are read, and the transfers, which count."""
     with Transfers(progress) as transfer:
         file = RemoteFile(transfer, address, folder)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from conftest import evlr, las_bytes, make_records
 from copcs import many_nodes
+from matrices import covering
 from remote_server import serving
 from runs import said
 from surveys import write_classified
@@ -183,8 +184,7 @@ def test_a_file_that_is_no_copc_is_refused(server, tmp_path):
 FAULTS = ["no ranges", "gzip", "shifted", "fewer", "cut", "short", "503", "403", "old"]
 
 
-@pytest.mark.parametrize("fault", FAULTS)
-@pytest.mark.parametrize("every", [1, 2, 5])
+@pytest.mark.parametrize(("fault", "every"), covering(FAULTS, [1, 2, 5]))
 def test_bad_answers_give_the_same_points_or_one_sentence(server, tmp_path, content, fault, every):
     source, target = tmp_path / "whole.copc.laz", tmp_path / "part.copc.laz"
     source.write_bytes(content)

@@ -7,6 +7,7 @@ import laspy
 import numpy as np
 import pytest
 from copcs import many_nodes
+from matrices import covering
 from remote_server import serving
 from runs import said
 
@@ -71,7 +72,10 @@ SCHEMA = [
 def rows_of(points):
     """Return points as rows of the schema."""
     kinds = {"signed": "i", "unsigned": "u", "float": "f"}
-    names = [(each["name"], f"<{kinds[each['type']]}{each['size']}") for each in SCHEMA]
+    names = [
+        (dimension["name"], f"<{kinds[dimension['type']]}{dimension['size']}")
+        for dimension in SCHEMA
+    ]
     rows = np.zeros(len(points), dtype=names)
     for axis, name in enumerate("XYZ"):
         rows[name] = np.rint((points[:, axis] - SCHEMA[axis]["offset"]) / 0.01)
@@ -194,8 +198,9 @@ def test_a_missing_tile_stops_or_is_counted(server, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["part.laz"]
 
 
-@pytest.mark.parametrize("fault", ["cut", "short", "503", "gzip", "old"])
-@pytest.mark.parametrize("every", [1, 3])
+@pytest.mark.parametrize(
+    ("fault", "every"), covering(["cut", "short", "503", "gzip", "old"], [1, 3])
+)
 def test_bad_answers_give_the_same_points_or_one_sentence(server, tmp_path, fault, every):
     points, address = add_ept(server)
     server.fault = lambda number, path: fault if number % every == every - 1 else ""

@@ -181,7 +181,7 @@ def test_a_list_is_a_survey_of_what_lies_in_the_area(server, tiles, tmp_path):
     assert {path for path, *_ in server.asked} == {"all.vpc", tiles[0].name}
 
 
-def test_secrets_are_nowhere(server, tiles, tmp_path):
+def test_secrets_are_nowhere(server, tiles, tmp_path, threads_for_processes):
     address, said_all = add(server, tiles[0]), ""
     table = tmp_path / "dtm.tif"
     for words in (

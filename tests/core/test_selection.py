@@ -4,8 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bare_earth import BareEarthError
-from bare_earth.algorithms.core.progress import SILENT
+from bare_earth import BareEarthError, Progress
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey.corrections import Corrections
@@ -103,7 +102,7 @@ def test_overlap_is_counted_and_left_out_on_demand(las):
     assert "3 points of overlap are left out." in heard.infos
     assert new_classes(leave, cloud, [1, 1, 1, 0]) == [2, 1, 12, 2]
     old = cloud_of([1, 12], point_format=1)
-    assert selected_by(leave, old, SILENT).tolist() == [1, 0]
+    assert selected_by(leave, old, Progress()).tolist() == [1, 0]
 
 
 def test_polygons_change_classes_that_stay_but_not_noise():
@@ -117,7 +116,13 @@ def test_polygons_change_classes_that_stay_but_not_noise():
 
 def test_only_the_given_classes_take_part_noise_among_them_where_it_is_given():
     cloud = cloud_of([0, 1, 2, 7, 18])
-    assert selected_by(Selection(from_classes=(1, 7)), cloud, SILENT).tolist() == [0, 1, 0, 1, 0]
+    assert selected_by(Selection(from_classes=(1, 7)), cloud, Progress()).tolist() == [
+        0,
+        1,
+        0,
+        1,
+        0,
+    ]
 
 
 def test_withheld_points_take_no_part_and_are_told(las):
@@ -129,13 +134,13 @@ def test_withheld_points_take_no_part_and_are_told(las):
 
 def test_last_and_single_returns_take_part():
     cloud = cloud_of([1] * 5, number=[1, 1, 2, 2, 3], total=[1, 2, 2, 3, 3])
-    assert selected_by(Selection(), cloud, SILENT).tolist() == [1, 0, 1, 0, 1]
-    assert selected_by(Selection(returns="all"), cloud, SILENT).all()
+    assert selected_by(Selection(), cloud, Progress()).tolist() == [1, 0, 1, 0, 1]
+    assert selected_by(Selection(returns="all"), cloud, Progress()).all()
 
 
 def test_a_number_above_the_total_is_a_last_return():
     cloud = cloud_of([1, 1], number=[3, 1], total=[2, 2])
-    assert selected_by(Selection(), cloud, SILENT).tolist() == [1, 0]
+    assert selected_by(Selection(), cloud, Progress()).tolist() == [1, 0]
 
 
 def test_points_without_return_numbers_all_take_part_and_it_is_told(las):
@@ -171,12 +176,12 @@ def test_no_warning_of_return_numbers_where_all_returns_are_wanted(las):
 )
 def test_a_selection_without_points_says_what_to_change(selection, cloud, text):
     with pytest.raises(BareEarthError, match=text) as caught:
-        selected_by(selection, cloud, SILENT)
+        selected_by(selection, cloud, Progress())
     assert "\n" not in str(caught.value)
 
 
 def test_a_class_above_31_fits_into_the_new_formats():
-    assert selected_by(Selection(to_class=64), cloud_of([1], point_format=6), SILENT).all()
+    assert selected_by(Selection(to_class=64), cloud_of([1], point_format=6), Progress()).all()
 
 
 def new_classes(selection, cloud, ground):
@@ -233,7 +238,7 @@ def test_only_points_within_take_part(las):
 )
 def test_where_nothing_within_is_left_the_area_is_named(selection, cloud, text):
     with pytest.raises(BareEarthError, match=text):
-        selected_by(selection, cloud, SILENT, np.array([0, 1, 1], bool))
+        selected_by(selection, cloud, Progress(), np.array([0, 1, 1], bool))
 
 
 def test_known_ground_takes_part_whatever_its_return_and_class_but_not_withheld(las):
@@ -252,7 +257,7 @@ def test_known_ground_takes_part_whatever_its_return_and_class_but_not_withheld(
 
 def test_known_ground_alone_is_nothing_to_classify():
     with pytest.raises(BareEarthError, match="can be classified"):
-        selected_by(Selection(from_classes=(1,), seed_classes=(2,)), cloud_of([2, 2]), SILENT)
+        selected_by(Selection(from_classes=(1,), seed_classes=(2,)), cloud_of([2, 2]), Progress())
 
 
 def test_known_ground_gets_the_class_of_the_ground_only_where_it_may_change():

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from matrices import covering
 
 from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
@@ -54,8 +55,9 @@ def cloud(kind, random):
     return Points(x, y, z)
 
 
-@pytest.mark.parametrize("slope_norm", [True, False])
-@pytest.mark.parametrize("kind", ["random", "grid", "duplicates", "clumps"])
+@pytest.mark.parametrize(
+    ("kind", "slope_norm"), covering(["random", "grid", "duplicates", "clumps"], [True, False])
+)
 def test_brute_force_agrees_on_every_point(kind, slope_norm):
     random = np.random.default_rng(7)
     for _ in range(15):
@@ -184,8 +186,7 @@ def test_what_is_chosen_from_the_data_is_said_and_gives_the_same_when_given_by_h
     assert len(heard.texts) == 1
 
 
-@pytest.mark.parametrize("slope", [0.3, 0.7, 1.0, 1.5])
-@pytest.mark.parametrize("aspect", [0.0, 0.8, 3.0])
+@pytest.mark.parametrize(("slope", "aspect"), covering([0.3, 0.7, 1.0, 1.5], [0.0, 0.8, 3.0]))
 def test_a_plain_slope_is_all_ground_up_to_its_borders(slope, aspect):
     x, y = scatter()
     z = surveyed(x, y, slope * (x * np.cos(aspect) + y * np.sin(aspect)))
@@ -223,7 +224,7 @@ def test_the_slope_of_the_terrain_is_averaged_over_no_more_than_the_search_radiu
 
 def test_one_stray_point_does_not_stop_the_classic_filter():
     points, _ = village(size=20.0)
-    points = Points(*(np.append(each, value) for each, value in zip(points, (5e3, 5e3, 0.0))))
+    points = Points(*(np.append(point, value) for point, value in zip(points, (5e3, 5e3, 0.0))))
     parameters = CLASSIC.resolve(points)
     assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
 

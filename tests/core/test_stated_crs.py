@@ -7,6 +7,7 @@ import laspy
 import numpy as np
 import pytest
 from conftest import Heard
+from matrices import quick
 from realdata import real
 from runs import said
 from surveys import cut, strip, write
@@ -177,7 +178,9 @@ def test_a_crs_that_is_given_is_as_one_that_the_file_states(feet, tmp_path):
     assert not np.array_equal(classes[0], classes[2])
 
 
-@pytest.mark.parametrize("options", [(), ("--height-above-ground",)])
+@pytest.mark.parametrize(
+    "options", quick([(), ("--height-above-ground",)], ("--height-above-ground",))
+)
 def test_many_files_are_as_one(tmp_path, options, threads_for_processes):
     integers = strip(6000, 150.0, 130.0)
     one, many = write(tmp_path / "in.las", integers), cut(tmp_path / "tiles", integers)

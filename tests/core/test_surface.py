@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import scipy.spatial
+from matrices import covering
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids import surface as module
@@ -38,7 +39,7 @@ CLOUDS = {
     "even": _scatter(),
     "lake": _with_lake(_scatter()),
     "rotated": _rotated(_scatter()),
-    "stray": Points(*(np.append(each, 5e3) for each in _scatter())),
+    "stray": Points(*(np.append(axis, 5e3) for axis in _scatter())),
     "villages": _with_corners(_villages(_scatter())),
     "uneven": Points(_scatter().x ** 3 / 1e4, _scatter().y, _scatter().z),
 }
@@ -49,8 +50,7 @@ def small_blocks(monkeypatch):
     monkeypatch.setattr(module, "_VERTICES_A_BLOCK", 300)
 
 
-@pytest.mark.parametrize("name", CLOUDS)
-@pytest.mark.parametrize("max_edge", [None, 8.0])
+@pytest.mark.parametrize(("name", "max_edge"), covering(list(CLOUDS), [None, 8.0]))
 def test_blocks_give_the_heights_of_one_triangulation(small_blocks, name, max_edge):
     points = CLOUDS[name]
     random = np.random.default_rng(7)
@@ -85,14 +85,14 @@ def test_a_lake_costs_as_its_shore_and_not_as_its_cells(small_blocks, monkeypatc
     angle = np.arange(shore) * 2.0 * np.pi / max(shore, 1)
     x, y, _ = _with_lake(_scatter(20_000))
     x, y = np.append(x, 45.0 + 30.0 * np.cos(angle)), np.append(y, 50.0 + 30.0 * np.sin(angle))
-    at_x, at_y = (each.ravel() for each in np.meshgrid(*(np.arange(20.0, 75.0, 0.2),) * 2))
+    at_x, at_y = (axis.ravel() for axis in np.meshgrid(*(np.arange(20.0, 75.0, 0.2),) * 2))
     heights = Surface(Points(x, y, 3.0 + 0.2 * x - 0.1 * y)).heights(at_x, at_y)
     assert np.allclose(heights, 3.0 + 0.2 * at_x - 0.1 * at_y, atol=1e-6)
     assert sum(asked) < len(at_x) / 10
 
 
 def test_a_plane_on_a_regular_grid_is_exact_to_its_border(small_blocks):
-    x, y = (each.ravel() for each in np.meshgrid(np.arange(60.0), np.arange(50.0)))
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(60.0), np.arange(50.0)))
     surface = Surface(Points(x, y, 3.0 + 0.2 * x - 0.1 * y))
     at_x, at_y = np.random.default_rng(1).uniform(0.0, 49.0, (2, 3000))
     at_x, at_y = np.append(at_x, x), np.append(at_y, y)

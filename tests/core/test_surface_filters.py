@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from matrices import quick
 
+from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from benchmarks.scenes.simple import (
     dense_canopy,
@@ -20,10 +21,10 @@ pytestmark = pytest.mark.parametrize("name", ["slope", "grid-minimum"])
 
 def classify(name, points, **values):
     method = METHODS[name]
-    return method.classify(points, method.parameters(**values), SILENT)
+    return method.classify(points, method.parameters(**values), Progress())
 
 
-@pytest.mark.parametrize("slope", [0.0, 0.05, 0.1])
+@pytest.mark.parametrize("slope", quick([0.0, 0.05, 0.1], 0.1))
 def test_a_hall_of_120_by_80_m_goes_on_level_ground_and_on_a_slope(name, slope):
     points, ground = large_hall(slope)
     found = classify(name, points)

@@ -56,7 +56,7 @@ def test_every_kind_of_source_is_taken_and_each_file_once(las):
     listed.write_text('# a list\n\nc.las\n"d.las"\n  a.las\n', encoding="utf-8-sig")
     sources = [las.folder / "two.vpc", str(listed), files[3], las.folder / "." / "d.las"]
     survey = open_survey(sources)
-    assert [each.path.resolve() for each in survey.tiles] == files
+    assert [part.path.resolve() for part in survey.tiles] == files
     assert find_files(las.folder) == files
 
 
@@ -90,8 +90,8 @@ def test_a_broken_file_stops_nothing_and_is_told(las):
     tile(las, "zero.las", side=0.0)
     tile(las, "empty.las", count=0)
     survey = open_survey([las.folder, las.folder / "missing.laz"])
-    assert [each.path for each in survey.tiles] == [good]
-    reasons = {each.path.name: each.reason for each in survey.broken}
+    assert [part.path for part in survey.tiles] == [good]
+    reasons = {path.path.name: path.reason for path in survey.broken}
     assert "damaged or cut off" in reasons["cut.las"]
     assert "not a LAS or LAZ file" in reasons["other.laz"]
     assert "does not state the extent" in reasons["nowhere.las"]
@@ -242,7 +242,7 @@ def test_a_copy_beside_a_file_of_a_folder_is_left_out_and_it_is_told(las):
     tile(las, "d.copc.laz", side=99.0)
     heard = las.Heard()
     survey = open_survey(Inputs([las.folder]).read_as(None, recursive=True), heard)
-    assert names(each.path for each in survey.tiles) == [
+    assert names(part.path for part in survey.tiles) == [
         "a.laz", "b.las", "a.copc.laz", "c.copc.laz", "c.laz", "d.copc.laz", "d.laz",
     ]  # fmt: skip
     assert heard.infos == [
@@ -255,13 +255,13 @@ def test_copies_that_are_named_are_all_used(las):
     copc = tile(las, "a.copc.laz")
     heard, files = las.Heard(), [tile(las, "a.laz"), copc]
     survey = open_survey(files, progress=heard)
-    assert names(each.path for each in survey.tiles) == ["a.copc.laz", "a.laz"]
+    assert names(part.path for part in survey.tiles) == ["a.copc.laz", "a.laz"]
     assert any("have the same extent" in text for text in heard.warnings) and not heard.infos
     # One that is named beside the folder is that which is used.
     (las.folder / "list.txt").write_text("../clouds/a.copc.laz")
     for more in (copc, las.folder / "list.txt"):
         survey = open_survey([las.folder, more])
-        assert names(each.path for each in survey.tiles) == ["a.copc.laz"]
+        assert names(part.path for part in survey.tiles) == ["a.copc.laz"]
 
 
 def test_the_tiles_that_touch_a_box_are_found(las):
@@ -273,7 +273,7 @@ def test_the_tiles_that_touch_a_box_are_found(las):
     assert survey.box == pytest.approx((0, 0, 500, 400), abs=0.011)
 
     def touching(*box):
-        return [each.path.stem for each in survey.touching(box)]
+        return [part.path.stem for part in survey.touching(box)]
 
     assert touching(0, 0, 99, 99) == ["00"]
     assert touching(0, 0, 100, 100) == ["00", "01", "10", "11"]

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from runs import CancelAt
 
-from bare_earth import Cancelled
+from bare_earth import Cancelled, Progress
 from bare_earth.algorithms.core import progress as progress_module
-from bare_earth.algorithms.core.progress import SILENT, paced
+from bare_earth.algorithms.core.progress import paced
 from bare_earth.algorithms.core.threads import (
     SharedThreads,
     available_cpus,
@@ -111,7 +111,7 @@ def test_a_helping_thread_ends_where_another_computation_needs_its_place():
     with shared.used():
         in_threads(work, range(100))
         # It may have begun one more.
-        others = [each for each in since if each != threading.get_ident()]
+        others = [count for count in since if count != threading.get_ident()]
         assert len(set(helped)) == 2 and len(others) <= 1 < len(since)
         ended.set()
         other.join()
@@ -137,7 +137,7 @@ def test_parts_cover_a_range_once(count):
         seen[part] += 1
 
     with may_use(count):
-        over_parts(see, len(seen), 10, SILENT)
+        over_parts(see, len(seen), 10, Progress())
     assert (seen == 1).all()
 
 
@@ -153,7 +153,7 @@ def test_a_cancel_between_parts_ends_the_threads(count):
         over_parts(late, 1000, 1, CancelAt())
     # One each, and some more where the calling thread has to wait for a processor.
     assert len(begun) <= (1 if count == 1 else 100)
-    assert not [each for each in threading.enumerate() if each.name == "strip"]
+    assert not [thread for thread in threading.enumerate() if thread.name == "strip"]
 
 
 def test_pieces_are_as_long_as_the_pace_lets_them_be(monkeypatch):
@@ -163,8 +163,8 @@ def test_pieces_are_as_long_as_the_pace_lets_them_be(monkeypatch):
         seen.append(piece)
         # A tenth of a second each, until the machine has other things to do.
         now[0] += 0.1 if piece.stop <= 3_000_000 else (piece.stop - piece.start) / 500_000
-    assert [each.start for each in seen[1:]] == [each.stop for each in seen[:-1]]
-    lengths = [each.stop - each.start for each in seen]
+    assert [count.start for count in seen[1:]] == [count.stop for count in seen[:-1]]
+    lengths = [count.stop - count.start for count in seen]
     assert lengths[:3] == [500_000, 1_000_000, 2_000_000]
     assert sum(lengths) == 5_000_000 and abs(lengths[-2] - 200_000) < 10
 
@@ -183,9 +183,9 @@ def test_modules_are_imported_early_and_missing_ones_are_left_alone(monkeypatch)
     monkeypatch.setattr(threading, "excepthook", failed.append)
     import_early("present", "missing", "never")
     assert done.wait(10.0)
-    for each in threading.enumerate():
-        if each.name == "imports":
-            each.join(10.0)
+    for thread in threading.enumerate():
+        if thread.name == "imports":
+            thread.join(10.0)
     assert asked == ["present", "missing"] and not failed
 
 

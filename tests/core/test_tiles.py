@@ -111,7 +111,7 @@ def test_tiles_get_the_labels_of_one_file_with_all_points(method, tmp_path, out)
 def test_real_tiles_get_the_labels_of_the_file_they_were_cut_from(name, tmp_path, out):
     las = laspy.read(real(name))
     x, y = np.asarray(las.x), np.asarray(las.y)
-    near = (x < x.min() + 100) & (y < y.min() + 100)
+    near = (x < x.min() + 75) & (y < y.min() + 75)
     integers = np.column_stack([np.round(metres * 100) for metres in (x, y, np.asarray(las.z))])
     integers = (integers[near] - [25_000_000, 570_000_000, 0]).astype(np.int64)
     if len(integers) > 12_000:

@@ -65,7 +65,7 @@ def test_the_order_of_the_vertices_does_not_matter():
 
 
 def test_a_regular_grid_far_from_the_origin_is_covered_to_its_border():
-    x, y = (each.ravel() for each in np.meshgrid(np.arange(40.0), np.arange(30.0)))
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(40.0), np.arange(30.0)))
     x, y = x + 4.0e6, y + 5.0e6
     tin = Tin(x, y, x - 4.0e6)
     assert np.allclose(tin.interpolate(x, y), x - 4.0e6, atol=1e-6)
@@ -88,7 +88,7 @@ def test_a_stray_vertex_far_away_does_not_slow_the_walk():
     x, y, z = _scatter(20_000)
     without = Tin(x, y, z)
     tin = Tin(np.append(x, 1.0e6), np.append(y, 1.0e6), np.append(z, 0.0))
-    least = [min(seconds(each) for _ in range(3)) for each in (without, tin)]
+    least = [min(seconds(value) for _ in range(3)) for value in (without, tin)]
     assert least[1] < 4 * least[0]
 
 
@@ -99,8 +99,8 @@ def test_the_triangles_lost_to_new_vertices_are_those_that_a_new_triangulation_d
     tin = Tin(x, y, np.zeros(400))
     more = Tin(np.append(x, new_x), np.append(y, new_y), np.zeros(415))
 
-    def corners(each):
-        return [frozenset(zip(each.x[three], each.y[three])) for three in each.triangles]
+    def corners(tin):
+        return [frozenset(zip(tin.x[three], tin.y[three])) for three in tin.triangles]
 
     left = set(corners(more))
     expected = [three not in left for three in corners(tin)]

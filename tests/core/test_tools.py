@@ -39,7 +39,7 @@ def test_a_new_tool_is_found_in_the_command_line(toy, ground, tmp_path):
     words = toy.command, ground, tmp_path / "out.laz", "--new-class", "40", "--json"
     code, printed, _ = said(*words)
     assert code == 0 and json.loads(printed)["new_count"] == 200
-    before, after = (laspy.read(each).classification for each in (ground, tmp_path / "out.laz"))
+    before, after = (laspy.read(value).classification for value in (ground, tmp_path / "out.laz"))
     assert np.array_equal(after, np.where(np.asarray(before) == 2, 40, before))
 
 
@@ -58,7 +58,7 @@ def test_a_new_tool_is_a_function_of_the_library(toy, ground, tmp_path):
 def test_a_command_imports_no_other_tool():
     code = (
         "import sys; from bare_earth.algorithms.cli import main; main(['height', '--help']);"
-        "print(*(each for each in sys.modules if '.tools.' in each), file=sys.stderr)"
+        "print(*(name for name in sys.modules if '.tools.' in name), file=sys.stderr)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     loaded = {name.split(".tools.")[1] for name in done.stderr.split()}

@@ -60,9 +60,9 @@ def test_numbers_are_those_of_the_text(language):
         text = re.sub(r"(?<=\d)[.,\s](?=\d{3}\b)", "", re.sub(r"\{.*?\}", "", text))
         return sorted(re.findall(r"\d+", text.replace("7 and 18", "7, 18")))
 
-    for each in TEXTS[language]:
-        if "type I" not in each.source.replace("Type", "type"):
-            assert numbers(each.translation) == numbers(each.source), each
+    for words in TEXTS[language]:
+        if "type I" not in words.source.replace("Type", "type"):
+            assert numbers(words.translation) == numbers(words.source), words
 
 
 def test_a_text_ends_as_the_translation_does(language):

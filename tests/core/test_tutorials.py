@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matrices import quick
 
 from bare_earth.algorithms import cli
 from benchmarks.scenes.scene import ORIGIN
@@ -43,7 +44,7 @@ def shown(folder):
 
 def agree(quoted, found):
     """Return whether two figures are the same within rounding."""
-    one, two = (float(each.replace(",", "")) for each in (quoted, found))
+    one, two = (float(value.replace(",", "")) for value in (quoted, found))
     digits = len(quoted.partition(".")[2])
     allowed = 1.01 * 10.0**-digits if digits else _COUNTS * abs(one)
     return abs(one - two) <= allowed
@@ -85,7 +86,7 @@ def error_in(drawn, delivery, scene):
     return float(np.abs(heights[rows, columns] - true).mean())
 
 
-@pytest.mark.parametrize("job", JOBS)
+@pytest.mark.parametrize("job", quick(JOBS, "flood"))
 def test_a_tutorial_runs_and_says_what_comes_out(
     job, pages, tmp_path, threads_for_processes, monkeypatch
 ):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from realdata import real
 
+from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.breaks import LevelSeeds, Plants
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
@@ -87,7 +87,7 @@ def test_points_join_at_a_break_only_where_it_is_open(thick, joins):
     lowest = cells.lowest_points(points)
     edge = (points.x[lowest] > 20.0) & (points.x[lowest] < 22.0) & ~crown[lowest]
     seeds, waiting = lowest[~edge & ~crown[lowest]], lowest[edge]
-    state = State(points, SILENT, seeds=seeds, waiting=waiting)
+    state = State(points, Progress(), seeds=seeds, waiting=waiting)
     state.grids = [GridState.of(points, 1.0, 1.0)]
     for rule in (Plants(), LevelSeeds()):
         rule.apply(state)
@@ -109,7 +109,7 @@ def wood(count=20_000, side=60.0):
 
 def test_split_pulses_tell_woods():
     points, of_several, _ = wood()
-    state = State(points, SILENT, multi_return=of_several)
+    state = State(points, Progress(), multi_return=of_several)
     state.grids = [GridState.of(points, 0.5, 1.0)]
     Woods().apply(state)
     woods = state.grids[0].woods
@@ -152,7 +152,7 @@ def _on_cells(heights):
     ("tile", "most"),
     [
         ("rainforest_ridge.laz", 1.2),
-        ("conifer_1.laz", 0.17),
+        pytest.param("conifer_1.laz", 0.17, marks=pytest.mark.long),
         pytest.param("megaplot.laz", 0.11, marks=pytest.mark.long),
     ],
 )
@@ -168,7 +168,7 @@ def hillside(shrub, slope=0.3, side=60.0):
     x, y = random.uniform(0.0, side, (2, int(side**2)))
     z = slope * x + random.normal(0.0, 0.03, len(x))
     points = Points(x, y, z + shrub(x, y))
-    state = State(points, SILENT, seeds=np.arange(len(x)))
+    state = State(points, Progress(), seeds=np.arange(len(x)))
     state.grids = [GridState.of(points, 1.0, 1.0)]
     return state, shrub(x, y) > 0.0
 
@@ -228,7 +228,7 @@ def test_a_lone_seed_above_those_round_a_gap_is_ground_only_if_it_is_a_rock(heig
     away = np.hypot(x - 30.0, y - 30.0) > 10.0
     lone = 30.0, 30.0, 3.0 + height
     points = Points(*(np.append(of[away], at) for of, at in zip((x, y, z), lone)))
-    state = State(points, SILENT, seeds=np.arange(points.count))
+    state = State(points, Progress(), seeds=np.arange(points.count))
     state.grids = [GridState.of(points, 1.0, 1.0)]
     state.grids[0].woods[:] = wood
     Plants().apply(state)

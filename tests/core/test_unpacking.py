@@ -14,8 +14,7 @@ import pytest
 from surveys import bytes_of, cut, strip, write
 
 import bare_earth
-from bare_earth import BareEarthError
-from bare_earth.algorithms.core.progress import SILENT
+from bare_earth import BareEarthError, Progress
 from bare_earth.algorithms.engine import unpacking as unpacking_module
 from bare_earth.algorithms.engine.unpacking import Unpacking
 from bare_earth.algorithms.las.opening import open_las
@@ -54,7 +53,7 @@ def _records(las):
 @pytest.mark.parametrize("is_whole", [True, False])
 def test_an_unpacked_file_is_read_as_it_is(source, tmp_path, decompressed, is_whole):
     las = open_las(source)
-    unpacked = Unpacking(tmp_path, is_whole).of(las, SILENT)
+    unpacked = Unpacking(tmp_path, is_whole).of(las, Progress())
     assert unpacked == las and unpacked.unpacked is not None
     assert decompressed == ["in.laz"]
     for read in (read_cloud, lambda file: read_window(file, BOX)):
@@ -72,9 +71,9 @@ def test_an_unpacked_file_is_read_as_it_is(source, tmp_path, decompressed, is_wh
 def test_a_file_that_has_changed_is_unpacked_again(las, source, tmp_path, decompressed):
     unpacking = Unpacking(tmp_path, True)
     for _ in range(2):
-        assert unpacking.of(open_las(source), SILENT).count == COUNT
+        assert unpacking.of(open_las(source), Progress()).count == COUNT
     os.replace(las.make("other.laz", version=4, point_format=6, count=COUNT // 2), source)
-    assert read_cloud(unpacking.of(open_las(source), SILENT)).count == COUNT // 2
+    assert read_cloud(unpacking.of(open_las(source), Progress())).count == COUNT // 2
     assert decompressed == ["in.laz"] * 2
 
 
@@ -86,10 +85,10 @@ def test_without_room_or_of_a_damaged_file_nothing_is_unpacked(source, tmp_path,
 
     with monkeypatch.context() as patch:
         patch.setattr(unpacking_module, "unpack", full)
-        assert Unpacking(tmp_path, True).of(las, SILENT) is las
+        assert Unpacking(tmp_path, True).of(las, Progress()) is las
     data, start = source.read_bytes(), las.points_start + 8
     source.write_bytes(data[:start] + b"\xff" * 200 + data[start + 200 :])
-    assert Unpacking(tmp_path, True).of(las, SILENT) is las
+    assert Unpacking(tmp_path, True).of(las, Progress()) is las
     with pytest.raises(BareEarthError, match="damaged"):
         read_cloud(las)
     assert not list(tmp_path.glob("*.records"))
@@ -106,7 +105,7 @@ def test_jobs_that_need_a_file_at_the_same_time_unpack_it_once(source, tmp_path,
     monkeypatch.setattr(unpacking_module, "unpack", slow)
     unpacking = Unpacking(tmp_path, True)
     threads = [
-        threading.Thread(target=lambda: found.append(unpacking.of(open_las(source), SILENT)))
+        threading.Thread(target=lambda: found.append(unpacking.of(open_las(source), Progress())))
         for _ in range(3)
     ]
     for thread in threads:

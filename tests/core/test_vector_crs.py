@@ -89,12 +89,17 @@ def highest(source, target, **options):
     ("name", "crs", "stated"),
     [
         ("a.geojson", "EPSG:4326", None),
-        ("a.geojson", "EPSG:4326", "urn:ogc:def:crs:OGC:1.3:CRS84"),
+        *(
+            pytest.param("a.geojson", *crs, marks=pytest.mark.long)
+            for crs in (
+                ("EPSG:4326", "urn:ogc:def:crs:OGC:1.3:CRS84"),
+                ("EPSG:25833", "urn:ogc:def:crs:EPSG::25833"),
+                ("EPSG:3857", "EPSG:3857"),
+                (UTM, None),
+            )
+        ),
         ("a.geojson", "EPSG:4326", "urn:ogc:def:crs:EPSG::4326"),
-        ("a.geojson", "EPSG:25833", "urn:ogc:def:crs:EPSG::25833"),
-        ("a.geojson", "EPSG:3857", "EPSG:3857"),
         ("a.geojson", UTM, "http://www.opengis.net/def/crs/EPSG/0/25832"),
-        ("a.geojson", UTM, None),
         ("a.gpkg", "EPSG:25833", None),
         ("a.gpkg", "EPSG:4326", None),
         ("a.shp", "EPSG:25833", None),

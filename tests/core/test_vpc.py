@@ -47,7 +47,7 @@ def test_headers_become_items(las):
     assert (properties["pc:count"], properties["pc:encoding"]) == (60, "LASzip")
     assert properties["datetime"] == "2021-02-11T00:00:00Z"
     assert properties["proj:wkt2"] == wkt_of(UTM)
-    names = [each["name"] for each in properties["pc:schemas"]]
+    names = [property_["name"] for property_ in properties["pc:schemas"]]
     assert len(set(names)) == len(names)
     assert {"X", "Classification", "GpsTime", "Red", "ScanChannel"} < set(names)
     assert heard.warnings == []
@@ -113,7 +113,7 @@ def test_what_is_written_is_read(las):
     content, _ = written(las, *files, name="products/all.vpc")
     assert len({item["id"] for item in content["features"]}) == 3
     found = read_vpc(las.folder / "products" / "all.vpc")
-    assert [each.resolve() for each in found] == files
+    assert [value.resolve() for value in found] == files
 
 
 def vpc_of(las, *hrefs, **properties):
@@ -127,7 +127,7 @@ def test_every_way_to_name_a_local_file_is_understood(las):
     file = las.make("a b.las")
     url = "file://" + pathname2url(str(file))
     path = vpc_of(las, "./a b.las", "a b.las", "a%20b.las", str(file), url, "../clouds/a b.las")
-    assert [each.resolve() for each in read_vpc(path)] == [file] * 6
+    assert [value.resolve() for value in read_vpc(path)] == [file] * 6
 
 
 def test_the_points_are_taken_and_not_the_overview(las):
@@ -138,7 +138,7 @@ def test_the_points_are_taken_and_not_the_overview(las):
     }
     item = {"properties": {}, "assets": assets}
     path.write_text(json.dumps({"type": "FeatureCollection", "features": [item]}))
-    assert [each.name for each in read_vpc(path)] == ["a.laz"]
+    assert [file.name for file in read_vpc(path)] == ["a.laz"]
 
 
 @pytest.mark.parametrize(

@@ -94,7 +94,7 @@ def test_each_room_imports_only_the_floors_below_it():
     assert set(FLOORS) == {_room(path) for path in (ROOT / "algorithms").rglob("*.py")}
     for path in (ROOT / "algorithms").rglob("*.py"):
         room = _room(path)
-        relative = {each for each in _imports(path) if each.startswith(".")}
+        relative = {module for module in _imports(path) if module.startswith(".")}
         below = [f".algorithms.{name}" for name in (room.split("/")[0], *FLOORS[room].split())]
         # A room and the rooms below it; `from .. import core` names the house as well.
         assert relative - {".algorithms"} <= _within(relative, *below), path
@@ -106,7 +106,7 @@ def _algorithms_of(path):
     for module in _within(_imports(path), ".algorithms"):
         place = ROOT.joinpath(*module.split(".")[1:])
         found |= {place.with_suffix(".py"), place / "__init__.py"}
-    return {each for each in found if each.is_file()} - {path}
+    return {value for value in found if value.is_file()} - {path}
 
 
 def test_no_file_imports_itself_by_way_of_others():
@@ -126,9 +126,13 @@ def test_steps_for_classified_points_need_no_filter(step):
         if path not in reached:
             reached.add(path)
             # The package itself only says what it holds.
-            left += [each for each in _algorithms_of(path) if each.parent != ROOT / "algorithms"]
+            left += [
+                algorithm
+                for algorithm in _algorithms_of(path)
+                if algorithm.parent != ROOT / "algorithms"
+            ]
     assert len(reached) > 10
-    assert not {each for each in reached if _room(each) == "filters"}
+    assert not {file for file in reached if _room(file) == "filters"}
 
 
 def test_only_the_point_cloud_package_knows_the_file_format():
@@ -159,7 +163,7 @@ def test_shipped_code_holds_none_of_what_hides_or_varies():
         assert not isinstance(node, ast.Assert), f"{where}: python -O removes assert"
         if isinstance(node, ast.ExceptHandler):
             assert node.type is not None, f"{where}: a bare except hides everything"
-            hides = all(isinstance(each, (ast.Pass, ast.Continue)) for each in node.body)
+            hides = all(isinstance(inner, (ast.Pass, ast.Continue)) for inner in node.body)
             assert not hides, f"{where}: an error is swallowed"
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             assert "/tmp" not in node.value, f"{where}: not every system has it"

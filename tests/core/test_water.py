@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matrices import covering, quick
 from realdata import real
 from test_checkpoints import write
 
@@ -46,7 +47,7 @@ class Scene:
 
     def keep(self, which):
         self.x, self.y, self.z, self.classes = (
-            each[which] for each in (self.x, self.y, self.z, self.classes)
+            axis[which] for axis in (self.x, self.y, self.z, self.classes)
         )
 
     def grid(self, cell=1.0):
@@ -214,17 +215,14 @@ def sparser_half(scene):
 
 
 @pytest.mark.parametrize(
-    ("slope", "rolling"),
-    [
-        (0.0, 0.0),
-        (0.03, 1.0),
-        *(pytest.param(*each, marks=pytest.mark.long) for each in ((0.0, 1.0), (0.03, 0.0))),
-    ],
+    ("changed", "slope_and_waves"),
+    covering(
+        [hall, black_roof, dense_forest, thin_forest, slanted_border, gap, sparser_half],
+        [(0.0, 0.0), (0.03, 1.0), (0.0, 1.0), (0.03, 0.0)],
+    ),
 )
-@pytest.mark.parametrize(
-    "changed", [hall, black_roof, dense_forest, thin_forest, slanted_border, gap, sparser_half]
-)
-def test_what_is_not_water_is_not_found(changed, slope, rolling):
+def test_what_is_not_water_is_not_found(changed, slope_and_waves):
+    slope, rolling = slope_and_waves
     scene = Scene(slope=slope, rolling=rolling)
     changed(scene)
     assert scene.water(min_area=1000.0, min_width=10.0) == []
@@ -279,7 +277,7 @@ def test_many_files_give_the_same_as_one(survey, tmp_path, capsys):
     assert np.abs(ring.mean(axis=0) - (500_200, 5_600_210)).max() < 20
 
 
-@pytest.mark.parametrize("suffix", [".gpkg", ".geojson", ".shp", ".fgb"])
+@pytest.mark.parametrize("suffix", quick([".gpkg", ".geojson", ".shp", ".fgb"], ".geojson", ".shp"))
 def test_polygons_and_breaklines_are_read_again(survey, tmp_path, suffix):
     from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
 
@@ -339,7 +337,7 @@ def test_too_many_cells_are_refused():
 def test_water_in_feet_has_its_level_in_feet(tmp_path):
     scene = lake_scene("empty")
     feet = 0.3048
-    places = (np.round(each / feet, 3) for each in (scene.x, scene.y, scene.z))
+    places = (np.round(axis / feet, 3) for axis in (scene.x, scene.y, scene.z))
     write(tmp_path / "in.laz", *places, scene.classes, crs="EPSG:2223")  # Arizona, feet
     run("water", tmp_path / "in.laz", tmp_path / "water.geojson", "--crs", "EPSG:2223+8228")
     (feature,) = json.loads((tmp_path / "water.geojson").read_text())["features"]
@@ -347,7 +345,7 @@ def test_water_in_feet_has_its_level_in_feet(tmp_path):
     assert feature["properties"]["AREA"] == pytest.approx(15_800, rel=0.05)
 
 
-@pytest.mark.parametrize("number", [0, 2])
+@pytest.mark.parametrize("number", quick([0, 2], 2))
 def test_a_pond_full_of_returns_is_found_without_its_class(number, tmp_path):
     import laspy
 

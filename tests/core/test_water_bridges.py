@@ -49,12 +49,13 @@ def bridged(kind="empty", **bridge):
 
 
 BRIDGES = [
-    ("empty", {}),
-    ("empty", {"half": 12.0}),
     ("empty", {"half": 2.0}),
-    ("empty", {"skew": 0.7}),
     ("class 9", {}),
     ("two carriageways", {}),
+    *(
+        pytest.param("empty", how, marks=pytest.mark.long)
+        for how in ({}, {"half": 12.0}, {"skew": 0.7})
+    ),
 ]
 
 
@@ -171,7 +172,7 @@ def test_the_terrain_has_no_dam_below_a_bridge(tmp_path):
     scene.basin(away, level)
     build(scene, away, 8.0, start=0.0)
     flood(scene, away)
-    columns = (np.round(each, 3) for each in (scene.x, scene.y, scene.z))
+    columns = (np.round(axis, 3) for axis in (scene.x, scene.y, scene.z))
     write(tmp_path / "in.laz", *columns, scene.classes)
     errors = {}
     for name, water in (("with", ("--water", "automatic")), ("without", ())):
@@ -195,7 +196,7 @@ def test_bridges_without_water_below_them_are_told(tmp_path, capsys):
         build(scene, river, 8.0)
         if is_wet:
             flood(scene, river)
-        columns = (np.round(each, 3) for each in (scene.x, scene.y, scene.z))
+        columns = (np.round(axis, 3) for axis in (scene.x, scene.y, scene.z))
         write(tmp_path / f"{name}.laz", *columns, scene.classes)
         run("water", tmp_path / f"{name}.laz", tmp_path / f"{name}.geojson")
         told.append(capsys.readouterr().err)

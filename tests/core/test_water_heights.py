@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import rasterio
 from independent_water import compare, corners_in_flat_water, features, share_at_level
+from matrices import covering
 from rasterio.features import geometry_mask
 from test_checkpoints import write
 from test_water import LEVEL, Scene, lake, river, run
@@ -44,8 +45,7 @@ def surveys(tmp_path_factory):
     return make
 
 
-@pytest.mark.parametrize("kind", WATERS)
-@pytest.mark.parametrize("is_one", [True, False])
+@pytest.mark.parametrize(("kind", "is_one"), covering(WATERS, [True, False]))
 def test_each_cell_of_water_has_the_level_of_polygons_and_breaklines(
     surveys, tmp_path, kind, is_one, threads_for_processes
 ):

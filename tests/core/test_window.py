@@ -3,6 +3,7 @@ import struct
 import numpy as np
 import pytest
 from conftest import LasKit
+from matrices import quick
 from runs import CancelAt
 from surveys import write_classified
 
@@ -205,7 +206,7 @@ def test_nested_pages_are_followed_only_where_the_window_is(octree):
     hierarchy, data = read_hierarchy(open_las(octree)), bytearray(octree.read_bytes())
     for start, entries in read_pages(hierarchy).items():
         depth, *place = entries["key"][0].tolist()
-        if start != hierarchy.root[0] and any(each >> (depth - 1) for each in place[:2]):
+        if start != hierarchy.root[0] and any(value >> (depth - 1) for value in place[:2]):
             data[start : start + 4] = struct.pack("<i", -1)
     octree.write_bytes(data)
     assert_is_part(read_window(octree, small, heard), cloud, small)
@@ -214,7 +215,7 @@ def test_nested_pages_are_followed_only_where_the_window_is(octree):
     assert any("octree" in text for text in heard.warnings)
 
 
-@pytest.mark.parametrize("nested", [False, True])
+@pytest.mark.parametrize("nested", quick([False, True], True))
 def test_other_classes_leave_the_octree_as_it_is(las, octree, nested, monkeypatch):
     count = 1 + (nest_pages(octree) if nested else 0)
     monkeypatch.setattr(writing, "write_copc", None)

@@ -4,6 +4,8 @@ import struct
 import laspy
 import numpy as np
 import pytest
+from conftest import EVERY
+from matrices import covering
 from realdata import real
 from runs import CancelAt
 from surveys import write_classified
@@ -14,8 +16,6 @@ from bare_earth.algorithms.las import records as records_module
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.writing import check_writable
 
-VERSIONS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
-EVERY = [(version, each) for version, formats in VERSIONS.items() for each in formats]
 REAL = ("mixed_conifer.laz", "forest_topography.laz", "ign_pf8.las")
 
 
@@ -41,10 +41,11 @@ def blank(header, *ranges):
     return bytes(header)
 
 
-@pytest.mark.parametrize("written", ["las", "laz"])
-@pytest.mark.parametrize("read", ["las", "laz"])
-@pytest.mark.parametrize(("version", "point_format"), EVERY)
-def test_only_the_class_changes(las, version, point_format, read, written):
+@pytest.mark.parametrize(
+    ("layout", "read", "written"), covering(EVERY, ["las", "laz"], ["las", "laz"])
+)
+def test_only_the_class_changes(las, layout, read, written):
+    version, point_format = layout
     own = las.vlr(b"somebody", 7, b"else's data", b"\xff not text")
     source = las.make(
         f"in.{read}",
@@ -295,8 +296,7 @@ def test_a_missing_folder_is_told(las):
     assert list(las.folder.iterdir()) == [source]
 
 
-@pytest.mark.parametrize("written", ["las", "laz"])
-@pytest.mark.parametrize("name", REAL)
+@pytest.mark.parametrize(("name", "written"), covering(REAL, ["las", "laz"]))
 def test_real_files_keep_all_but_the_class(las, name, written):
     source = real(f"real/{name}")
     target = las.folder / f"out.{written}"

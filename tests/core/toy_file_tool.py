@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from bare_earth import Progress
 from bare_earth.algorithms.core.parameters import ParameterSet, parameter
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.rasters.geotiff import NODATA, read_raster
 from bare_earth.algorithms.rasters.writing import write_geotiff
 from bare_earth.algorithms.tools import FILE_TOOLS, Listed
@@ -33,7 +33,7 @@ class Lifted:
         return f"{self.cell_count:,} cells are higher"
 
 
-def lift_raster(source, output, table, lift=Lift(), progress=SILENT):
+def lift_raster(source, output, table, lift=Lift(), progress=Progress()):
     raster = read_raster(source, progress=progress)
     known = ~np.isnan(raster.heights)
     if table is not None:

@@ -135,7 +135,7 @@ def speak(tmp_path):
         return installed[-1]
 
     yield set_language
-    for each in filter(None, installed):
-        QCoreApplication.removeTranslator(each)
+    for file in filter(None, installed):
+        QCoreApplication.removeTranslator(file)
     QgsSettings().remove("locale/overrideFlag")
     QgsSettings().remove("locale/userLocale")

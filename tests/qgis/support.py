@@ -58,7 +58,7 @@ class Log(QgsProcessingFeedback):
 def write_scene(path, epsg=25832, origin=(500_000.0, 5_700_000.0)):
     """Write a tilted plane of 80 x 80 m with a flat-roofed building; return the true ground."""
     side = np.arange(0.25, 80.0, 0.5)
-    x, y = (each.ravel() for each in np.meshgrid(side, side))
+    x, y = (axis.ravel() for axis in np.meshgrid(side, side))
     ground = ~((x > 30) & (x < 48) & (y > 20) & (y < 46))
     z = np.where(ground, 100 + 0.05 * x + 0.02 * y, 112.0)
     header = laspy.LasHeader(point_format=6, version="1.4")

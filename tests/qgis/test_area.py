@@ -72,7 +72,7 @@ def layer_of(wkts, epsg=25832, kind="Polygon"):
 
 
 def to(epsg):
-    crs = (QgsCoordinateReferenceSystem.fromEpsgId(each) for each in (25832, epsg))
+    crs = (QgsCoordinateReferenceSystem.fromEpsgId(value) for value in (25832, epsg))
     return QgsCoordinateTransform(*crs, QgsProject.instance())
 
 
@@ -290,11 +290,11 @@ def test_an_area_of_many_files(registry, scene, context, log, tmp_path):
     assert x.min() >= 50 and x.max() <= 120 and len(x) == results["POINT_COUNT"] == 140 * 80
     before = [(cloud.X, cloud.classification) for cloud in clouds]
     command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
-    for each in out.glob("*.laz"):
-        each.unlink()
+    for file in out.glob("*.laz"):
+        file.unlink()
     assert main([*command[1:], "--threads", "1"]) == 0
-    for each, (positions, classes) in zip(sorted(out.glob("*.laz")), before):
-        again = laspy.read(each)
+    for file, (positions, classes) in zip(sorted(out.glob("*.laz")), before):
+        again = laspy.read(file)
         assert np.array_equal(again.X, positions) and np.array_equal(again.classification, classes)
 
 

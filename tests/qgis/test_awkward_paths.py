@@ -32,7 +32,7 @@ def test_a_dialog_takes_them(name, scene, tmp_path, context):
     dialog = AlgorithmDialog(algorithm.create())
     try:
         dialog.setParameters(files)
-        shown = {each.text() for each in dialog.findChildren(QLineEdit)}
+        shown = {widget.text() for widget in dialog.findChildren(QLineEdit)}
         assert {files["OUTPUT"], files["DTM"]} <= shown
         values = dialog.createProcessingParameters()
         assert values["INPUT"] == files["INPUT"]
@@ -42,8 +42,8 @@ def test_a_dialog_takes_them(name, scene, tmp_path, context):
     possible, text = algorithm.checkParameterValues(values, context)
     assert possible, text
     results = processing.runAndLoadResults(ALGORITHM, values, feedback=log, context=context)
-    assert {each: results[each] for each in ("OUTPUT", "DTM")} == {
-        each: files[each] for each in ("OUTPUT", "DTM")
+    assert {key: results[key] for key in ("OUTPUT", "DTM")} == {
+        key: files[key] for key in ("OUTPUT", "DTM")
     }
     classes = laspy.read(files["OUTPUT"]).classification
     assert np.array_equal(classes == 2, scene.ground)
@@ -54,6 +54,6 @@ def test_a_dialog_takes_them(name, scene, tmp_path, context):
         if layer.name() in ("Terrain model", f"{folder.name}: Terrain model")
     )
     assert terrain.isValid()
-    (command,) = (shlex.split(each) for each in log.said if each.startswith("bare-earth "))
+    (command,) = (shlex.split(words) for words in log.said if words.startswith("bare-earth "))
     assert main(command[1:]) == 0
     assert np.array_equal(laspy.read(files["OUTPUT"]).classification, classes)

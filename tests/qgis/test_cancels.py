@@ -107,7 +107,7 @@ def test_a_cancel_leaves_old_files_and_nothing_else(name, registry, inputs, tmp_
     whole, begun = Log(), time.monotonic()
     assert run(whole)[0] and ".~" not in whole.text
     duration = time.monotonic() - begun
-    moments = sorted({each for each in whole.moments if each < 100})
+    moments = sorted({when for when in whole.moments if when < 100})
     cancelled = 0
     for number in range(CANCELS):
         by_time = number % 3 == 1
@@ -144,8 +144,7 @@ def test_a_cancel_leaves_old_files_and_nothing_else(name, registry, inputs, tmp_
 
 @pytest.mark.parametrize("suffix", [".gpkg", ".shp", ".geojson", ".fgb"])
 def test_contours_replace_old_ones_or_leave_them(suffix, inputs, tmp_path, monkeypatch):
-    from bare_earth.algorithms.core.errors import BareEarthError, Cancelled
-    from bare_earth.algorithms.core.progress import Progress
+    from bare_earth import BareEarthError, Cancelled, Progress
     from bare_earth.algorithms.tools.contours import Contours, write_contours
 
     class CancelAtTheEnd(Progress):
@@ -171,6 +170,6 @@ def test_contours_replace_old_ones_or_leave_them(suffix, inputs, tmp_path, monke
     index.write_bytes(b"of the old lines")
     write_contours(surface, lines, Contours(contour_interval=2.0))
     made = ogr.Open(str(lines))  # which must live as long as its layer
-    assert {each.GetField("ELEV") for each in made[0]} >= {302.0, 304.0}
+    assert {layer.GetField("ELEV") for layer in made[0]} >= {302.0, 304.0}
     del made
     assert set(os.listdir(tmp_path)) == names | ({index.name} if suffix != ".shp" else set())

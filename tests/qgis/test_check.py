@@ -29,12 +29,12 @@ def cloud(scene, tmp_path):
 def rows(cloud):
     """Ground points of the cloud, 5 cm lower, as checkpoints; and one that is far away."""
     las = laspy.read(cloud)
-    x, y, z = (np.asarray(each) for each in (las.x, las.y, las.z))
+    x, y, z = (np.asarray(axis) for axis in (las.x, las.y, las.z))
     inner = (x > x.min() + 5) & (x < x.max() - 5) & (y > y.min() + 5) & (y < y.max() - 5)
     which = np.flatnonzero((np.asarray(las.classification) == 2) & inner)[::150][:40]
     found = [
-        (f"P{each}", x[each], y[each], z[each] - 0.05, "forest" if k % 4 == 0 else "sand")
-        for k, each in enumerate(which)
+        (f"P{value}", x[value], y[value], z[value] - 0.05, "forest" if k % 4 == 0 else "sand")
+        for k, value in enumerate(which)
     ]
     return [*found, ("far", x.max() + 500, y.max(), 1.0, "sand")]
 

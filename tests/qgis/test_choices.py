@@ -20,8 +20,8 @@ def dialog(plugin):
         return made[-1]
 
     yield dialog
-    for each in made:
-        remove(each)
+    for path in made:
+        remove(path)
 
 
 def box_of(dialog, text):

@@ -60,7 +60,7 @@ def test_a_folder_is_classified_and_the_log_says_how_to_repeat_it(tiles, folder,
     check(results, folder)
     listed = json.loads((out / "classified.vpc").read_text())
     assert results["OUTPUT_VPC"] == str(out / "classified.vpc")
-    assert [each["assets"]["data"]["href"] for each in listed["features"]] == [
+    assert [value["assets"]["data"]["href"] for value in listed["features"]] == [
         f"./{number}.laz" for number in range(4)
     ]
     assert "0.laz: 25,600 points" in log.text and "4 of 4 files are done" in log.text

@@ -53,9 +53,9 @@ def test_without_a_window_the_middle_is_taken(registry, parameters, context, log
     results, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
     assert done and Path(results["OUTPUT"]).is_file(), log.text
     # The scene is smaller than the window.
-    (told,) = (each for each in log.said if each.startswith("Chosen automatically: window"))
+    (told,) = (text for text in log.said if text.startswith("Chosen automatically: window"))
     assert "x 500000.249 to 500079.751" in told
-    command = next(each for each in log.said if each.startswith("bare-earth "))
+    command = next(text for text in log.said if text.startswith("bare-earth "))
     assert "--extent" not in command
 
 
@@ -86,11 +86,11 @@ def test_the_window_is_transformed_to_the_crs_of_the_points(
     _, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
     assert done, log.text
     command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
-    extent = [float(each) for each in command[command.index("--extent") + 1 :][:4]]
+    extent = [float(value) for value in command[command.index("--extent") + 1 :][:4]]
     assert extent == pytest.approx([500_010, 5_700_010, 500_070, 5_700_070], abs=2)
 
 
-NUMBERS = [list(SETTINGS).index(each) for each in ("slope:town", "slope:flat")]
+NUMBERS = [list(SETTINGS).index(name) for name in ("slope:town", "slope:flat")]
 
 
 @pytest.mark.parametrize(

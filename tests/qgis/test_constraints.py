@@ -66,7 +66,7 @@ def test_the_terrain_model_respects_them_and_the_classes_stay(name, scene, tmp_p
 def moved(wkt, crs):
     """Return a geometry of the scene in another CRS."""
     shape = QgsGeometry.fromWkt(wkt)
-    systems = (QgsCoordinateReferenceSystem(each) for each in ("EPSG:25832", crs))
+    systems = (QgsCoordinateReferenceSystem(value) for value in ("EPSG:25832", crs))
     shape.transform(QgsCoordinateTransform(*systems, QgsCoordinateTransformContext()))
     return shape.asWkt(12)
 

@@ -20,8 +20,8 @@ def polygons(scene, field="class", values=(2, 9), crs="EPSG:25832"):
     """Return the roof as the first class, and a strip of the land round it as the second."""
     las = laspy.read(scene.path)
     x, y = np.asarray(las.x), np.asarray(las.y)
-    high = [each[~scene.ground] for each in (x, y)]
-    roof = *(each.min() for each in high), *(each.max() for each in high)
+    high = [axis[~scene.ground] for axis in (x, y)]
+    roof = *(height.min() for height in high), *(height.max() for height in high)
     strip = x.min(), y.min(), x.max(), y.min() + 10.0
     layer = QgsVectorLayer(f"Polygon?crs={crs}&field={field}:integer", "known", "memory")
     for (west, south, east, north), value in zip((roof, strip), values):

@@ -126,7 +126,7 @@ def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
         "Terrain model",
         "Hillshade",
     ]
-    assert names == [each for each in expected if each in names] and len(names) >= 5
+    assert names == [name for name in expected if name in names] and len(names) >= 5
     assert shown(root)["Terrain model"] and not shown(root)["Surface model"]
     layers = QgsProject.instance().mapLayers().values()
     assert {type(layer) for layer in layers} >= {QgsRasterLayer, QgsVectorLayer}
@@ -141,7 +141,7 @@ def test_the_command_in_the_log_does_the_same(deliver, tmp_path):
     folder = tmp_path / "delivery"
     before = gdal.Open(str(folder / "dtm.tif")).ReadAsArray()
     files = sorted(os.listdir(folder))
-    (command,) = [shlex.split(each) for each in log.said if each.startswith("bare-earth ")]
+    (command,) = [shlex.split(text) for text in log.said if text.startswith("bare-earth ")]
     shutil.rmtree(folder)
     QgsProject.instance().clear()
     assert main(command[1:]) == 0
@@ -229,7 +229,7 @@ def test_specification_hold_out_water_and_checkpoints_are_fields(deliver, scene,
     settings = json.loads((folder / "delivery.json").read_text())["settings"]
     assert settings["Water"] == {"min_area": "900"}
     # The command in the log does the same.
-    (command,) = [shlex.split(each) for each in log.said if each.startswith("bare-earth ")]
+    (command,) = [shlex.split(text) for text in log.said if text.startswith("bare-earth ")]
     files = sorted(os.listdir(folder))
     shutil.rmtree(folder)
     QgsProject.instance().clear()

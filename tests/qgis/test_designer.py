@@ -61,10 +61,10 @@ def field_of(dialog, name):
 
 def choose(field, kind, label):
     """Choose what a field takes, and of that the one with a label, as a mouse would."""
-    menu = next(each for each in field.findChildren(QToolButton) if each.menu()).menu()
+    menu = next(widget for widget in field.findChildren(QToolButton) if widget.menu()).menu()
     menu.aboutToShow.emit()
     next(action for action in menu.actions() if action.text() == kind).trigger()
-    box = next(each for each in field.findChildren(QComboBox) if each.findText(label) >= 0)
+    box = next(widget for widget in field.findChildren(QComboBox) if widget.findText(label) >= 0)
     box.setCurrentIndex(box.findText(label))
 
 
@@ -89,7 +89,7 @@ def test_files_and_layers_can_be_wired(name, source, model, designer):
         choose(field_of(dialog, field), "Model Input", source)
     sources = dialog.createAlgorithm().parameterSources()
     for field in CLOUDS[name]:
-        assert [each.parameterName() for each in sources[field]] == [source[2:]]
+        assert [path.parameterName() for path in sources[field]] == [source[2:]]
 
 
 def test_files_can_be_wired_to_the_many(model, designer):
@@ -121,7 +121,7 @@ def test_what_is_drawn_runs(model, designer, scene, log):
     dialog = designer("bareearth:heightaboveground")
     boxes = field_of(dialog, "INPUT").findChildren(QComboBox)
     labels = [box.itemText(i) for box in boxes for i in range(box.count())]
-    (label,) = (each for each in labels if "Classified point cloud" in each)
+    (label,) = (text for text in labels if "Classified point cloud" in text)
     choose(field_of(dialog, "INPUT"), "Algorithm Output", label)
     heights = add(model, dialog)
     results, done = model.create().run({"file": str(scene.path)}, QgsProcessingContext(), log)

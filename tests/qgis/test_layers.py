@@ -164,7 +164,7 @@ def test_in_a_thread_of_its_own(algorithm, parameters, scene, log):
 def test_what_ends_after_the_outputs_does_not_say_that_there_are_none(
     why, parameters, algorithm, context, log, monkeypatch
 ):
-    from bare_earth.algorithms.core.errors import BareEarthError
+    from bare_earth import BareEarthError
     from bare_earth.algorithms.tools.rasters import class_raster
 
     parts = class_raster.read_parts
@@ -210,10 +210,10 @@ def test_the_classes_of_many_files_are_shown_as_one_raster(name, output, tmp_pat
         del outputs["OUTPUT"]
     values = {"INPUT_FOLDER": str(tmp_path / "tiles"), **outputs}
     processing.runAndLoadResults(f"bareearth:{name}", values)
-    layers = {each.name(): each for each in project.mapLayers().values()}
+    layers = {layer.name(): layer for layer in project.mapLayers().values()}
     assert set(layers) == {"Classes", "Terrain model"}
     classes = layers["Classes"]
-    assert [each.label for each in classes.renderer().classes()] == ["Ground", "Unclassified"]
+    assert [code.label for code in classes.renderer().classes()] == ["Ground", "Unclassified"]
     # Ground in both files, a roof in each, and nothing between them.
     west, south = 500_000.0, 5_700_000.0
     band = classes.dataProvider()

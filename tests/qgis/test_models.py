@@ -84,7 +84,7 @@ def test_a_model_survives_saving_and_runs(fixed, algorithm, scene, tmp_path, con
     results, done = model.run(parameters, context, log)
     assert done, log.text
     assert results["CHILD_RESULTS"]["classify"]["GROUND_COUNT"] == scene.ground_count
-    assert all(os.path.getsize(each) for each in files.values())
+    assert all(os.path.getsize(path) for path in files.values())
 
 
 def test_the_dialog_gives_back_what_is_chosen(algorithm, scene, plugin):

@@ -90,7 +90,7 @@ def test_errors_are_one_line(epsg, words, surface, tmp_path, log):
     # QGIS puts a line before what is refused before a run.
     told = str(error.value).replace("Unable to execute algorithm\n", "")
     assert "\n" not in told and "Traceback" not in log.text
-    assert [each.name for each in tmp_path.iterdir()] == ["dsm.tif"]
+    assert [file.name for file in tmp_path.iterdir()] == ["dsm.tif"]
 
 
 def test_a_layer_that_is_no_file_is_refused(registry, context, log):
@@ -111,4 +111,4 @@ def test_cancel_leaves_nothing(registry, surface, tmp_path, context):
         algorithm = registry.createAlgorithmById(ALGORITHM)
         parameters = {"INPUT": path, "OUTPUT": str(tmp_path / "dtm.tif")}
         assert algorithm.run(parameters, context, log)[0] == {}
-        assert [each.name for each in tmp_path.iterdir()] == ["dsm.tif"]
+        assert [file.name for file in tmp_path.iterdir()] == ["dsm.tif"]

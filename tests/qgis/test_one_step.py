@@ -55,7 +55,7 @@ def test_a_file_becomes_all_maps(scene, tmp_path):
     heights = sorted({line.GetField("ELEV") for line in lines})
     assert heights == [100.5 + 0.5 * step for step in range(11)] and lines.GetSpatialRef()
     assert f"{scene.ground_count:,} of {scene.count:,} points are ground" in log.text
-    assert not [each for each in os.listdir(tmp_path) if each.startswith(".") or "aux" in each]
+    assert not [key for key in os.listdir(tmp_path) if key.startswith(".") or "aux" in key]
 
 
 def test_the_commands_at_the_end_of_the_log_do_the_same(scene, tmp_path):
@@ -68,7 +68,7 @@ def test_the_commands_at_the_end_of_the_log_do_the_same(scene, tmp_path):
     processing.run(ALL_IN_ONE, {**given, **outputs}, feedback=log)
     before = {name: band(outputs[name]) for name in ("DTM", "DSM", "CHM", "HILLSHADE")}
     classes = laspy.read(outputs["OUTPUT"]).classification
-    commands = [shlex.split(each) for each in log.said if each.startswith("bare-earth ")]
+    commands = [shlex.split(text) for text in log.said if text.startswith("bare-earth ")]
     assert [words[:2] for words in commands] == [["bare-earth", x] for x in ("classify", "terrain")]
     for value in outputs.values():
         os.remove(value)
@@ -154,7 +154,7 @@ def test_an_area_is_all_that_is_mapped(scene, tmp_path, how, field):
         rows, columns = band(outputs[name]).shape
         assert 40 <= rows <= 41 and 20 <= columns <= 21
     assert "3,200 points in the area are ground" in log.text
-    (command,) = (shlex.split(each) for each in log.said if each.startswith("bare-earth classify"))
+    (command,) = (shlex.split(text) for text in log.said if text.startswith("bare-earth classify"))
     assert "--area-only" in command
     if field == "extent":
         before = las.classification
@@ -186,9 +186,9 @@ def test_the_log_tells_each_thing_once_and_ends_with_named_classes(tmp_path):
     log = Log()
     values = {"INPUT": str(tmp_path / "scene.laz"), **everything(tmp_path)}
     processing.run(ALL_IN_ONE, values, feedback=log)
-    (units,) = (each for each in log.said if "taken as metres" in each)
+    (units,) = (text for text in log.said if "taken as metres" in text)
     assert units.startswith("scene.laz does not say its CRS")
-    counts = [each for each in log.said if "Class " in each]
+    counts = [text for text in log.said if "Class " in text]
     assert counts[0].startswith(f"Class 2 (ground): {np.count_nonzero(ground):,} points")
     assert counts[1].startswith("Class 1 (")
 
@@ -228,12 +228,12 @@ def test_layers_are_styled_and_the_terrain_is_shown(scene, tmp_path, context):
     processing.runAndLoadResults(ALL_IN_ONE, {"INPUT": str(scene.path), **outputs})
     (group,) = project.layerTreeRoot().children()
     assert group.name() == "scene: terrain"
-    titles = [each.name() for each in group.children()]
+    titles = [child.name() for child in group.children()]
     assert titles == [
         "Contour lines", "Classes", "Confidence", "Local relief", "Canopy height",
         "Surface model", "Terrain model", "Hillshade",
     ]  # fmt: skip
-    shown = [title for title, each in zip(titles, group.children()) if each.isVisible()]
+    shown = [title for title, child in zip(titles, group.children()) if child.isVisible()]
     assert shown == ["Contour lines", "Terrain model", "Hillshade"]
 
 

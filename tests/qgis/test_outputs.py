@@ -98,7 +98,7 @@ def test_what_has_always_a_value_is_not_called_optional(registry, context):
     assert wrappers["RECURSIVE"].parameterValue() is True
     wrappers["RECURSIVE"].setParameterValue("false", context)
     assert not box.isChecked()
-    labels = [each.text() for each in dialog.findChildren((QLabel, QCheckBox))]
+    labels = [widget.text() for widget in dialog.findChildren((QLabel, QCheckBox))]
     labels = [label for label in labels if label.endswith("[optional]")]
     for name, wrapper in wrappers.items():
         parameter = wrapper.parameterDefinition()

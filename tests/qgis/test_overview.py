@@ -52,7 +52,7 @@ def test_points_are_seen_at_once_at_a_small_scale(tmp_path, context):
     given |= {"FORMAT": "copc.laz", "DTM": dtm}
     processing.runAndLoadResults("bareearth:classifytiles", given)
     root = project.layerTreeRoot()
-    clouds = [each for each in root.layerOrder() if isinstance(each, QgsPointCloudLayer)]
+    clouds = [layer for layer in root.layerOrder() if isinstance(layer, QgsPointCloudLayer)]
     names = [cloud.name() for cloud in clouds]
     assert names == (
         ["Classes"] if compat.SHOWS_OVERVIEWS else ["Classes", "Overview of the classes"]

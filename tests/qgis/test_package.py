@@ -29,14 +29,14 @@ def wait(until, seconds=60):
 def dialog():
     plugins["bare_earth"].show_laz_support()
     children = iface.mainWindow().children()
-    return [each for each in children if type(each).__name__ == "LazDialog"][0]
+    return [child for child in children if type(child).__name__ == "LazDialog"][0]
 
 def result(found):
     wait(lambda: found.result.text())
     return found.result.text()
 
 def messages():
-    return [each.text() for each in iface.messageBar().items()]
+    return [item.text() for item in iface.messageBar().items()]
 
 def run(algorithm, **parameters):
     import processing
@@ -129,8 +129,8 @@ def fresh(package, tmp_path_factory):
         """
         import pyplugin_installer
         pyplugin_installer.instance().installFromZipFile(given["zip"])
-        menus = [each for each in iface.pluginMenu().actions() if each.text() == "Bare Earth"]
-        answer["menu"] = [each.text() for each in menus[0].menu().actions()]
+        menus = [action for action in iface.pluginMenu().actions() if action.text() == "Bare Earth"]
+        answer["menu"] = [action.text() for action in menus[0].menu().actions()]
         answer["messages"] = messages()
         registry = QgsApplication.processingRegistry()
         answer["algorithms"] = len(registry.providerById("bareearth").algorithms())
@@ -171,7 +171,7 @@ def test_qgis_installs_the_zip(fresh):
     assert Path(answer["laspy"]) == (
         qgis.profile / "python" / "plugins" / "bare_earth" / "packages" / "laspy" / "__init__.py"
     )
-    assert len([each for each in answer["messages"] if ".laz" in each]) == 1
+    assert len([message for message in answer["messages"] if ".laz" in message]) == 1
 
 
 def test_of_laz_support_is_told_once(qgis):
@@ -199,14 +199,14 @@ def test_the_help_button_opens_the_page_in_the_plugin(qgis):
         box = dialog.findChild(QDialogButtonBox)
         box.button(QDialogButtonBox.StandardButton.Help).click()
         provider = registry.providerById("bareearth")
-        answer["all"] = [QUrl(each.helpUrl()).toLocalFile() for each in provider.algorithms()]
+        answer["all"] = [QUrl(tool.helpUrl()).toLocalFile() for tool in provider.algorithms()]
         """,
         algorithm=ALGORITHM,
     )
     help_folder = qgis.profile / "python" / "plugins" / "bare_earth" / "help"
     assert Path(answer["opened"]) == help_folder / "tin-densification.html"
     assert "<h1" in Path(answer["opened"]).read_text(encoding="utf-8")
-    assert all(Path(each).is_file() for each in answer["all"])
+    assert all(Path(page).is_file() for page in answer["all"])
 
 
 def test_the_menu_opens_the_documentation_in_the_plugin(qgis):
@@ -222,8 +222,8 @@ def test_the_menu_opens_the_documentation_in_the_plugin(qgis):
 
         browser = Browser()
         QDesktopServices.setUrlHandler("file", browser, "open")
-        menus = [each for each in iface.pluginMenu().actions() if each.text() == "Bare Earth"]
-        entries = {each.text(): each for each in menus[0].menu().actions()}
+        menus = [action for action in iface.pluginMenu().actions() if action.text() == "Bare Earth"]
+        entries = {action.text(): action for action in menus[0].menu().actions()}
         entries["Documentation"].trigger()
         """
     )
@@ -246,9 +246,9 @@ def test_the_message_on_laz_goes_when_lazrs_is_there(qgis):
         """,
         wheel=next(WHEELS.glob("lazrs-*.whl")),
     )
-    assert any(".laz" in each for each in answer["before"])
+    assert any(".laz" in message for message in answer["before"])
     assert answer["result"].startswith("Done")
-    assert not any(".laz" in each for each in answer["after"])
+    assert not any(".laz" in message for message in answer["after"])
 
 
 @pytest.mark.parametrize(
@@ -268,8 +268,8 @@ def test_the_window_speaks_the_language_of_qgis(qgis, clouds, tmp_path, locale, 
     )
     answer = qgis.window(
         """
-        menus = [each for each in iface.pluginMenu().actions() if each.text() == "Bare Earth"]
-        answer["menu"] = [each.text() for each in menus[0].menu().actions()]
+        menus = [action for action in iface.pluginMenu().actions() if action.text() == "Bare Earth"]
+        answer["menu"] = [action.text() for action in menus[0].menu().actions()]
         algorithm = QgsApplication.processingRegistry().createAlgorithmById(given["algorithm"])
         answer["title"] = algorithm.displayName()
         found = dialog()
@@ -412,7 +412,7 @@ def test_layers_are_in_order_in_a_window_whatever_layer_is_current(qgis, clouds,
             wait(lambda: False, 0.5)
         root = iface.layerTreeView().layerTreeModel().rootGroup()
         answer["groups"] = [
-            [each.name(), [one.name() for one in each.children()]] for each in root.children()
+            [group.name(), [one.name() for one in group.children()]] for group in root.children()
         ]
         """,
         cloud=clouds[0].path, algorithm="bareearth:pointcloudtoterrain",

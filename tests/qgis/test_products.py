@@ -114,7 +114,7 @@ def test_a_dialog_shows_classes_where_it_cannot_show_points(labelled, out, name)
     # Without a dialog nobody would see the raster.
     processing.run(name, {**values, "OUTPUT": str(out / "script.las")})
     assert {path.name for path in out.glob("*.tif")} == {"out_classes.tif"}
-    said = [each.toPlainText() for each in dialog.findChildren(QTextEdit)]
+    said = [widget.toPlainText() for widget in dialog.findChildren(QTextEdit)]
     assert ended[0][0] and "results dialog" not in "".join(said)
     (layer,) = project.mapLayersByName("scene: Classes")
     labels = [value.label for value in layer.renderer().classes()]
@@ -309,7 +309,7 @@ def test_a_folder_is_one_survey_and_becomes_a_folder(registry, tmp_path, out, na
     words = {"INPUT": str(tmp_path / "in"), "OUTPUT": str(out / "many.laz"), **given}
     results = processing.run(name, words, feedback=log)
     made = sorted((out / "many").glob("*.laz"))
-    assert [each.name for each in made] == [
+    assert [file.name for file in made] == [
         "0.laz",
         "1.laz",
     ] and "2 of 2 files are done" in log.text
@@ -318,6 +318,6 @@ def test_a_folder_is_one_survey_and_becomes_a_folder(registry, tmp_path, out, na
     if name == HEIGHT:
         assert -0.01 < results["MINIMUM"] < 0.01 < 8.0 < results["MAXIMUM"]
     if name == WATER:
-        classes = [np.asarray(laspy.read(each).classification) for each in made]
+        classes = [np.asarray(laspy.read(file).classification) for file in made]
         counts = [np.count_nonzero(value == 9) for value in classes]
         assert min(counts) > 50 and sum(counts) == results["WATER_COUNT"]

@@ -263,7 +263,7 @@ MODELS = {
 
 
 @pytest.fixture(params=sorted(PARAMETERS))
-def each(request, registry):
+def any_algorithm(request, registry):
     return registry.createAlgorithmById(request.param)
 
 
@@ -278,7 +278,7 @@ def test_saved_models_depend_on_these_names(registry):
     # Names may be added. One that goes or changes breaks the models and scripts of users.
     listed = registry.providerById("bareearth").algorithms()
     # As one that runs: QGIS learns only then what a model is made of.
-    algorithms = [registry.createAlgorithmById(each.id()) for each in listed]
+    algorithms = [registry.createAlgorithmById(key.id()) for key in listed]
     names = {
         algorithm.id(): [p.name() for p in algorithm.parameterDefinitions()]
         for algorithm in algorithms
@@ -288,20 +288,20 @@ def test_saved_models_depend_on_these_names(registry):
         algorithm.id(): [o.name() for o in algorithm.outputDefinitions()]
         for algorithm in algorithms
     }
-    assert {name: each for name, each in outputs.items() if name in PARAMETERS} == OUTPUTS
+    assert {name: output for name, output in outputs.items() if name in PARAMETERS} == OUTPUTS
 
 
-def test_an_algorithm_says_what_it_is(each):
-    assert re.fullmatch(r"[a-z0-9]+", each.name())
-    assert re.fullmatch(r"[a-z0-9]+", each.groupId())
-    assert each.displayName() and each.group() and each.tags()
-    assert each.shortDescription() and "\n" not in each.shortDescription()
-    page = each.helpUrl().rpartition("/docs/")[2]
+def test_an_algorithm_says_what_it_is(any_algorithm):
+    assert re.fullmatch(r"[a-z0-9]+", any_algorithm.name())
+    assert re.fullmatch(r"[a-z0-9]+", any_algorithm.groupId())
+    assert any_algorithm.displayName() and any_algorithm.group() and any_algorithm.tags()
+    assert any_algorithm.shortDescription() and "\n" not in any_algorithm.shortDescription()
+    page = any_algorithm.helpUrl().rpartition("/docs/")[2]
     assert (ROOT / "docs" / page).is_file()
-    assert not each.icon().isNull()
-    assert each.flags() & each.Flag.FlagCanCancel
-    assert each.flags() & each.Flag.FlagSupportsBatch
-    assert not each.flags() & each.Flag.FlagNoThreading
+    assert not any_algorithm.icon().isNull()
+    assert any_algorithm.flags() & any_algorithm.Flag.FlagCanCancel
+    assert any_algorithm.flags() & any_algorithm.Flag.FlagSupportsBatch
+    assert not any_algorithm.flags() & any_algorithm.Flag.FlagNoThreading
 
 
 def test_each_algorithm_has_an_icon_of_its_own(registry):
@@ -352,18 +352,18 @@ def test_the_search_of_the_toolbox_finds_what_people_type(registry, words):
     assert {ALGORITHM, "bareearth:pointcloudtoterrain"} <= found
 
 
-def test_an_instance_is_of_the_same_kind(each):
-    assert type(each.create()) is type(each)
+def test_an_instance_is_of_the_same_kind(any_algorithm):
+    assert type(any_algorithm.create()) is type(any_algorithm)
 
 
-def test_the_help_speaks_of_every_parameter(each):
-    for parameter in each.parameterDefinitions():
+def test_the_help_speaks_of_every_parameter(any_algorithm):
+    for parameter in any_algorithm.parameterDefinitions():
         assert len(parameter.help()) > 20, parameter.name()
-        assert f"<b>{parameter.description()}</b>: " in each.shortHelpString()
+        assert f"<b>{parameter.description()}</b>: " in any_algorithm.shortHelpString()
 
 
-def test_numbers_have_ranges_and_names_are_upper_case(each):
-    for parameter in each.parameterDefinitions():
+def test_numbers_have_ranges_and_names_are_upper_case(any_algorithm):
+    for parameter in any_algorithm.parameterDefinitions():
         assert re.fullmatch(r"[A-Z][A-Z0-9_]*", parameter.name())
         # A value for no data may be any number of 32 bits.
         is_length = parameter.name() != "RASTER_NODATA"
@@ -381,10 +381,10 @@ def test_lines_are_offered_in_the_formats_that_can_be_written(registry):
     assert "dxf" not in field.createFileFilter()
 
 
-def test_a_dialog_shows_eight_fields_at_most(each):
+def test_a_dialog_shows_eight_fields_at_most(any_algorithm):
     advanced = QgsProcessingParameterDefinition.Flag.FlagAdvanced
-    fields = [p for p in each.parameterDefinitions() if not p.flags() & advanced]
-    if each.id() == "bareearth:pointcloudtoterrain":
+    fields = [p for p in any_algorithm.parameterDefinitions() if not p.flags() & advanced]
+    if any_algorithm.id() == "bareearth:pointcloudtoterrain":
         # It is there to make them all, and QGIS cannot fold outputs away.
         fields = [p for p in fields if not p.isDestination()]
     assert len(fields) <= 8, [p.name() for p in fields]
@@ -409,12 +409,12 @@ def test_what_users_look_for_is_in_front(registry):
     assert interval == "Contour interval [m or ft]"
 
 
-def test_the_help_has_the_order_of_the_dialog(each):
+def test_the_help_has_the_order_of_the_dialog(any_algorithm):
     advanced = QgsProcessingParameterDefinition.Flag.FlagAdvanced
-    fields = list(each.parameterDefinitions())
+    fields = list(any_algorithm.parameterDefinitions())
     # The outputs follow below what is folded away.
     fields.sort(key=lambda p: (p.isDestination(), bool(p.flags() & advanced)))
-    places = [each.shortHelpString().index(f"<b>{p.description()}</b>") for p in fields]
+    places = [any_algorithm.shortHelpString().index(f"<b>{p.description()}</b>") for p in fields]
     assert places == sorted(places)
 
 
@@ -509,11 +509,11 @@ def page_of(algorithm):
     return (ROOT / "docs" / algorithm.helpUrl().rpartition("/")[2]).read_text(encoding="utf-8")
 
 
-def test_its_page_holds_every_parameter_with_its_default(each, registry):
-    page = page_of(each)
+def test_its_page_holds_every_parameter_with_its_default(any_algorithm, registry):
+    page = page_of(any_algorithm)
     # What all ground classifications share stands on the page of one of them.
     shared = page_of(registry.createAlgorithmById(ALGORITHM))
-    for declared in each.parameter_sets():
+    for declared in any_algorithm.parameter_sets():
         for parameter in declared.declarations():
             row = f"| **{parameter.label}** `{parameter.name.upper()}` | "
             holds = page if row in page else shared
@@ -531,8 +531,8 @@ def test_its_page_holds_every_parameter_with_its_default(each, registry):
             else:
                 continue
             assert shown in [cell.strip("`") for cell in cells]
-    outputs = [definition.name() for definition in each.outputDefinitions()]
-    if each.name() in ("tindensification", "slopefilter", "gridminimum"):
+    outputs = [definition.name() for definition in any_algorithm.outputDefinitions()]
+    if any_algorithm.name() in ("tindensification", "slopefilter", "gridminimum"):
         page += shared
     assert all(f"`{name}`" in page for name in outputs)
 
@@ -544,11 +544,11 @@ def test_unknown_parameters_are_told(name, registry, scene, tmp_path, context, l
     outputs = [definition.name() for definition in algorithm.destinationParameterDefinitions()]
     files = {output: str(tmp_path / output.replace(":", "_")) for output in outputs}
     endings = {"OUTPUT": ".laz", "DTM": ".tif", "HILLSHADE": ".tif", "ground:OUTPUT": ".laz"}
-    files = {each: f"{path}{endings.get(each, '.tif')}" for each, path in files.items()}
+    files = {key: f"{path}{endings.get(key, '.tif')}" for key, path in files.items()}
     if "contours:OUTPUT" in files:
         files["contours:OUTPUT"] = str(tmp_path / "contours.gpkg")
     assert algorithm.run({**given, **files}, context, log)[1], log.text
-    told = [each for each in log.said if each.startswith("There is no parameter")]
+    told = [text for text in log.said if text.startswith("There is no parameter")]
     assert len(told) == 2
     assert "NOSUCH" in told[0] and "Did you mean" not in told[0]
     assert "PRESETT" in told[1] and "Did you mean PRESET?" in told[1]

@@ -88,7 +88,7 @@ def test_its_rasters_are_layers_of_one_group_with_colours_and_legends(strips, tm
     processing.runAndLoadResults(ALGORITHM, {**words, "FOLDER": str(tmp_path / "rasters")})
     (group,) = QgsProject.instance().layerTreeRoot().children()
     assert group.name() == "in: quality"
-    visible = {each.name(): each.itemVisibilityChecked() for each in group.children()}
+    visible = {child.name(): child.itemVisibilityChecked() for child in group.children()}
     assert list(visible) == [
         "Voids of the ground", "Differences between strips", "Overlap of strips",
         "Density of first returns", "Density of ground points", "Density of low vegetation",
@@ -97,7 +97,7 @@ def test_its_rasters_are_layers_of_one_group_with_colours_and_legends(strips, tm
     assert [name for name, is_shown in visible.items() if is_shown] == [
         "Voids of the ground", "Differences between strips", "Density of first returns",
     ]  # fmt: skip
-    named = {each.name(): each.layer() for each in group.children()}
+    named = {child.name(): child.layer() for child in group.children()}
     differences = named["Differences between strips"]
     assert colour_at(differences, 60, 60).name() == "#f0c93a"  # 0.1 m
     limits = ["\u2264 0.08", "0.08 \u2013 0.16", "> 0.16"]
@@ -123,7 +123,7 @@ def test_limits_of_strips_are_in_the_unit_of_the_heights(tmp_path):
     layer = QgsRasterLayer(path)
     layers.look_of("strip_differences").dress(layer)
     block = layer.renderer().block(1, layer.extent(), 2, 1)
-    assert [QColor.fromRgba(block.color(0, each)).name() for each in (0, 1)] == [
+    assert [QColor.fromRgba(block.color(0, number)).name() for number in (0, 1)] == [
         "#f0c93a",
         "#c0262d",
     ]

@@ -16,10 +16,9 @@ from qgis.core import (
 )
 from support import ALGORITHM, write_scene
 
-from bare_earth import Cancelled
+from bare_earth import Cancelled, Progress
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.points import Frame
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.rasters import writing
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
 from bare_earth.algorithms.rasters.writing import Rows
@@ -180,7 +179,7 @@ def test_the_command_of_the_log_makes_the_same_raster(run, scene, tmp_path, log)
         "bareearth:terrainmodel", INPUT=str(scene.path), GROUND_CLASSES="1", CRS="EPSG:25832",
         DSM=str(tmp_path / "dsm.tif"), RASTER_EXTENT=BOX, RASTER_NODATA=None,
     )["DSM"]  # fmt: skip
-    (command,) = [each for each in log.said if "bare-earth terrain" in each]
+    (command,) = [text for text in log.said if "bare-earth terrain" in text]
     words = command[command.index("bare-earth terrain") :].split()[1:]
     again = str(tmp_path / "again.tif")
     assert main([again if word == made else word for word in words]) == 0
@@ -220,7 +219,7 @@ def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_
 
     def unlink(path, **named):
         # Windows removes no file that is open.
-        assert str(path) not in [os.path.realpath(each) for each in Path("/proc/self/fd").iterdir()]
+        assert str(path) not in [os.path.realpath(file) for file in Path("/proc/self/fd").iterdir()]
         removed.append(Path(path).name)
         remove(path, **named)
 
@@ -232,5 +231,5 @@ def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_
     monkeypatch.setattr(os, "unlink", unlink)
     grid, rows = RasterGrid(0.0, 9.0, 1.0, 9, 9, Frame()), Rows((9, 9), "uint8", strips())
     with pytest.raises(Cancelled):
-        writing.write_geotiff(tmp_path / "a.tif", rows, grid, 255, SILENT, "classes")
-    assert [each for each in removed if each.endswith(".cells.tif")] and not os.listdir(tmp_path)
+        writing.write_geotiff(tmp_path / "a.tif", rows, grid, 255, Progress(), "classes")
+    assert [file for file in removed if file.endswith(".cells.tif")] and not os.listdir(tmp_path)

@@ -82,7 +82,7 @@ def test_the_layers_have_their_styles_and_names(terrain, tmp_path):
     assert layers["Sky-view factor"].renderer().type() == "singlebandpseudocolor"
     tree = QgsProject.instance().layerTreeRoot()
     shown = {
-        name for name, each in layers.items() if tree.findLayer(each.id()).itemVisibilityChecked()
+        name for name, value in layers.items() if tree.findLayer(value.id()).itemVisibilityChecked()
     }
     assert shown == {"Archaeological topography (VAT)", "Hillshade"}
     QgsProject.instance().clear()

@@ -46,8 +46,8 @@ def run(context):
     def run(algorithm, parameters, outputs):
         project = QgsProject.instance()
         loading = {
-            each: QgsProcessingOutputLayerDefinition(str(path), project)
-            for each, path in outputs.items()
+            name: QgsProcessingOutputLayerDefinition(str(path), project)
+            for name, path in outputs.items()
         }
         processing.runAndLoadResults(algorithm, {**parameters, **loading})
         return by_name()
@@ -66,9 +66,9 @@ def groups():
     """Return the names of the groups, each with the names of its layers from the top."""
     children = QgsProject.instance().layerTreeRoot().children()
     return {
-        each.name(): [child.name() for child in each.children()]
-        for each in children
-        if isinstance(each, QgsLayerTreeGroup)
+        inner.name(): [child.name() for child in inner.children()]
+        for inner in children
+        if isinstance(inner, QgsLayerTreeGroup)
     }
 
 
@@ -97,11 +97,11 @@ def colour_of(layer):
 
 def test_the_map_shows_the_new_terrain_in_the_old_group(run, scene, tmp_path):
     names = ("DTM", "HILLSHADE", "RELIEF")
-    outputs = {each: tmp_path / f"{each}.tif" for each in names}
+    outputs = {key: tmp_path / f"{key}.tif" for key in names}
     outputs["CONTOURS"] = tmp_path / "lines.gpkg"
     values = {"INPUT": str(scene.path), "CONTOUR_INTERVAL": 0.5}
     before = run(ONE_STEP, values, outputs)
-    tree, ids = groups(), {name: each.id() for name, each in before.items()}
+    tree, ids = groups(), {name: data.id() for name, data in before.items()}
     terrain = before["Terrain model"]
     assert value_of(terrain) == pytest.approx(100.7, abs=0.1)
     assert {feature["ELEV"] for feature in before["Contour lines"].getFeatures()} == set(
@@ -113,8 +113,8 @@ def test_the_map_shows_the_new_terrain_in_the_old_group(run, scene, tmp_path):
     terrain.setName("My terrain")
     lift(scene.path, 50.0)
     after = run(ONE_STEP, values, outputs)
-    assert {name: each.id() for name, each in after.items()} == {
-        "My terrain" if name == "Terrain model" else name: each for name, each in ids.items()
+    assert {name: value.id() for name, value in after.items()} == {
+        "My terrain" if name == "Terrain model" else name: value for name, value in ids.items()
     }
     ((name, layers),) = groups().items()
     assert {
@@ -151,7 +151,7 @@ def test_layers_are_reloaded_that_the_run_does_not_load(run, scene, tmp_path):
 
 
 def test_a_new_output_joins_the_old_group_in_its_order(run, scene, tmp_path):
-    outputs = {each: tmp_path / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
+    outputs = {name: tmp_path / f"{name}.tif" for name in ("DTM", "HILLSHADE")}
     run(ONE_STEP, {"INPUT": str(scene.path)}, outputs)
     (group,) = QgsProject.instance().layerTreeRoot().children()
     group.setName("My group")
@@ -346,7 +346,7 @@ def open_files(paths):
 
 
 def test_the_loop_of_corrections_by_polygons(run, scene, tmp_path):
-    outputs = {each: tmp_path / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
+    outputs = {name: tmp_path / f"{name}.tif" for name in ("DTM", "HILLSHADE")}
     values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / "o.las")}
     layers = run(ALGORITHM, values, outputs)
     terrain, ids = layers["Terrain model"], {layer.id() for layer in layers.values()}

@@ -87,7 +87,7 @@ def test_from_cloud_to_terrain_and_contours(run):
     assert len(light) == len(z) and np.median(light) == 184
     lines = list(QgsVectorLayer(files["contours:OUTPUT"]).getFeatures())
     # From the first to the last centre of a cell, the plane rises from 100.07 to 105.53 m.
-    assert sorted({each["ELEV"] for each in lines}) == [100.5 + 0.5 * n for n in range(11)]
+    assert sorted({row["ELEV"] for row in lines}) == [100.5 + 0.5 * n for n in range(11)]
     corners = np.array(
         [(at.x(), at.y(), line["ELEV"]) for line in lines for at in line.geometry().vertices()]
     )
@@ -175,12 +175,12 @@ def test_their_layers_are_a_group_with_names_and_colours(
     processing.runAndLoadResults(f"bareearth:{name}", {"INPUT": str(scene.path), **outputs})
     (tree,) = project.layerTreeRoot().children()
     assert tree.name() == f"scene: {group}"
-    layers = {each.name(): each for each in tree.children()}
+    layers = {child.name(): child for child in tree.children()}
     assert sorted(layers) == sorted(titles)
     assert [layer for layer in layers if not layer.startswith("Hillshade, ")] == [
-        each for each in titles if not each.startswith("Hillshade, ")
+        words for words in titles if not words.startswith("Hillshade, ")
     ]
-    assert {title for title, each in layers.items() if each.isVisible()} == set(shown)
+    assert {title for title, value in layers.items() if value.isVisible()} == set(shown)
     if name == "terraincontours":
         rules = layers["Contour lines"].layer().renderer().rootRule().children()
         assert [rule.label() for rule in rules] == ["Every 2.5 m", "Every 0.5 m"]

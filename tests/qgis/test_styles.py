@@ -24,8 +24,8 @@ from qgis.PyQt.QtCore import QSize, Qt
 from qgis.PyQt.QtGui import QPainter
 from support import ALGORITHM, remove, write_scene
 
+from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import NOT_GROUND
 from bare_earth.algorithms.tools.ground.explanation import described
@@ -42,9 +42,9 @@ def run(context):
     def run(algorithm, parameters, outputs, name=""):
         project = QgsProject.instance()
         loaded = {}
-        for each, path in outputs.items():
-            loaded[each] = QgsProcessingOutputLayerDefinition(str(path), project)
-            loaded[each].destinationName = name
+        for key, path in outputs.items():
+            loaded[key] = QgsProcessingOutputLayerDefinition(str(path), project)
+            loaded[key].destinationName = name
         return processing.runAndLoadResults(algorithm, {**parameters, **loaded})
 
     yield run
@@ -55,7 +55,7 @@ def tree():
     """Return the groups and layers of the project, from above."""
     groups = QgsProject.instance().layerTreeRoot().children()
     return {
-        group.name(): [(each.name(), each.itemVisibilityChecked()) for each in group.children()]
+        group.name(): [(child.name(), child.itemVisibilityChecked()) for child in group.children()]
         for group in groups
         if isinstance(group, QgsLayerTreeGroup)
     }
@@ -129,7 +129,7 @@ def test_trees_are_seen_above_the_ground(tmp_path):
     """As a forester sees them: the returns below a crown do not hide it."""
     path = str(tmp_path / "trees.copc.laz")
     side = np.arange(0.25, 40.0, 0.5)
-    x, y = (each.ravel() for each in np.meshgrid(side, side))
+    x, y = (axis.ravel() for axis in np.meshgrid(side, side))
     crown = np.hypot(x - 20, y - 20) < 8
     header = laspy.LasHeader(point_format=6, version="1.4")
     header.scales, header.offsets = (0.001, 0.001, 0.001), (500_000.0, 5_700_000.0, 0.0)
@@ -242,7 +242,7 @@ def test_a_run_is_a_group_in_a_sensible_order_and_shows_one_theme(run, scene, tm
 def test_two_runs_are_two_groups(run, scene, tmp_path):
     for folder in ("one", "two"):
         (tmp_path / folder).mkdir()
-        outputs = {each: tmp_path / folder / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
+        outputs = {name: tmp_path / folder / f"{name}.tif" for name in ("DTM", "HILLSHADE")}
         values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / folder / "o.las")}
         run("bareearth:slopefilter", values, outputs)
     assert set(tree()) == {"scene: Slope filter", "scene: Slope filter (2)"}
@@ -254,10 +254,10 @@ def test_no_raster_is_bare_and_grey(run, scene, tmp_path):
     ground = str(tmp_path / "ground.laz")
     processing.run(ALGORITHM, {"INPUT": str(scene.path), "OUTPUT": ground})
     names = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE")
-    outputs = {each: tmp_path / f"{each}.tif" for each in names}
+    outputs = {key: tmp_path / f"{key}.tif" for key in names}
     run("bareearth:terrainmodel", {"INPUT": ground}, outputs)
     layers = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
-    kinds = {name: each.renderer().type() for name, each in layers.items()}
+    kinds = {name: shown.renderer().type() for name, shown in layers.items()}
     assert kinds.pop("Hillshade") == "singlebandgray"
     assert len(kinds) == 4 and set(kinds.values()) == {"singlebandpseudocolor"}
     (group,) = tree().values()
@@ -269,7 +269,7 @@ def test_a_layer_that_a_model_has_named_keeps_its_name_and_place(run, scene, tmp
 
     ground = str(tmp_path / "ground.laz")
     processing.run(ALGORITHM, {"INPUT": str(scene.path), "OUTPUT": ground})
-    outputs = {each: tmp_path / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
+    outputs = {name: tmp_path / f"{name}.tif" for name in ("DTM", "HILLSHADE")}
     run("bareearth:terrainmodel", {"INPUT": ground}, outputs, "Mine")
     assert not tree()
     layers = QgsProject.instance().mapLayers().values()
@@ -288,7 +288,7 @@ def test_legends_say_what_is_shown_and_its_unit(run, scene, tmp_path, monkeypatc
     project = QgsProject.instance()
     model = QgsLayerTreeModel(project.layerTreeRoot())
     names = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF")
-    outputs = {each: tmp_path / f"{each}.tif" for each in names}
+    outputs = {key: tmp_path / f"{key}.tif" for key in names}
     outputs["OUTPUT"] = tmp_path / "out.las"
     run("bareearth:pointcloudtoterrain", {"INPUT": str(scene.path)}, outputs)
     told = {}
@@ -320,7 +320,7 @@ def legend_of(name):
 
 def test_the_legend_of_contour_lines_says_the_unit(run, tmp_path):
     write_scene(tmp_path / "feet.las", epsg=2264)
-    outputs = {each: tmp_path / each for each in ("CONTOURS.gpkg", "DTM.tif")}
+    outputs = {key: tmp_path / key for key in ("CONTOURS.gpkg", "DTM.tif")}
     outputs = {name.partition(".")[0]: path for name, path in outputs.items()}
     values = {"INPUT": str(tmp_path / "feet.las"), "CONTOUR_INTERVAL": 2.5}
     run("bareearth:pointcloudtoterrain", values, outputs)
@@ -333,7 +333,7 @@ def test_every_fifth_contour_line_has_its_height_as_a_label(run, tmp_path):
     values = {"INPUT": str(tmp_path / "scene.las"), "CONTOUR_INTERVAL": 0.2}
     run("bareearth:pointcloudtoterrain", values, outputs)
     layers = QgsProject.instance().mapLayers().values()
-    (layer,) = (each for each in layers if each.name() == "Contour lines")
+    (layer,) = (shown for shown in layers if shown.name() == "Contour lines")
     assert layer.labelsEnabled()
     (rule,) = layer.labeling().rootRule().children()
     context = QgsExpressionContext()
@@ -365,7 +365,7 @@ def test_the_legend_of_heights_says_the_unit(run, tmp_path, epsg, unit):
 def test_the_map_has_the_colours_of_the_legend(run, tmp_path):
     """Also with the terrain and its hillshade switched on below the classes."""
     write_scene(tmp_path / "scene.las")
-    outputs = {each: tmp_path / f"{each}.tif" for each in ("DTM", "HILLSHADE")}
+    outputs = {name: tmp_path / f"{name}.tif" for name in ("DTM", "HILLSHADE")}
     outputs["OUTPUT"] = tmp_path / "o.copc.laz"
     run(ALGORITHM, {"INPUT": str(tmp_path / "scene.las")}, outputs)
     root = QgsProject.instance().layerTreeRoot()
@@ -464,7 +464,7 @@ def test_every_rule_has_a_name_and_the_rules_of_a_filter_have_their_own_colours(
             if preset == "whitebox":  # it has no cells
                 continue
             points, parameters = Points(x, y, 0.0 * x), method.parameters(preset=preset)
-            names = {rule.name for rule in method.pipeline(points, parameters, SILENT).rules}
+            names = {rule.name for rule in method.pipeline(points, parameters, Progress()).rules}
             assert names <= {*rules.GROUND, *rules.OBJECTS, *rules.UNSEEN}
             numbers = dict(enumerate(sorted(names - set(rules.UNSEEN)), start=1))
             usual = [number for number, name in numbers.items() if name in rules.GROUND]

@@ -46,8 +46,8 @@ def dialog_of(registry):
         return opened[-1]
 
     yield dialog_of
-    for each in opened:
-        remove(each)
+    for dialog in opened:
+        remove(dialog)
 
 
 def input_of(dialog):

@@ -65,10 +65,10 @@ def test_nothing_is_said_past_the_translator(registry, marked):
     ],
 )
 def test_qgis_speaks_german_and_french(registry, speak, locale, title, label, tag):
-    english = {each.id(): translations.visible_texts(each) for each in algorithms(registry)}
-    ids = {each.id(): each.groupId() for each in algorithms(registry)}
+    english = {tool.id(): translations.visible_texts(tool) for tool in algorithms(registry)}
+    ids = {tool.id(): tool.groupId() for tool in algorithms(registry)}
     assert speak(locale)
-    found = {each.id(): each for each in algorithms(registry)}
+    found = {tool.id(): tool for tool in algorithms(registry)}
     algorithm = found[ALGORITHM]
     size = algorithm.parameterDefinition("MAX_BUILDING_SIZE")
     assert algorithm.displayName() == title
@@ -79,8 +79,8 @@ def test_qgis_speaks_german_and_french(registry, speak, locale, title, label, ta
     assert algorithm.parameterDefinition("PRESET").options()[0] == "automatic"
     groups = {layer.group(): layer.groupId() for layer in found.values()}
     assert groups[min(groups)] == "allinone"  # first in the toolbox
-    for name, each in found.items():
-        assert each.displayName() != english[name][0] and each.shortHelpString() != english[name][3]
+    for name, text in found.items():
+        assert text.displayName() != english[name][0] and text.shortHelpString() != english[name][3]
 
 
 @pytest.mark.parametrize(

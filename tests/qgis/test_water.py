@@ -23,7 +23,7 @@ def cloud(tmp_path):
     random = np.random.default_rng(1)
     x, y = random.uniform(0, 200, (2, 160_000))
     far = np.hypot(x - 100, y - 100)
-    x, y, far = (each[far > 54] for each in (x, y, far))
+    x, y, far = (axis[far > 54] for axis in (x, y, far))
     las.points = laspy.ScaleAwarePointRecord.zeros(len(x), header=header)
     las.x, las.y = x + 500_000, y + 5_700_000
     las.z = 50 + 0.2 * (far - 54) + random.normal(0, 0.02, len(x))
@@ -76,7 +76,7 @@ def square(crs="EPSG:25832", transform=None):
 
 
 def to_degrees(x, y):
-    crs = [QgsCoordinateReferenceSystem.fromEpsgId(each) for each in (25832, 4326)]
+    crs = [QgsCoordinateReferenceSystem.fromEpsgId(number) for number in (25832, 4326)]
     moved = QgsCoordinateTransform(*crs, QgsCoordinateTransformContext()).transform(x, y)
     return moved.x(), moved.y()
 

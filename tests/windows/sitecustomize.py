@@ -80,7 +80,7 @@ def _held(path: str, inside: bool = False, mapped_only: bool = False) -> bool:
                     return True
             with open(f"/proc/{process}/maps", "rb") as file:
                 mapped = (line.rstrip(b"\n").split(None, 5)[5:] for line in file)
-                if any(is_it(os.fsdecode(each[0])) for each in mapped if each):
+                if any(is_it(os.fsdecode(value[0])) for value in mapped if value):
                     return True
         except OSError:
             continue
