@@ -232,9 +232,9 @@ class QualityCells:
             self._add_strips(coarse[real], part.strip[used][real], heights)
         ground = real & self._ground.points_of(part, self._ground.ground_classes)[used]
         east, north = self.grids.fine.from_centres(x, y, row, column)
-        _add(self._number, place[ground])
-        for sums, values in ((self._x, east), (self._y, north), (self._z, z)):
-            _add(sums, place[ground], values[ground])
+        sums = ((self._x, east), (self._y, north), (self._z, z))
+        values = ((cells, value[ground]) for cells, value in sums)
+        _add(place[ground], (self._number, None), *values)
 
     def _real(self, part: PointCloud) -> np.ndarray:
         """Return which points were measured: neither withheld nor synthetic, and no noise."""
@@ -291,20 +291,20 @@ class QualityCells:
         place, row, column = self.grids.fine.places(x, y)
         coarse = self._coarse(row, column)
         is_first = number <= 1
-        _add(self.points, place[~flagged])
-        _add(self.first, place[is_first & ~flagged])
         spaced, _, _ = self.grids.spaced.places(x, y)
         for cells, where in ((self.marks, coarse), (self.filled, spaced)):
             _mark(cells, where[is_first & ~flagged], PULSE)
             _mark(cells, where[is_first & flagged], FLAGGED)
         ground = self._ground.points_of(part, self._ground.ground_classes)[used]
-        _add(self.ground_points, place[ground])
         rise_x, rise_y, height = (
             values.reshape(-1)[place] for values in (self._rise_x, self._rise_y, self._height)
         )
         east, north = self.grids.fine.from_centres(x, y, row, column)
         above = z - (height + rise_x * east) - rise_y * north
-        _add(self.low, place[(above >= LOW[0]) & (above <= LOW[1])])
+        _add(
+            place, (self.points, ~flagged), (self.first, is_first & ~flagged),
+            (self.ground_points, ground), (self.low, (above >= LOW[0]) & (above <= LOW[1])),
+        )  # fmt: skip
         if part.strip is not None:
             of = part.number_of_returns[used]
             _mark(self.marks, coarse[of > 1], ROUGH)
@@ -321,8 +321,8 @@ class QualityCells:
         for slot in range(STRIPS):
             mine = self.strip[slot].reshape(-1)[coarse] == names
             near = mine & (bottom <= self.strip_low[slot].reshape(-1)[coarse])
-            _add(self.strip_points[slot], coarse[near])
-            _add(self.strip_sum[slot], coarse[near], above[near])
+            sums = (self.strip_points[slot], None), (self.strip_sum[slot], above[near])
+            _add(coarse[near], *sums)
 
     def surveyed(self, rows: slice, is_coarse: bool) -> Iterator[Rectangle]:
         """Yield rectangles that hold the survey in some rows, of which the first is even."""
@@ -388,11 +388,12 @@ class QualityCells:
 Make = Callable[[QualityCells, Rectangle], np.ndarray]
 
 
-def _add(cells: np.ndarray, place: np.ndarray, values: np.ndarray | None = None) -> None:
-    """Add values, or 1, to cells, of which some are given several times."""
+def _add(place: np.ndarray, *sums: tuple[np.ndarray, np.ndarray | None]) -> None:
+    """Add values, or 1 for None, to cells, of which some are given several times."""
     which, back = np.unique(place, return_inverse=True)
-    sums = np.bincount(back, weights=values, minlength=len(which))
-    cells.reshape(-1)[which] += sums.astype(cells.dtype)
+    for cells, values in sums:
+        total = np.bincount(back, weights=values, minlength=len(which))
+        cells.reshape(-1)[which] += total.astype(cells.dtype)
 
 
 def _mark(cells: np.ndarray, place: np.ndarray, bit: int) -> None:
