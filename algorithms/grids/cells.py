@@ -279,17 +279,18 @@ def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> np.nd
     """
     found = [np.empty(0, dtype=np.intp)]
     for part in parts_of(len(index), _VALUES_A_PART):
-        left, some = index[part], values[part]
-        lower = np.flatnonzero(some <= target.take(left))
-        found.append(lower + part.start)
+        lower = np.flatnonzero(values[part] <= target.take(index[part]))
+        left, some = index[part].take(lower), values[part].take(lower)
+        cells, least = left, some
         for _ in range(_ROUNDS):
-            if not len(lower):
+            if not len(cells):
                 break
-            left, some = left.take(lower), some.take(lower)
-            target[left] = some  # of several values for one element, the last one
-            lower = np.flatnonzero(some < target.take(left))
+            target[cells] = least  # of several values for one element, the last one
+            again = np.flatnonzero(least < target.take(cells))
+            cells, least = cells.take(again), least.take(again)
         else:
-            np.minimum.at(target, left, some)
+            np.minimum.at(target, cells, least)
+        found.append(lower[some <= target.take(left)] + part.start)
     return np.concatenate(found)
 
 
