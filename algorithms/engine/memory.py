@@ -16,8 +16,9 @@ from ..core.threads import available_cpus
 GIGABYTE = 1 << 30
 _UNKNOWN = 4 * GIGABYTE
 _SHARE = 0.5
-# Freed memory is given back after so many seconds if memory is short.
-_SECONDS = 0.3
+# Freed memory is given back after so many seconds of processor time if memory is short: on a busy
+# machine no more often than else, as it must be cleared again before it is used.
+_SECONDS = 0.4
 _MEMINFO = Path("/proc/meminfo")
 _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 _CGROUP = Path("/sys/fs/cgroup")
@@ -115,16 +116,16 @@ class GivingBack(PassingOn):
 
     def __init__(self, whole: Progress, also: Callable[[], None] | None = None) -> None:
         super().__init__(whole)
-        self._also, self._given = also, time.monotonic()
+        self._also, self._given = also, time.process_time()
 
     def report(self, fraction: float) -> None:
         """Pass on how much is done."""
         super().report(fraction)
-        if time.monotonic() - self._given > _SECONDS:
+        if time.process_time() - self._given > _SECONDS:
             give_back()
             if self._also is not None:
                 self._also()
-            self._given = time.monotonic()
+            self._given = time.process_time()
 
 
 class PeakMemory:
