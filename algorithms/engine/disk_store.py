@@ -193,7 +193,7 @@ class RowsOnDisk:
         with opened as file:
             file.seek(self._start + first * columns * self._kind.itemsize)
             content = file.read((last - first) * columns * self._kind.itemsize)
-        return np.frombuffer(content, self._kind).reshape(-1, columns)[:, where[1]]
+        return np.frombuffer(content, self._kind).reshape(last - first, columns)[:, where[1]]
 
     def __array__(self, *arguments: object, **options: object) -> np.ndarray:
         """Return all cells."""

@@ -277,3 +277,11 @@ def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path)
     assert os.listdir(out) == []
     if number == signal.SIGTERM:
         assert process.returncode == 1 and "Cancelled; nothing was written." in said
+
+
+def test_a_block_without_cells_is_read_from_disk(tmp_path):
+    # Blocks are cut where memory is short, and some then have points only round them.
+    np.savez(tmp_path / "block.npz", none=np.zeros((3, 0)), some=np.arange(6).reshape(3, 2))
+    rows = disk_store.rows_in(tmp_path / "block.npz")
+    assert rows["none"][:, :].shape == (3, 0)
+    assert rows["some"][1:3, :].tolist() == [[2, 3], [4, 5]]
