@@ -163,11 +163,12 @@ class Store:
         work: Callable[[BlockPoints], _Result],
         corner: Corner = (0.0, 0.0),
         progress: Progress = SILENT,
+        only: str | None = None,
     ) -> list[_Result]:
         """Return results of a function of the points of some leaves, relative to a corner, piece by
-        piece, so that not all need be in memory together.
+        piece, so that not all need be in memory together; for `only`, see `read`.
         """
-        counts, piece = self.pieces(leaves, corner)
+        counts, piece = self.pieces(leaves, corner, only)
         return in_threads(lambda number: work(piece(number)), range(len(counts)), progress)
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:

@@ -16,7 +16,7 @@ from ..crs.system import unit_name
 from ..engine.blocks import Blocks
 from ..engine.memory import Cost
 from ..engine.step import Allocate, PointResult, PointStep
-from ..engine.store import BlockPoints, Marks
+from ..engine.store import OTHERS, BlockPoints, Marks
 from ..engine.summary import TileSummary
 from ..engine.visits import Visit
 from ..grids.height_above_ground import GroundSurface, with_roads
@@ -114,8 +114,8 @@ class MeasureHeights(PointStep):
             self.dtm.check(read_crs(tile), tile.path)
 
     def in_block(self, visit: Visit, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
-        """Return the positions of the wanted points of a block, and their heights in metres, NaN
-        without ground; only the ground is in memory as a whole.
+        """Return the positions of the wanted points of a block above the ground, and their heights
+        in metres, NaN without ground; only the ground is in memory as a whole.
         """
         ground = visit.contents(progress.part(0.0, 0.1), ROADS_FLAG)
         if ground.flags[ROADS_FLAG].any():
@@ -123,26 +123,21 @@ class MeasureHeights(PointStep):
             ground = ground.take(with_roads(ground.points, ground.known, on_roads, part))
         roads = np.sort(ground.positions[ground.flags[ROADS_FLAG]])
 
-        def wanted(piece: BlockPoints) -> tuple[np.ndarray, np.ndarray, Points]:
-            """Return the positions of wanted points, which are above ground, and the latter."""
-            core = np.flatnonzero(visit.core(piece))
-            positions, above = piece.positions[core], ~piece.known[core]
+        def wanted(piece: BlockPoints) -> tuple[np.ndarray, Points]:
+            which = visit.core(piece)
             if len(roads):
-                above &= ~np.isin(positions, roads)
-            return positions, above, piece.points.take(core[above])
+                which &= ~np.isin(piece.positions, roads)
+            return piece.positions[which], piece.points.take(which)
 
-        leaves = visit.store.leaves.within(visit.block.box)
-        found = visit.store.over_pieces(leaves, wanted, visit.corner, progress.part(0.15, 0.3))
-        positions, above = (np.concatenate([columns[k] for columns in found]) for k in (0, 1))
-        if not ground.points.count:
+        leaves, part = visit.store.leaves.within(visit.block.box), progress.part(0.15, 0.3)
+        found = visit.store.over_pieces(leaves, wanted, visit.corner, part, OTHERS)
+        positions = np.concatenate([ground.positions[:0], *(positions for positions, _ in found)])
+        if not len(positions) or not ground.points.count:
             return positions, np.full(len(positions), np.nan)
-        heights = np.zeros(len(positions))
-        if len(positions):
-            surface = GroundSurface(ground.points, progress.part(0.3, 0.45))
-            visit.found[self.ground, self.roads] = surface.thinned
-            points = Points(*map(np.concatenate, zip(*(columns[2] for columns in found))))
-            heights[above] = surface.heights_above(points, progress.part(0.45, 1.0))
-        return positions, heights
+        surface = GroundSurface(ground.points, progress.part(0.3, 0.45))
+        visit.found[self.ground, self.roads] = surface.thinned
+        points = Points(*map(np.concatenate, zip(*(points for _, points in found))))
+        return positions, surface.heights_above(points, progress.part(0.45, 1.0))
 
     def result(self, path: Path, allocate: Allocate, counts: Any = None) -> HeightsOfPoints:
         """Return an object that collects the heights of a file."""
