@@ -34,7 +34,7 @@ def samples(monkeypatch):
 def source(folder, start):
     """Write a strip that begins so many metres east of a corner of blocks."""
     integers, step = strip(), np.array([start * 100, 0, 0])
-    write(folder / "in.laz", integers + step, classes=1 + (integers[:, 2] < 9000))
+    write(folder / "in.laz", integers + step, classes=1 + (integers[:, 2] < 7000))
     return folder / "in.laz"
 
 
