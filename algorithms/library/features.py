@@ -5,11 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Iterable
 
-import numpy as np
-
 from ..core.errors import BareEarthError
 from ..survey.feature_files import Feature, Layer, wkb_of
-from .rasters import Raster
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,24 +61,3 @@ class Features:
         shapes = [wkb_of(self.kind, corners) for corners in self.geometries]
         geometry = geopandas.GeoSeries.from_wkb(shapes, crs=self.crs)
         return geopandas.GeoDataFrame(self.values, geometry=geometry)
-
-
-def heights_of(raster: Any) -> Any:
-    """Return a raster of heights in memory as one that was read from a file."""
-    from ..crs.system import Crs, crs_of_wkt
-    from ..las.cloud import survey_frame
-    from ..rasters.geotiff import Raster as ReadRaster
-
-    class InMemory(ReadRaster):
-        def rows(self, start: int, end: int) -> np.ndarray:
-            return self.heights[max(start, 0) : end]
-
-    if not isinstance(raster, Raster) or raster.values.ndim != 2 or raster.values.dtype.kind != "f":
-        raise BareEarthError('Give a raster of heights, such as terrain(points)["dtm"].')
-    heights = np.asarray(raster.values)  # of dask arrays as well
-    if not np.isnan(raster.nodata):
-        heights = np.where(heights == np.float32(raster.nodata), np.float32(np.nan), heights)
-    size, _, west, _, height, north = raster.transform
-    crs = (crs_of_wkt(raster.crs) if raster.crs else None) or Crs()
-    place = west, size, 0.0, north, 0.0, height
-    return InMemory(heights, place, survey_frame(crs), whole=heights.shape)
