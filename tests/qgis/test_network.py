@@ -10,7 +10,10 @@ from bare_earth.algorithms.remote import transfers
 from bare_earth.plugin import network
 
 # Not those of http.client itself, of its proxies and of passwords in addresses.
-_OWN = ("connections_are_kept", "proxy", "password", "silent_server", "addresses", "not_there")
+_OWN = (
+    "connections_are_kept", "proxy", "password", "silent_server", "addresses", "not_there",
+    "ign_is_asked",
+)  # fmt: skip
 globals().update(
     {
         name: test
