@@ -273,11 +273,8 @@ def test_a_cancel_leaves_no_file_and_the_next_run_goes_on(
     assert bool(progress.warnings) == bool(kept) == (share > 0)
     assert not kept or "the same command goes on from there" in progress.warnings[-1]
     size = sum(path.stat().st_size for path in kept)
-    # Not the bytes that were sent: those of requests that were cancelled come late.
-    server.asked.clear()
-    bare_earth.fetch(address, target)
-    ends = [asked[6:].split("-") for _, asked, _, _ in server.asked]
-    assert sum(int(end) - int(start) + 1 for start, end in ends) <= len(content) + 30_000 - size
+    # Not what the server was asked for or sent: requests that were cancelled come late.
+    assert bare_earth.fetch(address, target).size <= len(content) + 30_000 - size
     source.write_bytes(content)
     assert np.array_equal(points_of(target)[0], points_of(source)[0])
     assert not (tmp_path / "part.copc.laz.parts").exists()
