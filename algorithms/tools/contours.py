@@ -19,7 +19,6 @@ from ..grids.morphology import within_square
 from ..rasters.geotiff import NO_CELLS, Raster, read_raster
 from ..survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from .declaration import FileTool, Input, Output
-from .running import run
 
 # A map with about so many lines is easy to read.
 _LINES = 20
@@ -111,17 +110,10 @@ class Interval:
         return f"one contour line every {self.in_words()}"
 
 
-def write_contours(
-    source: Path, target: Path, contours: Contours = Contours(), progress: Progress = SILENT
-) -> Interval:
-    """Write the contour lines of a raster, each with its height in the field ELEV."""
-    return run(TOOL, {"source": source}, {"output": target}, [contours], progress)
-
-
 def draw_contours(
     source: str | Path, output: Path, contours: Contours = Contours(), progress: Progress = SILENT
 ) -> Interval:
-    """Write the contour lines of a raster into a new file; see `write_contours`."""
+    """Write the contour lines of a raster, each with its height in the field ELEV."""
     raster = read_raster(source, window=NO_CELLS)
     interval, layer, features = contours_of(raster, contours, progress)
     count = feature_writer(output)(output, features, layer, progress)

@@ -9,7 +9,7 @@ from rasterio.features import geometry_mask
 from test_checkpoints import write
 from test_water import LEVEL, Scene, lake, river, run
 
-from bare_earth.algorithms.tools.contours import Contours, write_contours
+import bare_earth
 
 pytest.importorskip("pyogrio")
 WATERS = ("river", "lake")
@@ -87,5 +87,5 @@ def test_no_contour_line_runs_through_flat_water(surveys, tmp_path):
     # A line just above the level, and one right at it.
     for number, interval in enumerate((LEVEL / 999.0, fields["LEVEL"] / 500.0)):
         contours = tmp_path / f"{number}.gpkg"
-        write_contours(dtm, contours, Contours(interval))
+        bare_earth.contours(dtm, contours, contour_interval=interval)
         assert corners_in_flat_water(water, contours, dtm) == 0

@@ -144,19 +144,19 @@ def test_a_cancel_leaves_old_files_and_nothing_else(name, registry, inputs, tmp_
 
 @pytest.mark.parametrize("suffix", [".gpkg", ".shp", ".geojson", ".fgb"])
 def test_contours_replace_old_ones_or_leave_them(suffix, inputs, tmp_path, monkeypatch):
+    import bare_earth
     from bare_earth import BareEarthError, Cancelled, Progress
-    from bare_earth.algorithms.tools.contours import Contours, write_contours
 
     class CancelAtTheEnd(Progress):
         def report(self, fraction):
             raise Cancelled
 
     lines, surface = tmp_path / f"lines{suffix}", inputs / "surface.tif"
-    write_contours(surface, lines, Contours(contour_interval=5.0))
+    bare_earth.contours(surface, lines, contour_interval=5.0)
     names = set(os.listdir(tmp_path))
     before = {name: (tmp_path / name).read_bytes() for name in names}
     with pytest.raises(Cancelled):
-        write_contours(surface, lines, progress=CancelAtTheEnd())
+        bare_earth.contours(surface, lines, progress=CancelAtTheEnd())
 
     def refuse(source, target):
         raise OSError(errno.EBUSY, "busy")
@@ -164,11 +164,11 @@ def test_contours_replace_old_ones_or_leave_them(suffix, inputs, tmp_path, monke
     with monkeypatch.context() as patch:
         patch.setattr(os, "replace", refuse)
         with pytest.raises(BareEarthError, match="another program uses it"):
-            write_contours(surface, lines)
+            bare_earth.contours(surface, lines)
     assert {name: (tmp_path / name).read_bytes() for name in os.listdir(tmp_path)} == before
     index = tmp_path / "lines.qix"
     index.write_bytes(b"of the old lines")
-    write_contours(surface, lines, Contours(contour_interval=2.0))
+    bare_earth.contours(surface, lines, contour_interval=2.0)
     made = ogr.Open(str(lines))  # which must live as long as its layer
     assert {layer.GetField("ELEV") for layer in made[0]} >= {302.0, 304.0}
     del made
