@@ -19,7 +19,6 @@ from ..survey.files import Inputs, open_survey
 from ..survey.ground_classes import GroundClasses
 from ..survey.overview import overview_of
 from ..survey.selection import Selection
-from ..tools.rasters.fixed_terrain import parts_of
 from ..tools.rasters.parameters import SurfaceModel, TerrainModel
 from ..tools.rasters.step import MakeRasters
 from ..tools.water.finding import Water
@@ -154,7 +153,7 @@ def _write_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
     if own.water or own.breaklines or not water:
         rasters = MakeRasters(model=job.set_of(TerrainModel), target=target)
         cell = rasters.placed(survey.place).cell / VERTICES_A_SIDE
-        clouds = parts_of(survey.tiles, progress.part(0.0, 0.9))
+        clouds = survey.parts(progress.part(0.0, 0.9))
         given = given_water(own, clouds, survey.crs, job.set_of(GroundClasses), cell)
         water = replace(water, breaklines=given.breaklines) if water else given
     # Polygons without ground near them have no heights for lines.

@@ -17,9 +17,11 @@ from ..core.progress import SILENT, Notes, Progress
 from ..crs.matching import described, has_same_units, is_other_datum, is_same_crs, is_same_map
 from ..crs.stated import HOW, stated_wkt
 from ..crs.system import Crs
+from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
+from ..las.reading import read_parts
 from ..las.sources import read_text
 from .copies import copies_in, tell_of_twins
 from .overview import is_overview
@@ -113,6 +115,14 @@ class Survey:
         west, south, east, north = self._boxes.T
         touches = (west <= box[2]) & (east >= box[0]) & (south <= box[3]) & (north >= box[1])
         return [self.tiles[number] for number in np.flatnonzero(touches)]
+
+    def parts(
+        self, progress: Progress = SILENT, strips: bool = False, times: bool = False
+    ) -> Iterator[PointCloud]:
+        """Yield the points of all files part by part, as `read_parts` does."""
+        shares = progress.shares(*(max(tile.count, 1) for tile in self.tiles))
+        for tile, share in zip(self.tiles, shares):
+            yield from read_parts(tile, share.quiet(), strips, times)
 
 
 def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Callable, Iterator, NamedTuple
 
@@ -23,7 +23,6 @@ from ...grids.lines import NearPlaces
 from ...grids.tin import Tin
 from ...las.cloud import PointCloud, survey_frame
 from ...las.lasfile import LasFile
-from ...las.reading import read_parts
 from ...survey.files import Sources, Survey, open_survey
 from ...survey.ground_classes import GroundClasses, GroundCounts
 from ...survey.shapes import Place
@@ -90,12 +89,12 @@ class SurveyGround:
         places, shape (q, 2), up to `reach`, in metres, if these are given.
         """
         self.counts = GroundCounts()
-        tiles = list(self.survey.tiles)
-        if near is not None and len(tiles) > 1:
-            tiles = [tile for tile in tiles if self._is_near(tile, near, reach)]
-        for tile, part in zip(tiles, progress.shares(*[max(tile.count, 1) for tile in tiles])):
-            for cloud in read_parts(tile, part.quiet()):
-                yield cloud, self.ground.of(cloud, self.counts)
+        survey = self.survey
+        if near is not None and len(survey.tiles) > 1:
+            tiles = (tile for tile in survey.tiles if self._is_near(tile, near, reach))
+            survey = replace(survey, tiles=tuple(tiles))
+        for cloud in survey.parts(progress):
+            yield cloud, self.ground.of(cloud, self.counts)
 
     def check(self) -> None:
         """Refuse a survey without ground, after all of its parts were read."""

@@ -12,7 +12,6 @@ from ...core.parameters import ParameterSet, parameter
 from ...core.points import Frame
 from ...core.progress import SILENT, Progress
 from ...las.cloud import survey_frame
-from ...las.reading import read_parts
 from ...survey.files import Inputs, Survey, open_survey
 from ...survey.ground_classes import GroundClasses
 from ...survey.repeated_points import RepeatedPoints
@@ -107,17 +106,15 @@ def _filled_cells(
     for add, share in ((cells.add, (0.02, 0.4)), (cells.compare, (0.45, 0.8))):
         if add == cells.compare:
             cells.make_planes(progress.part(0.4, 0.45))
-        weights = progress.part(*share).shares(*(max(tile.count, 1) for tile in survey.tiles))
-        for tile, part in zip(survey.tiles, weights):
-            for points in read_parts(tile, part.quiet(), strips=True, times=repeated.has_times):
-                points.require_projected()
-                add(points, frame)
+        for points in survey.parts(progress.part(*share), True, repeated.has_times):
+            points.require_projected()
+            add(points, frame)
     return cells
 
 
 def _all_synthetic(survey: Survey) -> bool:
     """Return whether all points have the flag synthetic; mostly the first part of them tells."""
-    parts = (part for tile in survey.tiles for part in read_parts(tile, strips=True))
+    parts = survey.parts(strips=True)
     return all(part.synthetic is not None and part.synthetic.all() for part in parts)
 
 

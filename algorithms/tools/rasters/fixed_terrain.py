@@ -12,8 +12,6 @@ from ...core.points import Frame, Points
 from ...core.progress import SILENT, Progress
 from ...grids.lines import NearestHeights, NearPlaces, along, falling, inside_grid, squares
 from ...las.cloud import PointCloud
-from ...las.lasfile import LasFile
-from ...las.reading import read_parts
 from ...survey.area import Area, Polygon
 from ...survey.ground_classes import GroundClasses, GroundCounts
 from ...survey.kept_classes import IGNORED_GROUND
@@ -181,12 +179,6 @@ def _with_level(
     lines = map(raised, parts)
     downstream = (line if line[0, 2] >= line[-1, 2] else line[::-1] for line in lines)
     return LevelWater(tuple(map(raised, rings)), tuple(downstream))
-
-
-def parts_of(files: Sequence[LasFile], progress: Progress = SILENT) -> Iterator[PointCloud]:
-    """Yield the points of files, part by part."""
-    for las, part in zip(files, progress.shares(*[1.0] * len(files))):
-        yield from read_parts(las, part.quiet())
 
 
 def _along_breaklines(given: GivenTerrain, step: float, progress: Progress) -> Iterator[np.ndarray]:
