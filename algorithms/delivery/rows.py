@@ -25,9 +25,8 @@ from ..tools.water.finding import Water
 from ..tools.water.tool import found_water, given_water
 from .deliveries import WITH_BUILDINGS, Delivery
 from .folder import QUALITY
-from .job import DeliveryJob
+from .job import DeliveryJob, Row
 from .parameters import DeliveryTerrain
-from .table import Row
 
 _BUILDING = 6
 

@@ -21,8 +21,8 @@ from bare_earth import BareEarthError, Cancelled, Progress, classify, deliver, t
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.errors import FinishedFilesStay, OutputInUse
 from bare_earth.algorithms.delivery.deliveries import DELIVERIES, STATED
+from bare_earth.algorithms.delivery.job import Settings
 from bare_earth.algorithms.delivery.parameters import DeliveryWater
-from bare_earth.algorithms.delivery.table import Settings
 from bare_earth.algorithms.grids.lines import along
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
