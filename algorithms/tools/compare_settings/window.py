@@ -10,7 +10,7 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ...core.errors import BareEarthError
-from ...core.points import Box, Points, box_in_words
+from ...core.points import Box, Points, box_in_words, box_round
 from ...core.progress import Progress
 from ...crs.measurable import require_measurable
 from ...crs.system import Crs
@@ -21,16 +21,16 @@ from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ...las.cloud import PointCloud, survey_frame
 from ...las.crs_records import read_crs
 from ...las.lasfile import LasFile
+from ...las.reading import read_chunks
 from ...report.units import Units
 from ...survey.area import Area
 from ...survey.files import Inputs, open_survey
-from ...survey.middle import middle_window, nearest_window
 from ...survey.window import may_touch, read_window
 from ...tools.ground.step import LabelGround
 from .settings import Setting
 
-# Metres. A wider window would take long.
-_WIDEST = 1000.0
+# Metres. A wider window would take long. Without one, a square of this side is shown.
+_WIDEST, _SIDE = 1000.0, 250.0
 # Greatest number of cells along the longer side of the terrain, and the sides in metres that cells
 # can have below one metre. Larger cells have whole metres.
 _MOST_CELLS = 300
@@ -163,12 +163,12 @@ def read_points(inputs: Inputs, box: Box | None, context: float, progress: Progr
         reading = progress.quiet()  # the messages were given
     require_measurable("The survey", crs, extent)
     wanted, unit = area, crs.horizontal_unit
-    area = area or Area(middle_window(files, unit))
+    area = area or Area(_middle_window(files, unit))
     window = _read(files, crs, area, context / unit, reading.part(0.1, 1.0 if wanted else 0.8))
     where = "in the middle of the points"
     if wanted is None and not (window.count and window.inside.any()):
         where = "round the point that is nearest to the middle"
-        area = Area(nearest_window(files, unit, progress.part(0.8, 0.9)))
+        area = Area(_nearest_window(files, unit, progress.part(0.8, 0.9)))
         window = _read(files, crs, area, context / unit, progress.quiet().part(0.9, 1.0))
     if wanted is None:
         progress.choice(f"window {where}, {box_in_words(area.box)}")
@@ -197,3 +197,61 @@ def _read(
     parts = progress.shares(*[1.0] * len(files))
     clouds = [read_window(las, box, part) for las, part in zip(files, parts)]
     return Window(tuple(cloud for cloud in clouds if cloud.count), crs, area.box)
+
+
+def _middle_window(files: Sequence[LasFile], unit: float) -> Box:
+    """Return a square window in the middle of the extent of a survey, in units of the CRS (`unit`
+    metres), without reading points, so that it may hold none.
+    """
+    # Its borders are whole numbers, except where the survey ends before.
+    west, south, east, north = extent = _extent(files)
+    return _square((west + east) / 2.0, (south + north) / 2.0, unit, extent)
+
+
+def _nearest_window(files: Sequence[LasFile], unit: float, progress: Progress) -> Box:
+    """Return a square window as `_middle_window` round the point that is nearest to the middle of a
+    survey; all points of the nearest files are read.
+    """
+    west, south, east, north = extent = _extent(files)
+    middle = (west + east) / 2.0, (south + north) / 2.0
+    best, place = math.inf, middle
+    ordered = sorted(files, key=lambda file: _distance(file, middle))
+    for file, part in zip(ordered, progress.shares(*[1.0] * len(ordered))):
+        if not file.count or _distance(file, middle) > best:
+            continue
+        done = 0
+        for chunk in read_chunks(file):
+            x, y = (
+                np.asarray(chunk[name]) * file.scale[axis] + file.offset[axis]
+                for axis, name in enumerate("XY")
+            )
+            apart = np.hypot(x - middle[0], y - middle[1])
+            nearest = int(apart.argmin())
+            if apart[nearest] < best:
+                best, place = float(apart[nearest]), (float(x[nearest]), float(y[nearest]))
+            done += len(x)
+            part(done / file.count)
+    return _square(*place, unit, extent)
+
+
+def _square(x: float, y: float, unit: float, extent: Box) -> Box:
+    """Return the window round a place, cut off where the survey ends."""
+    half = float(np.rint(_SIDE / 2.0 / unit))
+    x, y = float(np.rint(x)), float(np.rint(y))
+    return (
+        max(x - half, extent[0]), max(y - half, extent[1]),
+        min(x + half, extent[2]), min(y + half, extent[3]),
+    )  # fmt: skip
+
+
+def _extent(files: Sequence[LasFile]) -> Box:
+    """Return smallest x and y, largest x and y of files that have points."""
+    boxes = np.array([file.outer_box for file in files if file.count] or [files[0].outer_box])
+    return box_round(boxes)
+
+
+def _distance(file: LasFile, place: tuple[float, float]) -> float:
+    """Return the distance of a place from the extent of a file; 0 inside."""
+    west, south, east, north = file.outer_box
+    x, y = place
+    return math.hypot(max(west - x, x - east, 0.0), max(south - y, y - north, 0.0))
