@@ -35,8 +35,8 @@ class Run:
         """Let the steps work, and write the points into a file, those of a survey into a folder;
         return the summary.
         """
-        # `target` is None if no step finds a value for each point. The workers are by default
-        # threads of this process, and the virtual point cloud is by default in the folder.
+        # `target`, and the virtual point cloud of a survey, are None if no step finds a value for
+        # each point. The workers are by default threads of this process.
         if not inputs.is_survey:
             return work_on_file(self.steps, inputs, target, self.resources, progress)
         workers = workers or Threads(self.resources)

@@ -151,7 +151,6 @@ class PointStep(Step):
     """Base of the steps that find a value for each point, and write it into the file."""
 
     summary_type: type  # a frozen dataclass with `name`, `point_count` and `text`
-    vpc_name: str  # of the virtual point cloud of the results
 
     @property
     def gives_classes(self) -> bool:

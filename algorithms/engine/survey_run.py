@@ -34,7 +34,7 @@ def work_on_survey(
     output: TileOutput,
     progress: Progress,
     workers: Workers,
-    vpc: Path | None = None,
+    vpc: Path | None,
 ) -> Any:
     """Let steps work on many files as one survey, each on what those before it found, and write the
     files with the results into a folder, with the names of the inputs.
@@ -42,7 +42,7 @@ def work_on_survey(
     # The results are those of one file with all points. A file that cannot be processed does not
     # stop the others, but an error says if none can be processed, and `FinishedFilesStay` if the
     # user asked to stop.
-    if folder is None:
+    if folder is None or vpc is None:
         return _work_sinks(steps, inputs, progress, workers)
     run = _SurveyRun(folder, steps, output, vpc)
     with _finished_files_stay():
@@ -81,14 +81,12 @@ def _finished_files_stay() -> Iterator[None]:
 class _SurveyRun:
     """A run of steps on many files; the parameters are those of `work_on_survey`."""
 
-    def __init__(
-        self, folder: Path, steps: Sequence[Step], output: TileOutput, vpc: Path | None
-    ) -> None:
+    def __init__(self, folder: Path, steps: Sequence[Step], output: TileOutput, vpc: Path) -> None:
         self._folder, self._output = folder, output
         # Steps that find values for points, and then what is made of these.
         self._steps: list[Any] = [step for step in steps if isinstance(step, PointStep)]
         self._sinks: list[Any] = [step for step in steps if not isinstance(step, PointStep)]
-        self._vpc = folder / self._steps[0].vpc_name if vpc is None else vpc
+        self._vpc = vpc
         # Inputs that cannot be done, and why, by their names.
         self._failures: dict[str, tuple[Path, str]] = {}
         # Summaries of the finished files, sorted by their names.

@@ -153,6 +153,7 @@ class Tool:
     numbers: tuple[tuple[str, str], ...] = ()
     inputs: tuple[Input, ...] = ()
     titles: tuple[str, ...] = ()  # of the sets, in the help of the command
+    list_name: str = "classified.vpc"  # of the virtual point cloud of many written files
     json: str | None = "what was done"  # what --json prints; None if there is nothing to tell
     # If the dialog has another order, or other defaults: derived classes of those of the command.
     dialog_sets: tuple[type[ParameterSet], ...] = ()

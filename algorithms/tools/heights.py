@@ -90,7 +90,6 @@ class MeasureHeights(PointStep):
     blocks = _BLOCKS
     gives_classes = False
     summary_type = HeightSummary
-    vpc_name = "heights.vpc"
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return all points, which of them are ground, and which lie in the area."""
@@ -250,6 +249,7 @@ def _z_of(cloud: PointCloud, heights: np.ndarray) -> tuple[np.ndarray, float]:
 
 TOOL = PointTool(
     step=MeasureHeights,
+    list_name="heights.vpc",
     sets=(HeightOutput, GroundClasses),
     dialog_sets=(GroundClasses, HeightOutput),
     inputs=(

@@ -83,7 +83,6 @@ class FindKeyPoints(PointStep):
     counts = GroundCounts
     imports = "scipy.ndimage", "scipy.spatial"
     summary_type = KeyPointSummary
-    vpc_name = "key_points.vpc"
 
     @property
     def blocks(self) -> Blocks:
@@ -163,6 +162,7 @@ class _Flags(PointResult):
 
 TOOL = PointTool(
     step=FindKeyPoints,
+    list_name="key_points.vpc",
     sets=(ModelKeyPoints, KeyPointMark, GroundClasses),
     dialog_sets=(ModelKeyPoints, GroundClasses, KeyPointMark),
     command="key-points",

@@ -67,14 +67,16 @@ def _run_on_points(
             own.setdefault(output.drawn_of, folder / f"{output.drawn_of}.tif")
         steps = tool.steps(sets, given, own)
         work = Run(steps, TileOutput.among(sets), Resources.among(sets))
-        done = work.work(points, own.get("output"), working, workers, own.get("vpc"))
+        target = own.get("output")
+        vpc = own.get("vpc") or (target and target / tool.list_name)
+        done = work.work(points, target, working, workers, vpc)
         written = [raster for step in steps for raster in step.outputs(points.is_survey)]
         for output, part in zip(drawn, drawing):
-            source, target = own[output.drawn_of], {"output": outputs[output.name]}
+            source, lines = own[output.drawn_of], {"output": outputs[output.name]}
             if ("raster set", source) in written:
                 source = virtual_of(source)
             drawing_tool = file_tool(output.drawn_by)
-            told[output.name] = _run_on_files(drawing_tool, {"source": source}, target, sets, part)
+            told[output.name] = _run_on_files(drawing_tool, {"source": source}, lines, sets, part)
     if told:
         object.__setattr__(done, "drawn", told)  # it is a frozen dataclass
     return done

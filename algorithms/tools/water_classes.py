@@ -148,7 +148,6 @@ class ClassifyWater(PointStep):
     counts = GroundCounts
     blocks = Blocks.of(1.0)
     summary_type = WaterClassSummary
-    vpc_name = "water_classes.vpc"
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Count the ground points, and mark none, since no point needs others."""
@@ -188,6 +187,7 @@ class ClassifyWater(PointStep):
 
 TOOL = PointTool(
     step=ClassifyWater,
+    list_name="water_classes.vpc",
     sets=(WaterClasses, GroundClasses),
     inputs=(
         Input(

@@ -70,7 +70,7 @@ def classify_tiles(
     inputs = Inputs(sources, is_survey=True)
     ground, *others = map_tool("classify").steps([parameters, points], {"input": inputs}, {})
     run = Run((replace(ground, cut=blocks), *others), output)
-    return run.work(inputs, folder, progress, workers)
+    return run.work(inputs, folder, progress, workers, folder / "classified.vpc")
 
 
 def memory_store(parts, frame, blocks):

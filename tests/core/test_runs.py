@@ -134,6 +134,7 @@ def test_a_run_knows_nothing_of_what_its_sinks_make(survey, tmp_path):
     # Behind another step, it sees what that has found.
     ground = LabelGround(METHODS["slope"].parameters(preset="whitebox"))
     run = Run((ground, sinks["classified"]))
-    done = run.work(Inputs(tmp_path / "in"), tmp_path / "out")
+    out = tmp_path / "out"
+    done = run.work(Inputs(tmp_path / "in"), out, vpc=out / "classified.vpc")
     rows = np.loadtxt(tmp_path / "classified.csv", delimiter=",", dtype=int)
     assert rows[:, 3].sum() == done.ground_count > 1000

@@ -51,7 +51,6 @@ class RenameGround(PointStep):
     counts = GroundCounts
     blocks = Blocks.of(1.0)
     summary_type = ToySummary
-    vpc_name = "toy.vpc"
 
     def marks(self, part, counts):
         self.ground.of(part, counts)
@@ -70,6 +69,7 @@ class RenameGround(PointStep):
 
 TOOL = PointTool(
     step=RenameGround,
+    list_name="toy.vpc",
     sets=(NewClass, GroundClasses),
     command="rename-ground",
     command_about="Gives the ground points of a classified file another class.",

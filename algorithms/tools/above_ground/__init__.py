@@ -64,7 +64,6 @@ class ClassifyAboveGround(PointStep):
     counts = GroundCounts
     blocks = _BLOCKS
     summary_type = AboveGroundSummary
-    vpc_name = "above_ground.vpc"
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return the points that are ground or stand on it, not those with a meaning, such as
@@ -127,6 +126,7 @@ class ClassifyAboveGround(PointStep):
 
 TOOL = PointTool(
     step=ClassifyAboveGround,
+    list_name="above_ground.vpc",
     sets=(AboveGround, GroundClasses),
     inputs=(
         Input(

@@ -104,7 +104,6 @@ class LabelGround(PointStep):
     weight = 5.0
     imports = "scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph"
     summary_type = ClassifiedSummary
-    vpc_name = "classified.vpc"
 
     @property
     def blocks(self) -> Blocks:
