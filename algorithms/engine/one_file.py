@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Iterator, Sequence
 
 from ..core.files import Outputs
 from ..core.progress import Progress
 from ..core.threads import import_early, may_use
-from ..las.cloud import survey_frame
+from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
 from ..survey.files import Inputs
 from ..survey.shapes import Place
@@ -115,8 +115,11 @@ class FileRun:
     def _seeing(self, step: Any, progress: Progress) -> Any:
         """Return a step after a look at the points."""
         frame = survey_frame(self.points.cloud.crs, step.origin)
-        seen = with_values(self.points.parts(), self._values)
-        return step.seeing((part for _, part in seen), frame, progress)
+        return step.seeing(self._look, frame, progress)
+
+    def _look(self) -> Iterator[PointCloud]:
+        """Yield the points with what was found for them by now, part by part."""
+        return (part for _, part in with_values(self.points.parts(), self._values))
 
     def found(self, progress: Progress) -> TileResult:
         """Return what the steps found for each point."""

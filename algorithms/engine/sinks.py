@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Sequence
 
@@ -41,7 +42,7 @@ def run_sink(
     results = results or Results(survey)
     frame = survey_frame(survey.crs, step.origin)
     reading, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
-    step = step.seeing(results.parts(unpacking, reading), frame, reading)
+    step = step.seeing(partial(results.parts, unpacking, reading), frame, reading)
     grid = BlockGrid(frame, step, survey.stated)
     places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
     sources = {place: sources_of(grid, survey, place) for place in step.wanted(places, grid)}

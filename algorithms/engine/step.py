@@ -34,6 +34,8 @@ from .visits import Visit, visited
 
 # Returns an array of one value for each point of a file, given the type of the values.
 Allocate = Callable[[type], np.ndarray]
+# Reads all points part by part, with what earlier steps found for them.
+Look = Callable[[], Iterable[PointCloud]]
 
 
 class Step:
@@ -77,7 +79,7 @@ class Step:
         """Return the step for points at a place."""
         return self
 
-    def seeing(self, parts: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT) -> Any:
+    def seeing(self, look: Look, frame: Frame, progress: Progress = SILENT) -> Any:
         """Return the step after a look at all points, with what was found for them."""
         return self
 

@@ -76,14 +76,12 @@ def fixed_terrain(
     ground: GroundClasses,
     cell: float,
     progress: Progress = SILENT,
-) -> FixedTerrain | None:
+) -> FixedTerrain:
     """Return constraints as vertices; missing heights are taken from the ground nearby, and a
     warning tells what cannot be used.
     """
-    # All points of the survey, part by part, are read only if there are lines or water, to find the
-    # ground near these. `cell` is the side in metres of the cells in which points are thinned.
-    if not constraints.any:
-        return None
+    # All points of the survey, part by part, show the ground near lines and water. `cell` is the
+    # side in metres of the cells in which points are thinned.
     step = cell / PER_CELL
     given = GivenTerrain.of(constraints, clouds, frame, ground, step, progress)
     waters = tuple(water for water in given.waters if water.is_known)

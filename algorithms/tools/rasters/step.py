@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, BinaryIO, Iterable, Iterator, Sequence
+from typing import Any, BinaryIO, Iterator, Sequence
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ...engine.block_grid import BlockGrid, BlockIndex
 from ...engine.blocks import Blocks
 from ...engine.disk_store import rows_in
 from ...engine.memory import Cost
-from ...engine.step import Sink
+from ...engine.step import Look, Sink
 from ...engine.store import OTHERS, Marks, Store
 from ...engine.visits import Visit
 from ...grids.cell_window import CellWindow
@@ -106,14 +106,12 @@ class MakeRasters(Drawing, Sink):
         cells = cell_grid(self.target, usual, place.crs, place.box, progress)
         return replace(self, placed_cells=cells)
 
-    def seeing(
-        self, parts: Iterable[PointCloud], frame: Frame, progress: Progress = SILENT
-    ) -> MakeRasters:
-        """Return the step with the vertices of its constraints among all points, with their
-        classes, part by part; see `fixed_terrain`.
-        """
+    def seeing(self, look: Look, frame: Frame, progress: Progress = SILENT) -> MakeRasters:
+        """Return the step with the vertices of its constraints; see `fixed_terrain`."""
+        if not self.constraints.any:
+            return self
         cell = self.cell / VERTICES_A_SIDE
-        fixed = fixed_terrain(self.constraints, parts, frame, self.ground, cell, progress)
+        fixed = fixed_terrain(self.constraints, look(), frame, self.ground, cell, progress)
         return replace(self, fixed=fixed)
 
     @property
