@@ -40,7 +40,18 @@ def _deliver(*given: Any) -> Any:
 
 _CHECKPOINTS = Input("checkpoints", "checkpoints", advanced=True, is_last=True)
 _CORRECTIONS = Input("corrections", "corrections", is_last=True)
-_AREA = Input("area", "area", help="deliver only", more="; points nearby help to judge")
+_AREA = Input(
+    "area",
+    "area",
+    help="deliver only",
+    more="; points nearby help to judge",
+    area_help=(
+        "Only points in this rectangle are mapped and written. Points nearby help to judge. Empty:"
+        " all points.",
+        "Only points in these polygons are mapped and written; with an extent, only points in both."
+        " Points nearby help to judge. Empty: all points.",
+    ),
+)
 _FOLDER = Output(
     "output",
     "folder",

@@ -47,6 +47,14 @@ class Input:
     of: Callable[..., Any] = lambda value, *progress: value
     help: str = ""  # of the option; of areas and clouds, what starts it; {formats}: of vectors
     more: str = ""  # what ends the help of the options of an area or extent
+    # Of an area: the help of the fields of its extent and of its boundary.
+    area_help: tuple[str, str] = (
+        "Only points in this rectangle are classified, and rasters end at it. Points outside keep"
+        " their class, but those nearby help to judge. Empty: all points.",
+        "Only points in these polygons are classified, and rasters end at them; with an extent,"
+        " only what lies in both. Points outside keep their class, but those nearby help to judge."
+        " Empty: all points.",
+    )
     label: str = ""  # of the field in the dialog; empty if there is none
     field_help: str = ""
     named: str = ""  # the field and the argument, if not as the name in upper case

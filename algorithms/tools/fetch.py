@@ -109,6 +109,11 @@ TOOL = FileTool(
             "area",
             help="download only points in",
             more="; without an area all points",
+            area_help=(
+                "Only points in this rectangle are downloaded. Empty: all points.",
+                "Only points in these polygons are downloaded; with an extent, only points in both."
+                " Empty: all points.",
+            ),
             label="Area",
             optional=True,
         ),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence
+from typing import Any, Sequence
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -15,6 +15,7 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
 from ...algorithms.survey.area import Area, Polygon
 from ...algorithms.survey.shapes import Shapes
+from ...algorithms.tools.declaration import Input
 from ...algorithms.tools.ground.output import Output
 from .. import compat
 from ..i18n import mark
@@ -22,57 +23,18 @@ from .feedback import Refusal
 from .inputs import CloudCrs, box_of, layer_polygons, rings_of
 from .stated_crs import text_of
 
-# Name, label and help of the fields of an area.
-_AREA_FIELDS = {
-    "EXTENT": (
-        "Extent",
-        "Only points in this rectangle are classified, and rasters end at it. Points outside keep"
-        " their class, but those nearby help to judge. Empty: all points.",
-    ),
-    "BOUNDARY": (
-        "Boundary",
-        "Only points in these polygons are classified, and rasters end at them; with an extent,"
-        " only what lies in both. Points outside keep their class, but those nearby help to judge."
-        " Empty: all points.",
-    ),
-}
-# Their help in other algorithms, by the beginning of that of their options.
-HELPS = {
-    "deliver only": {
-        "EXTENT": "Only points in this rectangle are mapped and written. Points nearby help to"
-        " judge. Empty: all points.",
-        "BOUNDARY": "Only points in these polygons are mapped and written; with an extent, only"
-        " points in both. Points nearby help to judge. Empty: all points.",
-    },
-    "make the rasters only in": {
-        "EXTENT": "The rasters end at this rectangle. Points outside still help along its border."
-        " Empty: the rasters cover all points.",
-        "BOUNDARY": "The rasters have data only in these polygons; with an extent, only in both."
-        " Points outside still help along the border. Empty: the rasters cover all points.",
-    },
-    "download only points in": {
-        "EXTENT": "Only points in this rectangle are downloaded. Empty: all points.",
-        "BOUNDARY": "Only points in these polygons are downloaded; with an extent, only points in"
-        " both. Empty: all points.",
-    },
-}
+_FIELDS = "EXTENT", "BOUNDARY"
+_BOUNDARY = "BOUNDARY", "Boundary"  # field and label
 
 
-def add_area(
-    algorithm: QgsProcessingAlgorithm,
-    advanced: Sequence[str] = ("BOUNDARY",),
-    helps: Mapping[str, str] = {},
-) -> None:
-    """Add the fields of an area to a dialog, some, by name, advanced or with other helps."""
-    extent, boundary = (label for label, _ in _AREA_FIELDS.values())
-    fields = (
-        QgsProcessingParameterExtent("EXTENT", extent, None, True),
-        QgsProcessingParameterFeatureSource("BOUNDARY", boundary, [compat.POLYGONS], None, True),
-    )
-    for field in fields:
-        if field.name() in advanced:
+def add_area(algorithm: QgsProcessingAlgorithm, declared: Input) -> None:
+    """Add the fields of an area to a dialog."""
+    extent = QgsProcessingParameterExtent("EXTENT", "Extent", None, True)
+    kinds = [compat.POLYGONS]
+    boundary = QgsProcessingParameterFeatureSource(*_BOUNDARY, kinds, None, True)
+    for field, text in zip((extent, boundary), declared.area_help):
+        if declared.advanced or field is boundary:
             field.setFlags(field.flags() | compat.ADVANCED)
-        text = helps.get(field.name(), _AREA_FIELDS[field.name()][1])
         algorithm.addParameter(field, text)
 
 
@@ -85,7 +47,7 @@ def area_of(
     """Return the area in the fields of `add_area`, in the CRS of the points; None if empty, and an
     error for a boundary without polygons.
     """
-    given = [name for name in _AREA_FIELDS if not compat.is_empty(parameters.get(name))]
+    given = [name for name in _FIELDS if not compat.is_empty(parameters.get(name))]
     if not given:
         return None
     box = None
@@ -93,21 +55,20 @@ def area_of(
     if "EXTENT" in given:
         box = box_of(algorithm, parameters, "EXTENT", context, crs)
     if "BOUNDARY" in given:
-        label = _AREA_FIELDS["BOUNDARY"][0]
-        polygons = layer_polygons(algorithm, parameters, "BOUNDARY", label, context, crs)
+        polygons = layer_polygons(algorithm, parameters, *_BOUNDARY, context, crs)
     return Area(box, polygons)
 
 
 def has_area(parameters: Mapping[str, Any]) -> bool:
     """Return whether a field of `add_area` is filled."""
-    return not all(compat.is_empty(parameters.get(name)) for name in _AREA_FIELDS)
+    return not all(compat.is_empty(parameters.get(name)) for name in _FIELDS)
 
 
 def area_in_own_crs(
     algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
 ) -> Area | None:
     """Return the area in the fields of `add_area` with its own CRS, for points of unknown CRS."""
-    given = [name for name in _AREA_FIELDS if not compat.is_empty(parameters.get(name))]
+    given = [name for name in _FIELDS if not compat.is_empty(parameters.get(name))]
     if not given:
         return None
     if len(given) > 1:
@@ -122,8 +83,7 @@ def area_in_own_crs(
     else:
         source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
         crs = CloudCrs(stated=source.sourceCrs().toWkt() if source is not None else None)
-        label = _AREA_FIELDS["BOUNDARY"][0]
-        polygons = layer_polygons(algorithm, parameters, "BOUNDARY", label, context, crs)
+        polygons = layer_polygons(algorithm, parameters, *_BOUNDARY, context, crs)
         crs = crs.value
     return Area(None, Shapes(polygons, text_of(crs), "The area"))
 

@@ -26,7 +26,7 @@ from ...algorithms.tools.input_groups import GROUPS
 from ...algorithms.tools.rasters.constraints import Constraints
 from .. import compat
 from ..i18n import mark
-from .area import HELPS, add_area, area_in_own_crs, area_of, area_options
+from .area import add_area, area_in_own_crs, area_of, area_options
 from .base import BareEarthAlgorithm
 from .checkpoints import checkpoints_of
 from .feedback import Refusal
@@ -98,8 +98,7 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         _GROUPS[declared.kind](algorithm)
         return
     if declared.kind == "area":
-        advanced = ("EXTENT", "BOUNDARY") if declared.advanced else ("BOUNDARY",)
-        add_area(algorithm, advanced, HELPS.get(declared.help, {}))
+        add_area(algorithm, declared)
         return
     if declared.kind in GROUPS:
         for part in GROUPS[declared.kind]:

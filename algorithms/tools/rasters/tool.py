@@ -90,6 +90,12 @@ _AREA = Input(
     "area",
     help="make the rasters only in",
     more="; points outside still help along its border",
+    area_help=(
+        "The rasters end at this rectangle. Points outside still help along its border. Empty: the"
+        " rasters cover all points.",
+        "The rasters have data only in these polygons; with an extent, only in both. Points outside"
+        " still help along the border. Empty: the rasters cover all points.",
+    ),
     advanced=True,
     is_last=True,
 )
