@@ -1,33 +1,21 @@
-"""Reading vector files by a library: pyogrio, or GDAL in QGIS, which pass on geometries as WKB.
-
-References
-----------
-OGC 06-103r4, Simple feature access, part 1, section 8: the types, with 1000 added for z, 2000 for m
-and 3000 for both. Extended WKB marks the same by the highest bits.
-"""
+"""Reading vector files by a library: pyogrio, or GDAL in QGIS."""
 
 from __future__ import annotations
 
 import importlib.util
-import struct
 import warnings
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple, Sequence
 
-import numpy as np
-
 from ..core.errors import BareEarthError
 from ..las.sources import open_source
+from .wkb import geometries_of
 
 # Between a file and the name of a layer, as QGIS writes it.
 _LAYER = "|layername="
 _FOLDERS = (".gdb",)
 # XML that the library may read. Other XML can tell it to fetch files from other computers.
 _XML = (".kml", ".gpx")
-_POINT, _LINE, _POLYGON, _COLLECTIONS = 1, 2, 3, (4, 5, 6, 7)
-_HAS_Z, _HAS_M, _HAS_SRID = 1 << 31, 1 << 30, 1 << 29
-# Collections in collections; data with more is not valid.
-_MOST_LEVELS = 20
 
 
 class _Layer(NamedTuple):
@@ -140,64 +128,6 @@ def _by_gdal(name: str, attribute: str | None) -> Iterator[_Layer]:
 def _of_kind(layer: _Layer, kind: str) -> Iterator[tuple[Any, dict[str, Any]]]:
     """Yield coordinates and attributes of the geometries of a kind in a layer."""
     for data, attributes in layer.features:
-        for name, coordinates in _geometries_of(data) if data else ():
+        for name, coordinates in geometries_of(data) if data else ():
             if name == kind:
                 yield coordinates, attributes
-
-
-def _geometries_of(data: bytes) -> Iterator[tuple[str, Any]]:
-    """Yield the points, float64 (2,) or (3,), lines (n, 2) or (n, 3), and polygons (lists of rings)
-    of a geometry, also of collections; ValueError for others, such as arcs.
-    """
-    # m is left out, and so are empty points.
-    try:
-        found: list[tuple[str, Any]] = []
-        _read_wkb(data, 0, found, 0)
-    except struct.error as error:
-        raise ValueError("a geometry is cut off") from error
-    yield from found
-
-
-def _read_wkb(data: bytes, start: int, found: list[tuple[str, Any]], level: int) -> int:
-    """Add the geometry that starts at a byte; return where it ends."""
-    order = "<" if data[start : start + 1] == b"\x01" else ">"
-    (code,) = struct.unpack_from(f"{order}I", data, start + 1)
-    start += 9 if code & _HAS_SRID else 5
-    plain = code & 0xFFFF
-    kind, flags = plain % 1000, plain // 1000
-    has_z = flags in (1, 3) or bool(code & _HAS_Z)
-    width = 2 + has_z + (flags in (2, 3) or bool(code & _HAS_M))
-    if kind == _POINT:
-        corners, start = _corners(data, start, order, 1, width, has_z)
-        if not np.isnan(corners[0, :2]).all():  # an empty point
-            found.append(("Point", corners[0]))
-        return start
-    (count,) = struct.unpack_from(f"{order}I", data, start)
-    start += 4
-    if kind == _LINE:
-        corners, start = _corners(data, start, order, count, width, has_z)
-        found.append(("LineString", corners))
-    elif kind == _POLYGON:
-        rings = []
-        for _ in range(count):
-            (length,) = struct.unpack_from(f"{order}I", data, start)
-            ring, start = _corners(data, start + 4, order, length, width, has_z)
-            rings.append(ring)
-        found.append(("Polygon", rings))
-    elif kind in _COLLECTIONS and level < _MOST_LEVELS:
-        for _ in range(count):
-            start = _read_wkb(data, start, found, level + 1)
-    else:
-        raise ValueError(f"a geometry has a type that is not read ({plain}), such as an arc")
-    return start
-
-
-def _corners(
-    data: bytes, start: int, order: str, count: int, width: int, has_z: bool
-) -> tuple[np.ndarray, int]:
-    """Return the corners that start at a byte, without m, and where they end."""
-    end = start + 8 * count * width
-    if end > len(data):
-        raise ValueError("a geometry is cut off")
-    values = np.frombuffer(data[start:end], dtype=f"{order}f8").reshape(count, width)
-    return values[:, : 2 + has_z].astype(np.float64), end
