@@ -5,6 +5,7 @@ from __future__ import annotations
 import bisect
 import contextlib
 import dataclasses
+import math
 import mmap
 import os
 import struct
@@ -176,28 +177,31 @@ def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
 
 
 class RowsOnDisk:
-    """An array in a file, shape (rows, columns), of which some rows and columns are read at a time;
-    a file given by its path is opened each time, and only one thread reads an open one.
+    """An array in a file, shape (rows, ...), of which some rows and columns are read at a time; a
+    file given by its path is opened each time, and only one thread reads an open one.
     """
 
     def __init__(
         self, file: BinaryIO | Path, start: int, shape: tuple[int, ...], kind: np.dtype
     ) -> None:
-        self._file, self._start, self._shape, self._kind = file, start, shape, kind
+        self._file, self._start, self.shape, self._kind = file, start, shape, kind
 
-    def __getitem__(self, where: tuple[slice, slice]) -> np.ndarray:
-        """Return the cells of two slices."""
-        (first, last, _), columns = where[0].indices(self._shape[0]), self._shape[1]
+    def __getitem__(self, where: slice | tuple[slice, ...]) -> np.ndarray:
+        """Return what lies in slices of rows and columns."""
+        rows, *columns = where if isinstance(where, tuple) else (where,)
+        (first, last, _), beside = rows.indices(self.shape[0]), self.shape[1:]
+        size = math.prod(beside) * self._kind.itemsize
         source = self._file
         opened = source.open("rb") if isinstance(source, Path) else contextlib.nullcontext(source)
         with opened as file:
-            file.seek(self._start + first * columns * self._kind.itemsize)
-            content = file.read((last - first) * columns * self._kind.itemsize)
-        return np.frombuffer(content, self._kind).reshape(last - first, columns)[:, where[1]]
+            file.seek(self._start + first * size)
+            content = file.read((last - first) * size)
+        found = np.frombuffer(content, self._kind).reshape(last - first, *beside)
+        return found[(slice(None), *columns)]
 
     def __array__(self, *arguments: object, **options: object) -> np.ndarray:
-        """Return all cells."""
-        return self[:, :]
+        """Return all of it."""
+        return self[:]
 
 
 def rows_in(file: Path) -> dict[str, RowsOnDisk]:

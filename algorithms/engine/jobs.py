@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import time
+from collections import defaultdict
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -169,11 +170,16 @@ class PointJob(BlockJob):
             )  # fmt: skip
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
             for number, place in enumerate(self.output.files, start=1):
-                found: dict[Path, list[np.ndarray]] = {path: [] for path, _ in parts}
-                for which, (path, blocks) in enumerate(parts):
+                counts: dict[Path, int] = defaultdict(int)
+                for path, blocks in parts:
+                    counts[path] += int(np.count_nonzero(blocks == number))
+                kind = self.output.grid.step.kind
+                of_files = {path: np.zeros(count, dtype=kind) for path, count in counts.items()}
+                ends = dict.fromkeys(counts, 0)
+                for which, (path, blocks) in enumerate(() if failure else parts):
                     values = store.values(which)[blocks == number]
-                    found[path].append(np.zeros_like(values) if failure else values)
-                of_files = {path: np.concatenate(some) for path, some in found.items()}
+                    start, ends[path] = ends[path], ends[path] + len(values)
+                    of_files[path][start : ends[path]] = values
                 self.output.write(place, of_files, failure)
 
     def find(

@@ -18,6 +18,7 @@ from ..core.points import Box
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from .block_grid import BlockGrid, BlockIndex, code
+from .disk_store import RowsOnDisk, rows_in
 from .step import PointStep
 from .store import Store
 
@@ -102,7 +103,9 @@ class BlockValues(PointValues):
 
     def __init__(self, found: BlockFiles, las: LasFile, are_all: bool = True) -> None:
         self.step, self._grid, self._las, self._are_all = found.grid.step, found.grid, las, are_all
-        self._left: dict[int, np.ndarray] = {}
+        # The values that each block has, and how many of them were used.
+        self._values: dict[int, RowsOnDisk] = {}
+        self._used: dict[int, int] = {}
         self._not_done: list[int] = []
         for place, file in found.files.items():
             if not are_all and not file.exists():
@@ -110,7 +113,7 @@ class BlockValues(PointValues):
                 continue
             with np.load(file, allow_pickle=False) as kept:
                 if _key(las.path) in kept:
-                    self._left[code(place)] = kept[_key(las.path)]
+                    self._values[code(place)] = rows_in(file)[_key(las.path)]
                     self.failure = self.failure or str(kept.get(_FAILURE, ""))
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
@@ -123,7 +126,7 @@ class BlockValues(PointValues):
         # Most parts lie in one block, which is seen faster than codes are sorted.
         is_one = bool(part.count) and codes.min() == codes.max()
         for number in (codes[:1] if is_one else np.unique(codes)).tolist():
-            here, left = np.flatnonzero(codes == number), self._left.get(number)
+            here, left = np.flatnonzero(codes == number), self._values.get(number)
             if left is None:
                 if self._are_all:
                     raise BareEarthError(
@@ -131,14 +134,16 @@ class BlockValues(PointValues):
                         " have. Write the file again with a program that corrects the header."
                     )
                 continue
-            if len(left) < len(here):
+            start = self._used.get(number, 0)
+            self._used[number] = end = start + len(here)
+            if end > left.shape[0]:
                 raise self._changed()
-            values[here], self._left[number] = left[: len(here)], left[len(here) :]
+            values[here] = left[start:end]
         return values
 
     def check(self) -> None:
         """Refuse a file if some values were not used."""
-        if any(map(len, self._left.values())):
+        if any(self._used.get(block, 0) < left.shape[0] for block, left in self._values.items()):
             raise self._changed()
 
     def _changed(self) -> BareEarthError:
