@@ -294,6 +294,11 @@ def test_records_that_contradict_each_other_are_told(las, values, told):
     assert all(told in words and "--crs" in words for words in warnings)
 
 
+def test_the_old_code_of_an_ellipsoid_is_that_of_no_vertical_crs(las):
+    crs, _ = crs_of(las, *geotiff(las, model=1, projected=32632, unit=9001, vertical=5030))
+    assert crs.datum.is_ellipsoid and crs.datum.crs_epsg is None
+
+
 def test_the_code_of_a_compound_crs_gives_both_parts(las):
     pytest.importorskip("pyproj")
     crs, progress = crs_of(las, *geotiff(las, model=1, projected=7415))
