@@ -11,16 +11,16 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from .cells import cells_at
-from .delaunay_walk import circumcircles, interpolated, leaving_corner, longest_edge
+from .delaunay_walk import circumcircles
 from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates, triangles_of_cells
 
 # Most vertices of a block: so few that all threads have work, and that progress and cancel do not
 # have to wait.
-_VERTICES_A_BLOCK = 6_000
+_VERTICES_A_BLOCK = 25_000
 # Width of the margin that is triangulated with a block, as a share of the block's longer side.
-_MARGIN = 0.03
-# Most exchanges of a corner for the queries that blocks leave. Few need more than thirty; rounding
-# could make the search endless.
+_MARGIN = 0.06
+# Most triangulations of the vertices round the queries that blocks leave. A few are enough, unless
+# rounding makes the search endless.
 _MOST_STEPS = 1000
 # Rounding error in metres of a query on the hull.
 _ON_HULL = 1e-6
@@ -47,7 +47,7 @@ class Surface:
     # used only if its circumcircle holds no point inside, of the block or not: then it is a
     # triangle of that triangulation (if four points lie on a circle, either diagonal may be used).
     # Queries in other triangles, for example in a lake that a block cuts, are left until all blocks
-    # are done. Then corners of these triangles are exchanged for vertices in their circles, until
+    # are done. Then vertices in circles are added to a TIN of the corners of these triangles, until
     # there are none.
     # If `meshed` is given, only these points are triangulated, which include the corners of the
     # convex hull, and the triangles are checked against all points.
@@ -79,21 +79,18 @@ class Surface:
         # A single block reports its own progress. Of several blocks, each is one step.
         within = progress if len(blocks) == 1 else SILENT
 
-        def fill(block: tuple[np.ndarray, float]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        def fill(block: tuple[np.ndarray, float]) -> tuple[np.ndarray, np.ndarray]:
             queries, size = block
             some = x[queries], y[queries]
-            heights[queries], left, *triangles = self._block_heights(
+            heights[queries], left, corners = self._block_heights(
                 *some, size, max_edge, cells, within
             )
-            return (queries[left], *triangles)
+            return queries[left], corners
 
         found = in_threads(fill, blocks, progress)
-        left, number, triangles = zip(*found)
-        if sum(map(len, left)):
-            before = np.cumsum([0, *map(len, triangles)])
-            number = np.concatenate([some + start for some, start in zip(number, before)])
-            left, triangles = np.concatenate(left), np.concatenate(triangles)
-            heights[left] = self._walked(x[left], y[left], triangles, number, max_edge)
+        left, corners = (np.concatenate(parts) for parts in zip(*found))
+        if len(left):
+            heights[left] = self._refined(x[left], y[left], corners, max_edge, cells)
         return heights
 
     def nearest(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -156,9 +153,9 @@ class Surface:
         max_edge: float | None,
         cells: CellLattice | None,
         progress: Progress,
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the heights of the queries of a block, on a TIN of the vertices round it, which
-        queries are left (k,), and the number (k,) of their triangles (t, 3), -1 for none.
+        queries are left (k,), and the vertices (n,) of their triangles.
         """
         # A query is left if a vertex lies in the circle of its triangle, or it has none.
         vertices, margin = self._vertices, max(_MARGIN * size, _ON_HULL)
@@ -177,63 +174,44 @@ class Surface:
             triangle[depth <= -_ON_HULL] = -1
         if not (is_one_block and are_all):
             inside = np.flatnonzero(triangle >= 0)
-            used, number = np.unique(triangle[inside], return_inverse=True)
-            triangles = which[tin.source[tin.triangles[used]]]
-            in_circle = self._in_circles(triangles, borders if are_all else None)
-            is_left[inside] = in_circle[number] >= 0
+            in_circle = self._in_circles(tin, triangle[inside], borders if are_all else None)
+            is_left[inside] = in_circle >= 0
         progress(0.8)
         heights = tin.interpolate(x, y, _without_long(tin, triangle, max_edge))
         left = np.flatnonzero(is_left)
-        used, number = np.unique(triangle[left], return_inverse=True)
-        triangles = np.full((len(used), 3), -1)
-        triangles[used >= 0] = which[tin.source[tin.triangles[used[used >= 0]]]]
-        return heights, left, number, triangles
+        used = np.unique(triangle[left])
+        corners = np.unique(tin.triangles[used[used >= 0]])
+        return heights, left, which[tin.source[corners]]
 
-    def _walked(
+    def _refined(
         self,
         x: np.ndarray,
         y: np.ndarray,
-        triangles: np.ndarray,
-        number: np.ndarray,
+        vertices: np.ndarray,
         max_edge: float | None,
+        cells: CellLattice | None,
     ) -> np.ndarray:
-        """Return heights at queries, from triangles (t, 3) that hold them, of which each has a
-        number, after the corners were exchanged for vertices in their circles.
+        """Return heights at queries, on a TIN of some `vertices` to which those needed
+        are added.
         """
-        # All queries in a triangle meet the same vertex: a lake has many more cells than vertices
-        # on its shore.
-        vertices, hull = self._vertices, self._hull[2]
-        nowhere = np.flatnonzero(triangles[number, 0] < 0)
-        if len(nowhere):
-            tin = Tin(*vertices.take(hull))
-            triangle = tin.locate(x[nowhere], y[nowhere])
-            number[nowhere[triangle >= 0]] = len(triangles) + triangle[triangle >= 0]
-            triangles = np.concatenate((triangles, hull[tin.source[tin.triangles]]))
-        heights, active = np.full(len(x), np.nan), np.flatnonzero(triangles[number, 0] >= 0)
-        number = number[active]
-        for step in range(_MOST_STEPS):
-            used, number = np.unique(number, return_inverse=True)
-            triangles = triangles[used]
-            found = self._in_circles(triangles)
-            # Rounding may put a corner into the circle.
-            found[(found[:, None] == triangles).any(axis=1)] = -1
-            new = found[number] if step + 1 < _MOST_STEPS else np.full(len(number), -1)
-            places = [axis[active] for axis in (x, y)]
-            a, b = (axis[triangles[number].T] - place for axis, place in zip(vertices[:2], places))
-            ended, left = np.flatnonzero(new < 0), np.flatnonzero(new >= 0)
-            z = vertices.z[triangles[number[ended]].T]
-            heights[active[ended]] = interpolated(a[:, ended], b[:, ended], z)
-            if max_edge is not None:
-                long = longest_edge(a[:, ended], b[:, ended]) > max_edge
-                heights[active[ended[long]]] = np.nan
-            if not len(left):
+        # The time depends on the number of triangles that hold queries, not on that of the queries:
+        # a lake has many more cells than vertices on its shore.
+        heights, active = np.full(len(x), np.nan), np.arange(len(x))
+        used, added = np.union1d(vertices, self._hull[2]), self._hull[2]
+        for _ in range(_MOST_STEPS):
+            tin, some = Tin(*self._vertices.take(used)), (x[active], y[active])
+            triangle = _located(tin, *some, cells)
+            heights[active] = tin.interpolate(*some, _without_long(tin, triangle, max_edge))
+            active, triangle = active[triangle >= 0], triangle[triangle >= 0]
+            in_circle = self._in_circles(tin, triangle)
+            # Rounding may put a vertex that the TIN has into one of its circles.
+            is_new = (in_circle >= 0) & ~np.isin(in_circle, used)
+            active = active[is_new]
+            if not len(active):
                 break
-            beside = (axis[new[left]] - place[left] for axis, place in zip(vertices[:2], places))
-            leaving = leaving_corner(a[:, left], b[:, left], *beside)
-            active, number = active[left], 3 * number[left] + leaving
-            # With the first, the second and the third corner exchanged.
-            triangles = np.where(np.eye(3) > 0, found[:, None, None], triangles[:, None])
-            triangles = triangles.reshape(-1, 3)
+            corners = used[tin.source[np.unique(tin.triangles[triangle[is_new]])]]
+            added = np.union1d(added, in_circle[is_new])
+            used = np.union1d(corners, added)
         return heights
 
     def _depth(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -251,16 +229,17 @@ class Surface:
         return which[(y >= south) & (y <= north)]
 
     def _in_circles(
-        self, triangles: np.ndarray, window: tuple[float, ...] | None = None
+        self, tin: Tin, triangle: np.ndarray, window: tuple[float, ...] | None = None
     ) -> np.ndarray:
-        """Return the vertex in the circle of each triangle (t, 3) that is nearest to its centre, -1
-        where there is none; with a window, the triangles are those of all vertices in it.
+        """Return the vertex in the circle of each triangle (k,) that is nearest to its centre, -1
+        where there is none; with a window, `tin` has all points in it.
         """
         # A triangle without one belongs to the triangulation of all points.
-        corners, places = triangles.T, self._vertices[:2]
+        used, back = np.unique(triangle, return_inverse=True)
+        corners = tin.triangles[used].T
         # Relative to a corner, because large coordinates lose digits.
-        x, y, radius = circumcircles(*(axis[corners] - axis[corners[0]] for axis in places))
-        x, y = (centre + axis[corners[0]] for centre, axis in zip((x, y), places))
+        x, y, radius = circumcircles(*(axis[corners] - axis[corners[0]] for axis in (tin.x, tin.y)))
+        x, y = x + tin.x[corners[0]], y + tin.y[corners[0]]
         # Three vertices on one line have no circle; they only occur along the hull.
         is_open = np.isfinite(x) & np.isfinite(y) & np.isfinite(radius)
         if window is not None:
@@ -268,12 +247,12 @@ class Surface:
             # Circles within the window hold no point.
             is_inside = (x - radius > west) & (x + radius < east)
             is_open &= ~(is_inside & (y - radius > south) & (y + radius < north))
-        found, open_ = np.full(len(triangles), -1), np.flatnonzero(is_open)
+        found, open_ = np.full(len(used), -1), np.flatnonzero(is_open)
         if len(open_):
             nearest, vertex = self._tree.query(np.column_stack((x[open_], y[open_])))
             is_in = nearest < radius[open_] * (1.0 - _ON_CIRCLE) - _ON_CIRCLE
             found[open_[is_in]] = vertex[is_in]
-        return found
+        return found[back]
 
 
 def _located(tin: Tin, x: np.ndarray, y: np.ndarray, cells: CellLattice | None) -> np.ndarray:
