@@ -19,7 +19,7 @@ from qgis.PyQt.QtCore import QCoreApplication
 # For support.py, which the tests import too.
 sys.path.append(str(Path(__file__).parent))
 
-from support import ALGORITHM, ROOT, Log, Scene
+from support import ALGORITHM, ROOT, Log, Scene, remove
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -65,6 +65,22 @@ def registry(plugin):
 @pytest.fixture
 def algorithm(registry):
     return registry.createAlgorithmById(ALGORITHM)
+
+
+@pytest.fixture
+def dialog_of(registry):
+    """What opens the dialog of an algorithm."""
+    from processing.gui.AlgorithmDialog import AlgorithmDialog
+
+    opened = []
+
+    def dialog_of(name):
+        opened.append(AlgorithmDialog(registry.createAlgorithmById(name)))
+        return opened[-1]
+
+    yield dialog_of
+    for dialog in opened:
+        remove(dialog)
 
 
 @pytest.fixture

@@ -161,21 +161,6 @@ def canvas(monkeypatch):
     remove(canvas)
 
 
-@pytest.fixture
-def dialog_of(registry):
-    from processing.gui.AlgorithmDialog import AlgorithmDialog
-
-    opened = []
-
-    def dialog_of(name):
-        opened.append(AlgorithmDialog(registry.createAlgorithmById(name)))
-        return opened[-1]
-
-    yield dialog_of
-    for dialog in opened:
-        remove(dialog)
-
-
 def field_of(dialog, name):
     return dialog.mainWidget().wrappers[name]
 

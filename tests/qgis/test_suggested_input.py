@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from osgeo import gdal
 from qgis.core import QgsPointCloudLayer, QgsProject, QgsProviderRegistry, QgsRasterLayer
-from support import ALGORITHM, remove
+from support import ALGORITHM
 
 ONE_STEP = "bareearth:pointcloudtoterrain"
 needs_copc = pytest.mark.skipif(
@@ -33,21 +33,6 @@ def cloud(scene, raster, tmp_path):
     QgsProject.instance().addMapLayer(layer, False)
     QgsProject.instance().layerTreeRoot().addLayer(layer)
     return layer
-
-
-@pytest.fixture
-def dialog_of(registry):
-    from processing.gui.AlgorithmDialog import AlgorithmDialog
-
-    opened = []
-
-    def dialog_of(name):
-        opened.append(AlgorithmDialog(registry.createAlgorithmById(name)))
-        return opened[-1]
-
-    yield dialog_of
-    for dialog in opened:
-        remove(dialog)
 
 
 def input_of(dialog):
