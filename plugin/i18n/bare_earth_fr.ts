@@ -2491,7 +2491,7 @@ Pour les murs et les talus, produisez le modèle de terrain avec des cellules de
     </message>
     <message>
         <source>US survey foot</source>
-        <translation>Pied US (survey)</translation>
+        <translation>Pied d'arpentage américain</translation>
     </message>
     <message>
         <source>USGS Lidar Base Specification, QL1</source>
