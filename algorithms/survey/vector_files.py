@@ -97,7 +97,8 @@ def _shapes(path: Any, kind: str, shape_of: Callable[[Any, dict], Any]) -> Shape
 def _of_frame(frame: Any, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:
     """Return coordinates and attributes of each geometry of a kind, and the CRS of a frame."""
     shapes, rows = frame.geometry, itertools.repeat({})
-    if hasattr(frame, "columns"):
+    # Of a frame without other columns, older pandas returns no records.
+    if len(getattr(frame, "columns", ())) > 1:
         rows = frame.drop(columns=shapes.name).to_dict("records")
     found = (
         (coordinates, attributes)
