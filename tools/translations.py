@@ -72,11 +72,11 @@ def asked_texts() -> set[str]:
 
 
 def visible_texts(algorithm) -> list[str]:
-    """Return all texts that a user of an algorithm sees before it runs."""
+    """Return the texts in the user's language that an algorithm shows before it runs."""
     texts = [algorithm.displayName(), algorithm.group(), algorithm.shortDescription()]
-    texts += [algorithm.shortHelpString(), *algorithm.tags()]
+    texts += algorithm.tags()
     for field in algorithm.parameterDefinitions():
-        texts += [field.description(), field.help(), *field.metadata().get("labels", [])]
+        texts += [field.description(), *field.metadata().get("labels", [])]
     return texts + [field.description() for field in algorithm.outputDefinitions()]
 
 

@@ -1,8 +1,9 @@
 """The texts of the plugin in the user's language.
 
-In the code they are English. `tr` translates a text when it is shown, and texts of fields and
-declared parameters when the fields are made. `make translations` collects all texts in the files
-bare_earth_*.ts for translators. `make package` compiles these for Qt (.qm).
+In the code they are English. `tr` translates a text when it is shown, and labels of fields and
+declared parameters when the fields are made. The help of tools and fields stays English. `make
+translations` collects all texts in the files bare_earth_*.ts for translators; one without a
+translation is shown in English. `make package` compiles the files for Qt (.qm).
 """
 
 from __future__ import annotations
@@ -29,16 +30,6 @@ def tr(text: str) -> str:
 def mark(text: str) -> str:
     """Mark a text for translation by `tr`, and return it unchanged."""
     return text
-
-
-def number(value: float) -> str:
-    """Return a number as the user's language writes it, if the plugin speaks that language."""
-    text = f"{value:g}"
-    if QCoreApplication is None:
-        return text
-    language = _language()
-    is_spoken = any(_FOLDER.glob(f"bare_earth_{language.name()[:2]}.*"))
-    return text.replace(".", language.decimalPoint()) if is_spoken else text
 
 
 def _language() -> QLocale:

@@ -136,9 +136,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
                     super().addParameter(field_of(parameter, self._is_shown(parameter)))
 
     def addParameter(self, field: QgsProcessingParameterDefinition, help: str = "") -> bool:
-        """Add a field to the dialog, with label and help in the user's language."""
+        """Add a field to the dialog, with its label in the user's language."""
         field.setDescription(tr(field.description()))
-        field.setHelp(tr(help or field.help()))
+        field.setHelp(help or field.help())
         return super().addParameter(field)
 
     def addOutput(self, output: QgsProcessingOutputDefinition) -> bool:
@@ -217,7 +217,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             self.parameterDefinitions(),
             key=lambda field: (field.isDestination(), bool(field.flags() & compat.ADVANCED)),
         )
-        paragraphs = [tr(self.about)]
+        paragraphs = [self.about]
         for field in ordered:
             paragraphs.append(f"<b>{_plain(field.description())}</b>: {_plain(field.help())}")
             if field.name() == "PRESET":

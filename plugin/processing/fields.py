@@ -96,17 +96,16 @@ def title_of(declaration: Declaration) -> str:
 
 
 def help_of(declaration: Declaration) -> str:
-    """Return the help in the user's language, with the names of choices in scripts."""
-    text = tr(declaration.help)
+    """Return the help, with the names of choices in scripts."""
     if not declaration.choices:
-        return text
+        return declaration.help
     choices = ((value, tr(label)) for value, label in declaration.choices.items())
     is_long = len(declaration.choices) > _MOST_EXPLAINED
     names = (
         value if is_long or value == label.lower().replace(" ", "-") else f"{value}: {label}"
         for value, label in choices
     )
-    return f"{text} {tr('In scripts')}: {'; '.join(names)}."
+    return f"{declaration.help} In scripts: {'; '.join(names)}."
 
 
 def parameters_of(

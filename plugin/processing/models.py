@@ -71,7 +71,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
             name = field.name()
             self.removeParameter(name)
             # The help of the step, or else of the model.
-            field.setHelp(tr(field.help() or self.helpContent().get(name, "")))
+            field.setHelp(field.help() or self.helpContent().get(name, ""))
             field.setDescription(tr(field.description()))
             if field.isDestination():
                 if not field.flags() & compat.OPTIONAL:

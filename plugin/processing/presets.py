@@ -9,7 +9,7 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.filters import METHODS
 from ...algorithms.filters.method import Method
 from ...algorithms.tools.ground.method import TileMethod
-from ..i18n import number, tr
+from ..i18n import tr
 from .fields import title_of
 
 _BETWEEN = " / "
@@ -30,9 +30,9 @@ def presets_of(sets: Sequence[type[ParameterSet]]) -> str:
         for method in methods
         if method.presets
     )
-    words = tr("<b>Values of the presets</b> for fields that are left empty")
-    if is_short:
-        words = tr("<b>Values of the presets</b>")
+    words = "<b>Values of the presets</b>"
+    if not is_short:
+        words += " for fields that are left empty"
     return f"{words}<br/>{tables}" if tables else ""
 
 
@@ -60,4 +60,4 @@ def _shown(value: Any) -> str:
     if value is None:
         return "-"
     values = value if isinstance(value, tuple) else (value,)
-    return _AMONG.join(map(number, values))
+    return _AMONG.join(f"{number:g}" for number in values)
