@@ -38,7 +38,7 @@ if hasattr(Qgis, "ProcessingParameterFlag"):
     INTEGER = Qgis.ProcessingNumberParameterType.Integer
     POLYGONS = Qgis.ProcessingSourceType.VectorPolygon
     LINES = Qgis.ProcessingSourceType.VectorLine
-    POINTS = Qgis.ProcessingSourceType.VectorPoint
+    TABLES = Qgis.ProcessingSourceType.Vector  # with or without geometry
     FILES = Qgis.ProcessingSourceType.File
     FOLDER = Qgis.ProcessingFileParameterBehavior.Folder
 else:
@@ -48,7 +48,7 @@ else:
     INTEGER = QgsProcessingParameterNumber.Type.Integer
     POLYGONS = QgsProcessing.SourceType.TypeVectorPolygon
     LINES = QgsProcessing.SourceType.TypeVectorLine
-    POINTS = QgsProcessing.SourceType.TypeVectorPoint
+    TABLES = QgsProcessing.SourceType.TypeVector
     FILES = QgsProcessing.SourceType.TypeFile
     FOLDER = QgsProcessingParameterFile.Behavior.Folder
 
@@ -57,6 +57,10 @@ if hasattr(Qgis, "CrsWktVariant"):
     WKT = Qgis.CrsWktVariant.Preferred
 else:
     WKT = core.QgsCoordinateReferenceSystem.WktVariant.WKT_PREFERRED
+if hasattr(Qgis, "WkbType"):  # since QGIS 3.30
+    NO_GEOMETRY = Qgis.WkbType.NoGeometry
+else:
+    NO_GEOMETRY = core.QgsWkbTypes.Type.NoGeometry
 # QGIS 3.34 moved the filters of boxes for layers, too.
 if hasattr(Qgis, "LayerFilter"):
     POINT_CLOUDS = Qgis.LayerFilter.PointCloudLayer

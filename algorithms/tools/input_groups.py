@@ -76,8 +76,8 @@ _CHECKPOINTS = (
         help="points that were surveyed on the ground ({point_formats}), or their x, y and z in the"
         " CRS of the points",
         label="Checkpoints",
-        field_help="Points that were surveyed on the ground, of any CRS, or a table (.csv) in the"
-        " CRS of the point cloud. May stay empty if points are held out.",
+        field_help="Points that were surveyed on the ground, of any CRS, or a table (.csv, .txt,"
+        " .xyz) in the CRS of the point cloud. May stay empty if points are held out.",
     ),
     Input(
         "columns",

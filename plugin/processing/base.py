@@ -35,7 +35,7 @@ from .feedback import FeedbackProgress, Refusal, tell_error_once, tell_of_unknow
 from .fields import field_of, parameters_of
 from .inputs import CloudCrs
 from .output_checks import check_outputs
-from .outputs import NOTHING_STAYS, do_not_load, places_of
+from .outputs import NOTHING_STAYS, do_not_load, is_blank, places_of
 from .presets import presets_of
 from .stated_crs import crs_of_text, stated_crs_of
 
@@ -158,7 +158,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         self, parameters: dict[str, Any], name: str, context: QgsProcessingContext
     ) -> str:
         """Return the path of an output point cloud; do not load it if QGIS cannot show it."""
-        path = compat.point_cloud_output_path(self, parameters, name, context)
+        path = ""
+        if not is_blank(parameters, name, context):
+            path = compat.point_cloud_output_path(self, parameters, name, context)
         field = self.parameterDefinition(name)
         if not path and not field.flags() & compat.OPTIONAL:
             raise Refusal(mark("Choose a file: {}."), field.description())

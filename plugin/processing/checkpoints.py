@@ -12,6 +12,10 @@ from qgis.core import (
     QgsPoint,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
+    QgsProcessingParameterFeatureSource,
+    QgsProcessingUtils,
+    QgsProviderRegistry,
+    QgsVectorLayer,
 )
 
 from ...algorithms.core.progress import Progress
@@ -19,13 +23,33 @@ from ...algorithms.tools.check.checkpoints import Checkpoints
 from ...algorithms.tools.check.reading import Record, checkpoints_of_rows, read_checkpoints
 from ...algorithms.tools.check.tables import SUFFIXES
 from .. import compat
-from ..i18n import mark
+from ..i18n import mark, tr
+from ..styles.loaded import filter_of, has_edits
 from .feedback import Refusal
 from .inputs import CloudCrs, features_of
 
 _LAYER = "CHECKPOINTS"
 # The roles of attributes, by their fields.
 _ROLES = {"Z_FIELD": "z", "COVER_FIELD": "cover", "NAME_FIELD": "name"}
+
+
+class CheckpointInput(QgsProcessingParameterFeatureSource):
+    """A layer of points, a table, or a text file of points, of which QGIS itself makes no layer."""
+
+    def clone(self) -> CheckpointInput:
+        """Return a copy; dialogs and models work with copies."""
+        return CheckpointInput(self)
+
+    def checkValueIsAcceptable(
+        self, value: Any, context: QgsProcessingContext | None = None
+    ) -> bool:
+        """Return whether `value` is the path of a table, or QGIS accepts it."""
+        return _file_of(value) is not None or super().checkValueIsAcceptable(value, context)
+
+    def createFileFilter(self) -> str:
+        """Return the file types for the button "...", first those of tables."""
+        endings = " ".join(f"*{suffix}" for suffix in SUFFIXES)
+        return f"{tr('Tables')} ({endings});;{super().createFileFilter()}"
 
 
 def checkpoints_of(
@@ -46,7 +70,7 @@ def checkpoints_of(
         if (name := algorithm.parameterAsString(parameters, field, context))
     }
     columns = ",".join(f"{role}={name}" for role, name in chosen.items())
-    path = _table_of(parameters[_LAYER])
+    path = _table_of(parameters[_LAYER], context)
     if path is not None:
         return read_checkpoints(path, columns), {"checkpoints": str(path), "columns": columns}
     progress.info(
@@ -56,29 +80,45 @@ def checkpoints_of(
     source = algorithm.parameterAsSource(parameters, _LAYER, context)
     names = source.fields().names() if source is not None else []
     features = features_of(source, "Checkpoints", crs.value, context, names)
+    is_table = source is not None and source.wkbType() == compat.NO_GEOMETRY
     records = [
-        _record(number, feature, names)
+        _record(number, feature, names, is_table)
         for number, feature in enumerate(features, start=1)
-        if feature.hasGeometry()
+        if is_table or feature.hasGeometry()
     ]
     if not records:
         raise Refusal(mark('The layer "{}" holds no point. Choose one that does.'), "Checkpoints")
     return checkpoints_of_rows(names, records, chosen, source.sourceName()), {}
 
 
-def _table_of(value: Any) -> Path | None:
+def _file_of(value: Any) -> Path | None:
     """Return the file if the value of the field is the path of a table."""
     path = Path(value) if isinstance(value, (str, Path)) else None
     return path if path and path.suffix.lower() in SUFFIXES and path.is_file() else None
 
 
-def _record(number: int, feature: QgsFeature, names: list[str]) -> Record:
-    """Return the place and the attributes of a feature."""
+def _table_of(value: Any, context: QgsProcessingContext) -> Path | None:
+    """Return the file of a table, also of one that a layer without geometry shows as it is."""
+    layer = value
+    if isinstance(value, str) and _file_of(value) is None:
+        layer = QgsProcessingUtils.mapLayerFromString(value, context, False)
+    if not isinstance(layer, QgsVectorLayer):
+        return _file_of(value)
+    if layer.isSpatial() or filter_of(layer) or has_edits(layer):
+        return None
+    parts = QgsProviderRegistry.instance().decodeUri(layer.providerType(), layer.source())
+    return _file_of(parts.get("path"))
+
+
+def _record(number: int, feature: QgsFeature, names: list[str], is_row: bool) -> Record:
+    """Return the attributes of a feature, and its place unless it is the row of a table."""
+    cells = [None if compat.is_null(feature[name]) else feature[name] for name in names]
+    if is_row:
+        return Record(f"Row {number}", cells)
     point = feature.geometry().constGet()
     if isinstance(point, QgsMultiPoint):  # of several points, the first
         point = point.geometryN(0)
     if not isinstance(point, QgsPoint):
         raise Refusal(mark('The layer "{}" holds no point. Choose one that does.'), "Checkpoints")
     place = np.array([point.x(), point.y(), point.z() if point.is3D() else np.nan])
-    cells = [None if compat.is_null(feature[name]) else feature[name] for name in names]
     return Record(f"Point {number}", cells, place)

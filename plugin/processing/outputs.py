@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Iterable
+from typing import Any, Iterable, Mapping
 
 from qgis.core import (
     QgsProcessing,
@@ -31,13 +31,24 @@ def after_cancel(inputs: Inputs) -> str:
 
 def given_path(value: Any, context: QgsProcessingContext) -> Path | None:
     """Return the path that the user gave for an output; None if QGIS makes one up, or for none."""
+    value = _given(value, context)
+    if compat.is_empty(value) or value == QgsProcessing.TEMPORARY_OUTPUT:
+        return None
+    return Path(value) if isinstance(value, (str, Path)) else None
+
+
+def is_blank(parameters: Mapping[str, Any], name: str, context: QgsProcessingContext) -> bool:
+    """Return whether the user left an output empty, as tables of batch runs do with text."""
+    return name in parameters and bool(compat.is_empty(_given(parameters[name], context)))
+
+
+def _given(value: Any, context: QgsProcessingContext) -> Any:
+    """Return the text in the value of an output."""
     if isinstance(value, QgsProcessingOutputLayerDefinition):
         value = value.sink
     if isinstance(value, QgsProperty):
         value, _ = value.valueAsString(context.expressionContext(), "")
-    if compat.is_empty(value) or value == QgsProcessing.TEMPORARY_OUTPUT:
-        return None
-    return Path(value) if isinstance(value, (str, Path)) else None
+    return value
 
 
 def places_of(

@@ -28,7 +28,7 @@ from .. import compat
 from ..i18n import mark
 from .area import add_area, area_in_own_crs, area_of, area_options
 from .base import BareEarthAlgorithm
-from .checkpoints import checkpoints_of
+from .checkpoints import CheckpointInput, checkpoints_of
 from .feedback import Refusal
 from .inputs import (
     ANY_CLOUD_HELP,
@@ -58,7 +58,7 @@ _NO_FILES = {
     "confidence": mark("The confidence is not a file. Export it as GeoTIFF first."),
 }
 _NO_FILE = mark("{} is not a file. Export it as GeoTIFF first.")
-_LAYERS = {"points": compat.POINTS, "lines": compat.LINES, "polygons": compat.POLYGONS}
+_LAYERS = {"lines": compat.LINES, "polygons": compat.POLYGONS}
 # Default and layer of the fields for attributes.
 _ATTRIBUTES = {
     "CORRECTIONS_FIELD": (CLASS_FIELD, "CORRECTIONS"), "Z_FIELD": (None, "CHECKPOINTS"),
@@ -117,7 +117,9 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         ),
     }
     helps = {"cloud": CLOUD_HELP, "clouds": ANY_CLOUD_HELP, "address": ADDRESS_HELP}
-    if declared.kind in _LAYERS:
+    if declared.kind == "points":
+        field = CheckpointInput(name, label, [compat.TABLES], None, True)
+    elif declared.kind in _LAYERS:
         kinds = [_LAYERS[declared.kind]]
         field = QgsProcessingParameterFeatureSource(name, label, kinds, None, True)
     else:

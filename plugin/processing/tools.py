@@ -33,7 +33,7 @@ from .base import BareEarthAlgorithm, command_line
 from .classified import show_class_raster
 from .feedback import FeedbackProgress, Refusal
 from .inputs import ignored_filter
-from .outputs import after_cancel, do_not_load, point_cloud_formats
+from .outputs import after_cancel, do_not_load, is_blank, point_cloud_formats
 from .remote import LIMIT, add_remote
 from .tool_inputs import Given, Request, add_input, given, part_of
 
@@ -238,6 +238,9 @@ class ToolAlgorithm(BareEarthAlgorithm):
         name, context = output.field_name, request.context
         if output.kind in _POINTS:
             return self._cloud(request, name)
+        # QGIS would make a layer of an empty path, and say after the run that it is not there.
+        if is_blank(request.parameters, name, context):
+            return ""
         is_layer = output.kind in ("raster", "features")
         path_of = self.parameterAsOutputLayer if is_layer else self.parameterAsFileOutput
         path: str = path_of(request.parameters, name, context)

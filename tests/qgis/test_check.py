@@ -7,11 +7,13 @@ import pytest
 from qgis.core import (
     QgsFeature,
     QgsGeometry,
+    QgsProcessingContext,
     QgsProcessingException,
+    QgsProcessingOutputLayerDefinition,
     QgsProject,
     QgsVectorLayer,
 )
-from support import Log
+from support import Log, remove
 
 ALGORITHM = "bareearth:check"
 
@@ -150,3 +152,55 @@ def test_cancel_leaves_nothing(registry, cloud, table, tmp_path, context):
         algorithm = registry.createAlgorithmById(ALGORITHM)
         assert algorithm.run(parameters, context, Log(cancel_at=percent))[0] == {}
         assert list((tmp_path / "out").iterdir()) == []
+
+
+def write_text(path, rows, sign=" "):
+    lines = [("id", "E", "N", "H", "class"), *rows]
+    path.write_text("\n".join(sign.join(map(str, line)) for line in lines), encoding="utf-8")
+    return str(path)
+
+
+@pytest.mark.parametrize("name", ["points.txt", "points.xyz", "points.tsv"])
+def test_text_files_are_checkpoints(registry, cloud, rows, tmp_path, context, name):
+    from processing.gui.AlgorithmDialog import AlgorithmDialog
+
+    path = write_text(tmp_path / name, rows, "\t" if name.endswith("tsv") else " ")
+    dialog = AlgorithmDialog(registry.createAlgorithmById(ALGORITHM))
+    wrapper = dialog.mainWidget().wrappers["CHECKPOINTS"]
+    wrapper.setWidgetValue(path, context)
+    parameters = {"INPUT": str(cloud), "CHECKPOINTS": wrapper.parameterValue()}
+    assert parameters["CHECKPOINTS"] == path
+    algorithm, log = registry.createAlgorithmById(ALGORITHM), Log()
+    assert algorithm.checkParameterValues(parameters, context)[0]
+    results, done = algorithm.run(parameters, context, log)
+    assert done and results["COUNTED"] == len(rows) - 1, log.text
+    assert "*.xyz" in algorithm.parameterDefinition("CHECKPOINTS").createFileFilter()
+    remove(dialog)
+
+
+@pytest.mark.parametrize("is_filtered", [False, True])
+def test_a_table_without_geometry_is_checkpoints(registry, cloud, rows, tmp_path, is_filtered):
+    table = write_text(tmp_path / "points.csv", rows, ",")
+    layer = QgsVectorLayer(table, "points", "ogr")
+    assert layer.isValid() and not layer.isSpatial()
+    if is_filtered:
+        assert layer.setSubsetString(f"id <> '{rows[0][0]}'")
+    QgsProject.instance().addMapLayer(layer)
+    parameters = {"INPUT": str(cloud), "CHECKPOINTS": layer.id()}
+    algorithm, log, context = registry.createAlgorithmById(ALGORITHM), Log(), QgsProcessingContext()
+    context.setProject(QgsProject.instance())
+    assert algorithm.checkParameterValues(parameters, context)[0]
+    results, done = algorithm.run(parameters, context, log)
+    assert done and results["COUNTED"] == len(rows) - 1 - is_filtered, log.text
+    QgsProject.instance().clear()
+
+
+def test_blank_optional_outputs_are_no_layers(registry, cloud, table, context):
+    # As a row of a batch run has them.
+    blank = QgsProcessingOutputLayerDefinition("", QgsProject.instance())
+    parameters = {"INPUT": str(cloud), "CHECKPOINTS": table, "OUTPUT": blank, "REPORT": ""}
+    algorithm, log = registry.createAlgorithmById(ALGORITHM), Log()
+    context.setProject(QgsProject.instance())
+    results, done = algorithm.run(parameters, context, log)
+    assert done and results["COUNTED"] and "OUTPUT" not in results
+    assert list(context.layersToLoadOnCompletion()) == []
