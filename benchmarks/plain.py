@@ -1,0 +1,196 @@
+"""Tries the filters on the matrix of plain things: `python -m benchmarks.plain`.
+
+Each row is a scene with one thing (`benchmarks/scenes/plain.py`). A thing that must stay is held if
+95 % of its points are ground; one that must go if 5 % of its points are at most (roofs 2 %). The
+terrain model over it may be off by some decimetres (95th percentile), against that of the true
+ground, and 95 % of the ground round it must be ground.
+
+`--only 5x1.5` runs the rows whose name has this text, `--without low-groups` leaves a rule out (or
+a group or value of `benchmarks/rules.py`, or gives a value: `--without low-groups.gap=0.7`), and
+`--picture FOLDER` draws the rows that fail.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+from typing import NamedTuple, Sequence
+
+import numpy as np
+
+from bare_earth.algorithms.core.errors import BareEarthError
+from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.grids.tin import Tin
+
+from . import tables, work
+from .accuracy import method_name
+from .measure import Filter
+from .rules import BASE, switched_off
+from .scenes.plain import KINDS, Plain, Row, rows
+
+# Least share in percent of the ground round a thing that is kept.
+_ROUND = 95.0
+
+
+class Verdict(NamedTuple):
+    """How a row comes out."""
+
+    held: bool
+    share: float  # percent of the thing that is ground
+    metres: float  # by which the terrain model is off over it; positive if too high
+    round: float  # percent of the ground round it
+
+
+class Job(NamedTuple):
+    """A row, and how the filters run."""
+
+    name: str
+    methods: tuple[str, ...]
+    variant: str = BASE
+    values: tuple[tuple[str, object], ...] = ()
+    folder: Path | None = None
+
+
+class Judge:
+    """Compares what filters find with the truth of a row."""
+
+    def __init__(self, row: Row, plain: Plain) -> None:
+        self._kind, self._sizes = row.kind, row.sizes
+        self._truth, self._thing = plain.scene.ground, plain.thing
+        self._points = plain.scene.points
+        # About 20,000 vertices tell the terrain, whatever the size of the scene.
+        self._cell = max(self._points.sides) / 140.0
+        thing = np.flatnonzero(plain.thing)
+        self._places = np.array(self._points[:2])[:, thing[:: len(thing) // 3000 + 1]]
+        self._true_heights = self._heights(self._truth)
+
+    def verdict(self, ground: np.ndarray) -> Verdict:
+        """Return the verdict on a ground mask."""
+        kind, earth = self._kind, self._truth & ~self._thing
+        share, around = (100.0 * float(np.mean(ground[some])) for some in (self._thing, earth))
+        # Where the true ground says nothing, no error can be told.
+        error = np.nan_to_num(self._heights(ground), nan=-99.0) - self._true_heights
+        error = error[np.isfinite(error)]
+        metres = float(error[np.argsort(np.abs(error))[int(0.95 * (len(error) - 1))]])
+        limit = kind.off + (0.1 * self._sizes[1] if kind.stays else 0.0)
+        wrong = 100.0 - share if kind.stays else share
+        is_held = wrong <= kind.wrong and abs(metres) <= limit and around >= _ROUND
+        return Verdict(is_held, share, metres, around)
+
+    def _heights(self, ground: np.ndarray) -> np.ndarray:
+        """Return the heights of a terrain model where the thing has points."""
+        x, y, z = self._points.take(ground)
+        if len(x) < 4:
+            return np.full(self._places.shape[1], np.nan)
+        cells = np.floor(x / self._cell) * 100_000 + np.floor(y / self._cell)
+        _, some = np.unique(cells, return_index=True)
+        return Tin(x[some], y[some], z[some]).interpolate(*self._places)
+
+
+def run(job: Job) -> dict[str, Verdict]:
+    """Return the verdict of each method on a row."""
+    row = {row.name: row for row in rows()}[job.name]
+    plain = row.kind.make(row)
+    cloud, judge, found = plain.scene.cloud(), Judge(row, plain), {}
+    with switched_off(job.variant):
+        for method in job.methods:
+            ground = ground_of(Filter(method, **dict(job.values)), cloud)
+            found[method] = judge.verdict(ground)
+            if job.folder and not found[method].held:
+                draw(plain, ground, f"{row.name} {method}", job.folder)
+    return found
+
+
+def ground_of(method: Filter, cloud) -> np.ndarray:
+    """Return the ground that a filter finds; none where it says that there is none."""
+    try:
+        return method.ground(cloud)
+    except BareEarthError:
+        return np.zeros(cloud.count, dtype=bool)
+
+
+def draw(plain: Plain, ground: np.ndarray, title: str, folder: Path) -> None:
+    """Draw which points are wrong, and a profile through the middle of the scene."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    scene, (x, y, z) = plain.scene, plain.scene.points
+    x, y = x - scene.corner[0], y - scene.corner[1]
+    figure = Figure(figsize=(13.0, 6.0), layout="constrained")
+    FigureCanvasAgg(figure)
+    above, profile = figure.subplots(1, 2)
+    strip = (np.abs(y) < 0.6) & (scene.classes != 18)
+    for some, colour in (
+        (~scene.ground & ~ground, "#c0c0c0"), (scene.ground & ground, "#9c5a1a"),
+        (scene.ground & ~ground, "#1565d8"), (~scene.ground & ground, "#e02020"),
+    ):  # fmt: skip
+        above.scatter(x[some], y[some], s=2, c=colour, linewidths=0)
+        profile.scatter(x[some & strip], z[some & strip], s=7, c=colour, linewidths=0)
+    above.set_aspect("equal")
+    figure.suptitle(f"{title}: ground missed is blue, objects kept are red", fontsize=10)
+    folder.mkdir(parents=True, exist_ok=True)
+    figure.savefig(folder / f"{title.replace(' ', '-')}.png", dpi=80)
+
+
+def sums(found: dict[str, dict[str, Verdict]], methods: Sequence[str]) -> list[str]:
+    """Return how many rows of each kind are held, as a table."""
+    table = []
+    for kind in KINDS:
+        own = [found[row.name] for row in rows() if row.kind is kind and row.name in found]
+        if own:
+            held = (str(sum(one[method].held for one in own)) for method in methods)
+            table.append([kind.name, "stays" if kind.stays else "goes", str(len(own)), *held])
+    total = (str(sum(one[method].held for one in found.values())) for method in methods)
+    table.append(["all", "", str(len(found)), *total])
+    return tables.table(("Kind", "must", "rows", *methods), table)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the rows that the command line asks for."""
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.plain",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--method", nargs="+", type=method_name, default=list(METHODS))
+    kinds = [kind.name for kind in KINDS]
+    parser.add_argument("--kind", nargs="+", choices=kinds, default=kinds, metavar="KIND")
+    parser.add_argument("--only", default="", metavar="TEXT", help="rows whose name has it")
+    parser.add_argument("--without", default=BASE, metavar="RULE")
+    parser.add_argument("--set", nargs="+", default=[], metavar="NAME=VALUE", help="parameters")
+    parser.add_argument("--picture", type=Path, metavar="FOLDER", help="draw what fails")
+    parser.add_argument("--failed", action="store_true", help="print only rows that fail")
+    options = parser.parse_args(arguments)
+    values = tuple((name, _value(text)) for name, text in (one.split("=") for one in options.set))
+    chosen = [
+        row.name for row in rows() if row.kind.name in options.kind and options.only in row.name
+    ]
+    jobs = [
+        Job(name, tuple(options.method), options.without, values, options.picture)
+        for name in chosen
+    ]
+    begun, found = time.perf_counter(), {}
+    for job, verdicts in zip(jobs, work.side_by_side(run, jobs)):
+        found[job.name] = verdicts
+        if not options.failed or not all(one.held for one in verdicts.values()):
+            cells = (
+                f"{'held' if one.held else 'NOT':4} {one.share:5.1f} % {one.metres:+6.2f} m"
+                f" {one.round:5.1f} %"
+                for one in verdicts.values()
+            )
+            print(f"{job.name:44}", *cells, sep=" | ", flush=True)
+    print("", *sums(found, options.method), sep="\n")
+    print(f"{time.perf_counter() - begun:.0f} s", file=sys.stderr)
+
+
+def _value(text: str) -> object:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+if __name__ == "__main__":
+    main()

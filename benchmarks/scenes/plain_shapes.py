@@ -1,0 +1,190 @@
+"""Shapes of plain things: how far they rise above the land at places along and across them.
+
+Arguments are metres along (u) and across (v), then the sizes of a row. What is earth returns a rise
+everywhere, 0 beside it. What stands on the land returns minus infinity beside it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .relief import smooth
+
+# Metres in plan that an upright wall of earth takes, so that it is a wall at any density.
+_FACE = 0.25
+# Fall over run of ramps.
+_RAMP = 0.15
+
+
+def _trapezoid(distance, top, flank):
+    """Return 1 within half the top, and a straight fall to 0 over `flank` metres beside it."""
+    return np.clip(1.0 - (distance - top / 2) / flank, 0.0, 1.0)
+
+
+def bowl(u, v, width, depth):
+    r = np.minimum(np.hypot(u, v) / (width / 2), 1.0)
+    return -depth * 0.5 * (1.0 + np.cos(np.pi * r))
+
+
+def crater(u, v, width, depth):
+    r = np.hypot(u, v) / (width / 2)
+    rim = 0.2 * depth * np.exp(-(((r - 1.15) * width / 2 / 0.7) ** 2))
+    return -depth * np.clip(1.0 - r**2, 0.0, None) + rim
+
+
+def funnel(u, v, width, depth):
+    return -depth * np.clip(1.0 - np.hypot(u, v) / (width / 2), 0.0, None)
+
+
+def pit(u, v, width, depth):
+    return -depth * _trapezoid(np.hypot(u, v), width - 0.6, 0.3)
+
+
+def dug(u, v, width, depth, length=None):
+    inside = np.minimum(width / 2 - np.abs(v), (length or width) / 2 - np.abs(u))
+    return -depth * np.clip(inside / _FACE, 0.0, 1.0)
+
+
+def ramp(u, v, width, depth):
+    run = depth / _RAMP
+    down = np.clip((u + run / 2) / run, 0.0, 1.0) * (u < run / 2 + 5.0)
+    return -depth * down * _trapezoid(np.abs(v), width, _FACE)
+
+
+def trench(u, v, width, depth):
+    along = np.clip((u + 25.0) / (depth / 0.2), 0.0, 1.0) * (u < 20.0)
+    return -depth * along * _trapezoid(np.abs(v), width, _FACE)
+
+
+def ditch(u, v, width, depth):
+    return -depth * np.clip(1.0 - np.abs(v) / (width / 2), 0.0, None)
+
+
+def hollow_way(u, v, width, depth):
+    return -depth * smooth(1.5 - 2.0 * np.abs(v + 3.0 * np.sin(u / 15.0)) / width)
+
+
+def crest(u, v, width, height):
+    return height * np.clip(1.0 - np.abs(v + 2.0 * np.sin(u / 12.0)) / (width / 2), 0.0, None)
+
+
+def rock(u, v, width, height):
+    """A rock that rises from one side and ends at a face."""
+    back = np.clip((u + width / 2) / width, 0.0, 1.0) * np.clip((width / 2 - u) / 0.5, 0.0, 1.0)
+    bumps = 1.0 + 0.1 * np.sin(u * 1.7) * np.cos(v * 1.3)
+    return height * back * smooth(2.0 - 4.0 * np.abs(v) / width) * bumps
+
+
+def dyke(u, v, top, height, flank=2.0):
+    return height * _trapezoid(np.abs(v), top, flank * height)
+
+
+def bank(u, v, width, height):
+    return height * smooth(1.0 - np.abs(v) / (width / 2))
+
+
+def terraces(u, v, width, height):
+    number = np.floor((v + 1000.0) / width)
+    within = (v + 1000.0) - number * width
+    number = np.clip(number - np.floor(1000.0 / width), -2.0, 2.0)
+    rise = np.where(np.abs(v) < 2.5 * width, np.clip((within - width) / _FACE + 1.0, 0.0, 1.0), 0.0)
+    return height * np.clip(number + rise, -2.0, 2.0)
+
+
+def scarp(u, v, height, run):
+    return height * np.clip(v / run + 0.5, 0.0, 1.0)
+
+
+def benches(u, v, width, height):
+    """A pit of three benches, whose faces stand at 70 degrees."""
+    edge, face = np.maximum(np.abs(u), np.abs(v)) - 12.0, 0.36 * height
+    step = width + face
+    return -3 * height + sum(height * np.clip((edge - k * step) / face, 0.0, 1.0) for k in range(3))
+
+
+def ruin(u, v, side, height):
+    ring = np.abs(np.maximum(np.abs(u), 1.4 * np.abs(v)) - side / 2)
+    inner = np.where(np.abs(v) * 1.4 < side / 2, np.abs(u - side / 8), np.inf)
+    return height * np.exp(-((np.minimum(ring, inner) / 1.1) ** 2))
+
+
+def mound(u, v, width, height):
+    return -bowl(u, v, width, height)
+
+
+def heap(u, v, width, height):
+    return -funnel(u, v, width, height)
+
+
+def _within(u, v, length, width, rise):
+    return np.where((np.abs(u) <= length / 2) & (np.abs(v) <= width / 2), rise, -np.inf)
+
+
+def flat(u, v, length, width, eaves):
+    return _within(u, v, length, width, eaves)
+
+
+def gable(u, v, length, width, eaves, pitch=0.5):
+    return _within(u, v, length, width, eaves + pitch * (width / 2 - np.abs(v)))
+
+
+def lean_to(u, v, length, width, eaves, pitch=0.12):
+    return _within(u, v, length, width, eaves + pitch * (width / 2 + v))
+
+
+def court(u, v, length, width, eaves):
+    yard = (np.abs(u) < 0.25 * length) & (np.abs(v) < 0.25 * width)
+    return np.where(yard, -np.inf, flat(u, v, length, width, eaves))
+
+
+def angled(u, v, length, width, eaves):
+    """A flat roof in the shape of an L, whose wings are a third of the sides wide."""
+    missing = (u > -length / 6) & (v > -width / 6)
+    return np.where(missing, -np.inf, flat(u, v, length, width, eaves))
+
+
+def stepped(u, v, length, width, eaves):
+    """A hall whose middle part stands higher than its ends."""
+    return flat(u, v, length, width, eaves) + 3.0 * (np.abs(u) < length / 5)
+
+
+def a_frame(u, v, length, width, height):
+    return gable(u, v, length, width, 0.0, 2.0 * height / width)
+
+
+def _row(v, width, gap, count):
+    """Return metres across the row that a place lies in; many where there is none."""
+    place = v / (width + gap) + count / 2
+    across = (np.mod(place, 1.0) - 0.5) * (width + gap)
+    return np.where((place > 0) & (place < count), across, 1e6)
+
+
+def vaults(u, v, length, width, height, gap, count):
+    """Tunnels side by side, round from the ground on."""
+    across = _row(v, width, gap, count)
+    arch = height * np.sqrt(np.clip(1.0 - (2 * across / width) ** 2, 0.0, 1.0))
+    return _within(u, across, length, width, arch)
+
+
+def glasshouses(u, v, length, width, eaves, gap, count):
+    """Houses with gables side by side."""
+    return gable(u, _row(v, width, gap, count), length, width, eaves)
+
+
+def panels(u, v, length, width, low, tilt, gap, count):
+    """Rows of panels, tilted towards one side."""
+    return lean_to(u, _row(v, width, gap, count), length, width, low, tilt)
+
+
+def boxes(u, v, length, width, height, gap, count):
+    """As many boxes by as many, a gap apart."""
+    return flat(_row(u, length, gap, count), _row(v, width, gap, count), length, width, height)
+
+
+def dome(u, v, width, height):
+    r = 2.0 * np.hypot(u, v) / width
+    return np.where(r <= 1.0, height * (0.35 + 0.65 * np.sqrt(np.clip(1 - r**2, 0, 1))), -np.inf)
+
+
+def drum(u, v, width, height):
+    return np.where(np.hypot(u, v) <= width / 2, height, -np.inf)
