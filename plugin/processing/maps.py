@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from qgis.core import QgsProcessingContext
@@ -10,6 +11,7 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.survey.selection import Selection
 from ...algorithms.tools import map_tool
 from ...algorithms.tools.declaration import MapTool
+from ...algorithms.tools.ground.output import Output
 from ...algorithms.tools.ground.tool import METHOD_TOOLS, as_command
 from ...algorithms.tools.rasters.parameters import RasterOutput, TerrainModel
 from ..i18n import mark
@@ -33,6 +35,17 @@ class MapAlgorithm(ToolAlgorithm):
         self._outputs = list(tool.dialog_outputs())
         if tool.is_survey:
             self.cancelled = TILES_STAY
+
+    def chosen(
+        self, parameters: dict[str, Any], context: QgsProcessingContext
+    ) -> list[ParameterSet]:
+        """Return the declared parameters; of remote points only those in the area are written."""
+        # Those around it are downloaded to judge these, and nobody asked for them.
+        is_remote = any(found.remotes for found in self._given.values())
+        return [
+            replace(values, area_only=True) if is_remote and isinstance(values, Output) else values
+            for values in super().chosen(parameters, context)
+        ]
 
     def work(
         self,

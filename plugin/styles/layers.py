@@ -38,8 +38,13 @@ CLOUD, BELOW_TERRAIN = 6, 4
 _FIRST = 9
 
 
-# Coordinates in metres, somewhere.
-_LOCAL = 'LOCAL_CS["Local coordinates in metres",UNIT["metre",1]]'
+# Coordinates in metres, of which nobody knows the place. QGIS transforms the coordinates of a project
+# to longitude and latitude, and shows an error if it cannot, as with a local CRS (LOCAL_CS).
+_LOCAL = (
+    'PROJCS["Local coordinates in metres",GEOGCS["unknown",DATUM["unknown",'
+    'SPHEROID["sphere",6371000,0]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],'
+    'PROJECTION["Equirectangular"],UNIT["metre",1]]'
+)
 
 
 class Look(NamedTuple):
@@ -244,6 +249,7 @@ def _leave_degrees(project: QgsProject) -> None:
     has_none = not any(layer.crs().isValid() for layer in project.mapLayers().values())
     if has_none and project.crs().isGeographic():
         project.setCrs(QgsCoordinateReferenceSystem.fromWkt(_LOCAL))
+        project.setEllipsoid("NONE")  # lengths are those of the coordinates
 
 
 def _dress(look: Look, subject: str, project: QgsProject | None, layer: QgsMapLayer) -> None:

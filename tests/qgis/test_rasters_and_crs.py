@@ -67,6 +67,10 @@ def test_without_a_crs_a_project_in_degrees_counts_in_metres(context, tmp_path):
         given = {"INPUT": str(tmp_path / file), "DTM": str(tmp_path / f"{file}.tif")}
         processing.runAndLoadResults("bareearth:terrainmodel", {**given, "GROUND_CLASSES": "1"})
         assert project.crs().description() == after
+        # QGIS shows an error for each CRS that it cannot transform to longitude and latitude.
+        degrees = QgsCoordinateReferenceSystem("EPSG:4326")
+        way = QgsCoordinateTransform(project.crs(), degrees, project)
+        assert way.isValid() and way.transform(500_000.0, 5_700_000.0) is not None
         # Of degrees QGIS would make scales of 1:500,000,000.
         assert project.crs().isGeographic() == (file == "utm.las")
         project.clear()

@@ -165,6 +165,20 @@ def test_only_the_extent_is_used_where_there_is_no_area(address, tmp_path):
     assert points.y.min() >= 5_700_010.0 and points.y.max() <= 5_700_060.0
 
 
+@pytest.mark.parametrize("name", ["tindensification", "classifytiles"])
+def test_only_the_points_of_the_extent_are_written(name, address, tmp_path, log):
+    # More are downloaded, since they help to judge.
+    field = "REMOTE" if name == "classifytiles" else "INPUT"
+    run(name, GIVEN[name], tmp_path, log, **{field: address, "EXTENT": EXTENT})
+    found = [*tmp_path.glob("out.laz"), *tmp_path.glob("out/*.laz")]
+    (path,) = (path for path in found if "overview" not in path.name)
+    points = laspy.read(path)
+    assert 6_000 < len(points) < 9_000 and not np.any(points.classification == 0)
+    assert points.x.min() >= 500_010.0 and points.x.max() <= 500_050.0
+    assert points.y.min() >= 5_700_010.0 and points.y.max() <= 5_700_060.0
+    assert "--area-only" in log.text
+
+
 @pytest.mark.skipif("copc" not in providers, reason="shows no such layers")
 def test_a_layer_of_a_map_in_another_crs(address, tmp_path, log):
     layer = QgsPointCloudLayer(address, "far away", "copc")
