@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from ..grids.hillshade import hillshade
-from ..rasters.geotiff import NO_CELLS, read_raster
+from ..rasters.content import NO_CELLS
+from ..rasters.geotiff import read_raster
 from ..report.page import keys
 from ..report.pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
 from ..report.units import Units

@@ -13,7 +13,8 @@ from ..crs.matching import described, is_same_map
 from ..crs.stated import HOW
 from ..crs.system import Crs, crs_of_wkt, unit_symbol
 from ..grids.cell_window import CellWindow
-from .geotiff import NO_CELLS, Content, RasterGrid, read_content
+from .content import NO_CELLS, Content, read_content
+from .geotiff import RasterGrid
 
 MOST_CELLS = 4_000_000_000
 # A corner of a given raster so near a multiple of the cell size, as a share of it, is one.

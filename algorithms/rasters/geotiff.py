@@ -1,10 +1,8 @@
-"""The grid of rasters, and reading of raster files."""
+"""The grid of rasters, and heights of raster files."""
 
 from __future__ import annotations
 
 import math
-import os
-import re
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -20,10 +18,9 @@ from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.system import crs_of_wkt, same_unit, unit_name, unit_symbol
 from ..crs.unit_names import unit_in
 from ..crs.wkt import read_wkt
-from .libraries import GdalErrors, library
+from .content import MOST_CELLS, Content, Window, read_content
 
 NODATA = -9999.0
-_MOST_CELLS = 400_000_000
 # In a raster with more cells, points must cover at least this share, as squares of 1 km or blocks.
 # Otherwise it is only large because of a few points with stray coordinates.
 _MANY_CELLS, _SQUARE, _LEAST_COVERED = 10_000_000, 1000.0, 0.01
@@ -32,10 +29,6 @@ NO_GROUND = (
     "There is no ground point to make a terrain model of. Check the selection of points and the"
     " parameters."
 )
-# Names that GDAL would fetch from another computer, and names of parts of a file.
-_REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
-_PART = re.compile(r'[A-Z][A-Z0-9_]+:"?(?P<file>.+?)"?(:[^:\\/]*)?$')
-_DESCRIPTION = 1 << 20
 # What bands of pictures hold, in the words of GDAL.
 _COLOURS = "red", "green", "blue", "palette"
 
@@ -111,7 +104,7 @@ def check_cells(
     rows: int,
     cell_metres: float,
     covered: Callable[[], float],  # returns the share of the cells with points near
-    most: int = _MOST_CELLS,
+    most: int = MOST_CELLS,
 ) -> None:
     """Refuse a raster that would have too many cells, or nearly all of them without points."""
     cells = columns * rows
@@ -165,12 +158,6 @@ class Raster(NamedTuple):
         return math.hypot(a, c) * unit, math.hypot(b, d) * unit
 
 
-# First column and row, and numbers of columns and rows.
-Window = tuple[int, int, int, int]
-# Reads what a file says of itself, but none of its cells.
-NO_CELLS: Window = (0, 0, 0, 0)
-
-
 def read_raster(
     source: str | Path,
     band: int = 1,
@@ -206,30 +193,6 @@ def read_raster(
         source,
         band,
     )
-
-
-class Content(NamedTuple):
-    """Cells of a band, and what the file says of them: `shape` is that of the whole file, `colour`
-    what the band holds in a picture of bytes.
-    """
-
-    values: np.ndarray
-    valid: np.ndarray
-    geotransform: tuple[float, ...]
-    wkt: str
-    unit: str
-    scale: float
-    offset: float
-    shape: tuple[int, int]
-    description: str
-    colour: str
-
-
-def read_content(source: str | Path, band: int = 1, window: Window | None = None) -> Content:
-    """Read a band as it is; arguments and errors are as for `read_raster`, but the CRS is any."""
-    read = library(_read_with_gdal, _read_with_rasterio, "Reading")
-    _check_local(str(source))
-    return read(str(source), band, window)
 
 
 def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) -> Frame:
@@ -295,101 +258,4 @@ def _require_measurable(source: str | Path, content: Content) -> None:
         raise BareEarthError(
             f"{source} is in a Mercator projection, in which {wrong}. Reproject it first: in QGIS"
             " with 'Warp (reproject)', elsewhere with 'gdalwarp -t_srs EPSG:... INPUT OUTPUT'."
-        )
-
-
-def _check_local(source: str) -> None:
-    """Refuse a URL, and files such as VRT that contain one, since GDAL would fetch it."""
-    if any("\ud800" <= character <= "\udfff" for character in source):
-        raise BareEarthError(f"The name of {source} is not UTF-8, which GDAL needs. Rename it.")
-    part = _PART.match(source)
-    path = Path(source if os.path.exists(source) or part is None else part["file"])
-    is_remote = _REMOTE.search(source) is not None
-    if not is_remote and path.is_file():
-        with open(path, "rb") as file:
-            # Rasters are binary; descriptions of rasters for GDAL are XML or JSON.
-            start = file.read(_DESCRIPTION)
-        text = start.decode("utf-8", "replace")
-        is_description = text.lstrip("\ufeff \t\r\n")[:1] in ("<", "{")
-        is_remote = is_description and _REMOTE.search(text) is not None
-    if is_remote:
-        raise BareEarthError(
-            f"{source} is not on this computer, or refers to files that are not. Download it first."
-        )
-    if not path.exists():
-        raise BareEarthError(f"Cannot read {source}: it does not exist. Check the path.")
-
-
-def _read_with_gdal(source: str, band: int, window: Window | None) -> Content:
-    from osgeo import gdal
-
-    with GdalErrors(gdal, "read") as errors:
-        dataset = gdal.Open(source, gdal.GA_ReadOnly)
-        errors.check(source)
-        if dataset is None:
-            raise BareEarthError(f"Cannot read {source}: it is not a raster that GDAL can read.")
-        shape = dataset.RasterYSize, dataset.RasterXSize
-        _check_size(source, band, dataset.RasterCount, shape, window)
-        layer, part = dataset.GetRasterBand(band), window or (0, 0, *shape[::-1])
-        values, valid = np.zeros((0, 0)), np.zeros((0, 0), dtype=bool)
-        if part != NO_CELLS:
-            values = layer.ReadAsArray(*part)
-            errors.check(source)
-            valid = layer.GetMaskBand().ReadAsArray(*part) != 0
-            errors.check(source)
-        scale, offset = layer.GetScale(), layer.GetOffset()
-        return Content(
-            values,
-            valid,
-            tuple(dataset.GetGeoTransform()),
-            dataset.GetProjection(),
-            layer.GetUnitType() or "",
-            1.0 if scale is None else scale,
-            0.0 if offset is None else offset,
-            shape,
-            layer.GetDescription() or "",
-            gdal.GetColorInterpretationName(layer.GetColorInterpretation())
-            if layer.DataType == gdal.GDT_Byte
-            else "",
-        )
-
-
-def _read_with_rasterio(source: str, band: int, window: Window | None) -> Content:
-    import rasterio
-    import rasterio.windows
-    from rasterio.errors import RasterioError
-
-    try:
-        with rasterio.open(source) as dataset:
-            _check_size(source, band, dataset.count, dataset.shape, window)
-            part = None if window is None else rasterio.windows.Window(*window)
-            values, valid = np.zeros((0, 0)), np.zeros((0, 0), dtype=bool)
-            if window != NO_CELLS:
-                values = dataset.read(band, window=part)
-                valid = dataset.read_masks(band, window=part) != 0
-            return Content(
-                values,
-                valid,
-                dataset.transform.to_gdal(),
-                dataset.crs.to_wkt() if dataset.crs else "",
-                dataset.units[band - 1] or "",
-                dataset.scales[band - 1],
-                dataset.offsets[band - 1],
-                dataset.shape,
-                dataset.descriptions[band - 1] or "",
-                dataset.colorinterp[band - 1].name if dataset.dtypes[band - 1] == "uint8" else "",
-            )
-    except RasterioError as error:
-        raise BareEarthError(f"Cannot read {source}: {str(error).rstrip('.')}.") from error
-
-
-def _check_size(
-    source: str, band: int, bands: int, shape: tuple[int, int], window: Window | None
-) -> None:
-    if band > bands:
-        raise BareEarthError(f"{source} has no band {band}: it has {bands}.")
-    if window is None and shape[0] * shape[1] > _MOST_CELLS:
-        raise BareEarthError(
-            f"{source} has {shape[1]:,} x {shape[0]:,} cells, too many to be held in memory. Cut"
-            " it into parts that overlap."
         )

@@ -16,7 +16,8 @@ from ..crs.wkt import read_wkt
 from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
 from ..grids.morphology import within_square
-from ..rasters.geotiff import NO_CELLS, Raster, read_raster
+from ..rasters.content import NO_CELLS
+from ..rasters.geotiff import Raster, read_raster
 from ..survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from .declaration import FileTool, Input, Output
 

@@ -11,7 +11,8 @@ import numpy as np
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.progress import SILENT, Progress
 from ..core.threads import available_cpus, may_use
-from ..rasters.geotiff import NO_CELLS, NODATA, Raster, read_raster
+from ..rasters.content import NO_CELLS
+from ..rasters.geotiff import NODATA, Raster, read_raster
 from ..rasters.writing import Rows, write_geotiff
 from .declaration import RASTER, TERRAIN, FileTool, Input, Output
 from .rasters.parameters import MapTerrain, TerrainModel
