@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import os
 import re
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import Callable, Iterator, NamedTuple, Union
 
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..core.progress import Progress
 from .libraries import GdalErrors, library
+from .undeclared import Undeclared, suspects, undeclared_in
 
 MOST_CELLS = 400_000_000
 # Names that GDAL would fetch from another computer, and names of parts of a file.
@@ -21,6 +25,11 @@ _DESCRIPTION = 1 << 20
 Window = tuple[int, int, int, int]
 # Reads what a file says of itself, but none of its cells.
 NO_CELLS: Window = (0, 0, 0, 0)
+# Cells of a raster that are looked through together.
+_CELLS = 4_000_000
+# What is known of the last files in which a usual value for no data was met.
+_FOUND: dict[tuple[object, ...], Undeclared] = {}
+_MOST_FOUND = 64
 
 
 class Content(NamedTuple):
@@ -40,11 +49,79 @@ class Content(NamedTuple):
     colour: str
 
 
-def read_content(source: str | Path, band: int = 1, window: Window | None = None) -> Content:
-    """Read a band as it is; arguments and errors are as for `read_raster`, but the CRS is any."""
-    read = library(_read_with_gdal, _read_with_rasterio, "Reading")
+@dataclass(frozen=True, eq=False)
+class MemoryRaster:
+    """A raster in memory, in the place of a file: every tool reads it as one."""
+
+    content: Content  # its values are (bands, rows, columns)
+    name: str
+    undeclared: Undeclared  # which `valid` leaves out
+
+    @classmethod
+    def of(cls, content: Content, name: str) -> MemoryRaster:
+        """Return a raster, without the cells whose value is no data that is not declared."""
+        found = undeclared_in(zip(content.values, content.valid))
+        valid = content.valid & ~found.among(content.values) if found.counts else content.valid
+        return cls(content._replace(valid=valid), name, found)
+
+    def __str__(self) -> str:
+        """Return the name, for messages."""
+        return self.name
+
+    def read(self, band: int, window: Window | None) -> Content:
+        """Return a band as that of a file."""
+        content = self.content
+        _check_size(self.name, band, len(content.values), content.shape, window)
+        column, row, columns, rows = window or (0, 0, *content.shape[::-1])
+        part = band - 1, slice(row, row + rows), slice(column, column + columns)
+        return content._replace(values=content.values[part], valid=content.valid[part])
+
+
+Source = Union[str, Path, MemoryRaster]
+
+
+def read_content(source: Source, band: int = 1, window: Window | None = None) -> Content:
+    """Read a band as it is, but that cells are not valid whose value is no data, declared or not;
+    arguments and errors are as for `read_raster`, but the CRS is any.
+    """
+    if isinstance(source, MemoryRaster):
+        return source.read(band, window)
+    read = partial(library(_read_with_gdal, _read_with_rasterio, "Reading"), str(source), band)
     _check_local(str(source))
-    return read(str(source), band, window)
+    content: Content = read(window)
+    if suspects(content.values, content.valid).any():
+        key = _key(source, band)
+        if key not in _FOUND:
+            while len(_FOUND) >= _MOST_FOUND:
+                _FOUND.pop(next(iter(_FOUND)), None)
+            _FOUND[key] = undeclared_in(_parts(read, content.shape))
+        content.valid[_FOUND[key].among(content.values)] = False
+    return content
+
+
+def tell_of_undeclared(source: Source, band: int, progress: Progress) -> None:
+    """Warn of values that were met in a raster, and are no terrain."""
+    is_file = not isinstance(source, MemoryRaster)
+    found = _FOUND.get(_key(source, band)) if is_file else source.undeclared
+    if found and found.counts:
+        progress.warning(found.text(source))
+
+
+def _key(source: Source, band: int) -> tuple[object, ...]:
+    """Return what a file is known by until it changes."""
+    state = os.stat(str(source)) if os.path.exists(str(source)) else None
+    return str(source), band, state and (state.st_size, state.st_mtime_ns)
+
+
+def _parts(
+    read: Callable[[Window], Content], shape: tuple[int, int]
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield the cells of a whole raster, some rows at a time, and which of them are valid."""
+    rows, columns = shape
+    step = max(_CELLS // columns, 1)
+    for start in range(0, rows, step):
+        content = read((0, start, columns, min(step, rows - start)))
+        yield content.values, content.valid
 
 
 def _check_local(source: str) -> None:

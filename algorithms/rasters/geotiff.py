@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Callable, NamedTuple
 
 import numpy as np
@@ -18,7 +17,7 @@ from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.system import crs_of_wkt, same_unit, unit_name, unit_symbol
 from ..crs.unit_names import unit_in
 from ..crs.wkt import read_wkt
-from .content import MOST_CELLS, Content, Window, read_content
+from .content import MOST_CELLS, Content, Source, Window, read_content, tell_of_undeclared
 
 NODATA = -9999.0
 # In a raster with more cells, points must cover at least this share, as squares of 1 km or blocks.
@@ -135,7 +134,7 @@ class Raster(NamedTuple):
     unit: str = ""  # of the band; empty if it states none
     whole: tuple[int, int] = (0, 0)  # rows and columns of the file, if only some cells were read
     states_unit: bool = False  # whether band, description or CRS state the unit of the heights
-    source: str | Path = ""
+    source: Source = ""
     band: int = 1
 
     def rows(self, start: int, end: int) -> np.ndarray:
@@ -143,6 +142,10 @@ class Raster(NamedTuple):
         (rows, columns), first = self.whole, max(start, 0)
         window = 0, first, columns, min(end, rows) - first
         return read_raster(self.source, self.band, window=window).heights
+
+    def tell(self, progress: Progress) -> None:
+        """Warn, when the cells have been read, of those that hold no terrain."""
+        tell_of_undeclared(self.source, self.band, progress)
 
     @property
     def unit_symbol(self) -> str:
@@ -159,7 +162,7 @@ class Raster(NamedTuple):
 
 
 def read_raster(
-    source: str | Path,
+    source: Source,
     band: int = 1,
     progress: Progress = SILENT,
     window: Window | None = None,
@@ -178,9 +181,10 @@ def read_raster(
         )
     if values.dtype.kind not in "iuf":
         raise BareEarthError(f"Cannot read {source}: its cells hold {values.dtype}, not heights.")
-    heights = values.astype(np.float32)
     if (content.scale, content.offset) != (1.0, 0.0):
-        heights = (values * content.scale + content.offset).astype(np.float32)
+        values = values * content.scale + content.offset
+    with np.errstate(over="ignore"):  # of cells that are not valid
+        heights = values.astype(np.float32)
     heights[~(valid & np.isfinite(values))] = np.nan
     frame = frame_of(source, content, progress)
     return Raster(
@@ -195,7 +199,7 @@ def read_raster(
     )
 
 
-def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) -> Frame:
+def frame_of(source: Source, content: Content, progress: Progress = SILENT) -> Frame:
     """Return a frame with the units of the band and the CRS, or metres if none are stated."""
     facts = read_wkt(content.wkt) if content.wkt else None
     _require_measurable(source, content)
@@ -226,7 +230,7 @@ def frame_of(source: str | Path, content: Content, progress: Progress = SILENT) 
 
 
 def tell_of_units(
-    source: str | Path, used: float | None, of_crs: float | None, progress: Progress
+    source: Source, used: float | None, of_crs: float | None, progress: Progress
 ) -> None:
     """Warn if the CRS states another unit of heights than the one that is used."""
     if used and of_crs and not same_unit(used, of_crs):
@@ -247,7 +251,7 @@ def stated_units(content: Content) -> tuple[float | None, float | None]:
     return of_band, of_crs
 
 
-def _require_measurable(source: str | Path, content: Content) -> None:
+def _require_measurable(source: Source, content: Content) -> None:
     """Refuse Web Mercator and its kin where lengths are far too long."""
     crs = crs_of_wkt(content.wkt) if content.wkt else None
     west, a, b, north, c, d = content.geotransform

@@ -14,6 +14,7 @@ from ..core.progress import SILENT, Progress
 from ..crs.matching import described, is_other_datum, is_same_map
 from ..crs.system import Crs, crs_of_wkt, same_unit, unit_name
 from ..crs.wkt import read_wkt
+from .content import MemoryRaster, Source, tell_of_undeclared
 from .geotiff import read_raster, tell_of_units
 
 # Cells along a side of the squares that are read, and how many of these stay in memory.
@@ -31,7 +32,7 @@ _STATE_IT = (
 class HeightRaster:
     """A raster of heights, such as a terrain model, that need not fit into memory."""
 
-    path: str  # the file, or a part of one as GDAL names it
+    path: str | MemoryRaster  # the file, or a part of one as GDAL names it
     # Size and time of the last change of the file, so that a changed file is noticed
     state: tuple[int, ...]
     shape: tuple[int, int]  # rows and columns
@@ -43,13 +44,15 @@ class HeightRaster:
     states_unit: bool  # whether it states the unit of the heights
 
     @classmethod
-    def of(cls, source: str | Path, progress: Progress = SILENT) -> HeightRaster:
+    def of(cls, source: Source, progress: Progress = SILENT) -> HeightRaster:
         """Return a raster, of which only one cell is read."""
         first = read_raster(source, progress=progress, window=(0, 0, 1, 1))
-        path, wkt = Path(source), first.frame.wkt
-        state = path.stat() if path.exists() else None
-        stamp = () if state is None else (state.st_size, state.st_mtime_ns)
-        name = str(path.absolute()) if path.exists() else str(source)
+        wkt, name, stamp = first.frame.wkt, source, ()
+        if not isinstance(source, MemoryRaster):
+            path = Path(source)
+            state = path.stat() if path.exists() else None
+            stamp = () if state is None else (state.st_size, state.st_mtime_ns)
+            name = str(path.absolute()) if path.exists() else str(source)
         crs = crs_of_wkt(wkt) if wkt else None
         unit = first.frame.vertical_unit if first.states_unit or crs else None
         return cls(name, stamp, first.whole, first.geotransform, crs, unit, first.states_unit)
@@ -67,6 +70,7 @@ class HeightRaster:
     def tell(self, crs: Crs, progress: Progress) -> None:
         """Warn if heights of points in a CRS may not fit to those of the raster."""
         facts = read_wkt(self.crs.wkt) if self.crs and self.crs.wkt else None
+        tell_of_undeclared(self.path, 1, progress)
         tell_of_units(self.path, self.unit, facts and facts.vertical_unit, progress)
         if self.unit and not self.states_unit and not same_unit(self.unit, crs.vertical_unit):
             progress.warning(

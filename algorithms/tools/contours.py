@@ -127,6 +127,7 @@ def contours_of(
 ) -> tuple[Interval, Layer, Iterator[Feature]]:
     """Return the contour lines of a raster."""
     low, high = _range_of(raster, progress.part(0.0, 0.2))
+    raster.tell(progress)
     height = contours.interval(low, high, raster.frame.vertical_unit)
     interval = Interval(height, raster.unit_symbol)
     if (high - low) / height > _MOST_LEVELS:

@@ -85,6 +85,7 @@ def remove_objects_file(
     """
     # An error says if the raster has no heights, or its CRS is geographic.
     raster = read_raster(source, parameters.band, progress)
+    raster.tell(progress)
     progress(0.1)
     known = ~np.isnan(raster.heights)
     if not known.any():

@@ -83,6 +83,7 @@ def draw_reliefs(
         rows = Rows(raster.whole, row.kind, strips, row.bands)
         with may_use(available_cpus()):
             write_geotiff(path, rows, raster, nodata, part, row.shows)
+    raster.tell(progress)
 
 
 def files_of(output: Path, sets: Sequence[ParameterSet]) -> dict[str, Path]:
