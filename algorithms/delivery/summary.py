@@ -45,6 +45,12 @@ class DeliverySummary:
         share = self.ground_count / max(self.point_count, 1)
         return f"{self.ground_count:,} of {self.point_count:,} points are ground ({share:.1%})."
 
+    @property
+    def verdict(self) -> str:
+        """What was found at checkpoints, and compared with the specification of the delivery."""
+        found = [part.verdict for part in (self.check, self.quality) if part is not None]
+        return " ".join(f"{text.rstrip('.')}." for text in found if text)
+
     def rows(self) -> list[tuple[str, str]]:
         """Return titles and values of the figures that matter most, as text."""
         classes = ", ".join(f"{value}: {count:,}" for value, count in self.class_counts.items())
@@ -52,11 +58,8 @@ class DeliverySummary:
         if self.water is not None:
             rows.append(("water", self.water.text))
         rows += self.accuracy()
-        if self.quality is not None and self.quality.comparison:
-            lines, left = self.quality.comparison, self.quality.left
-            names = ", ".join(f"{line.name} ({line.state})" for line in left)
-            passed = f"{len(lines) - len(left)} of {len(lines)} pass"
-            rows.append(("comparisons", f"{passed}; not: {names}" if left else passed))
+        if self.quality is not None and self.quality.verdict:
+            rows.append(("comparisons", self.quality.verdict))
         return [*rows, ("cell size", self.cell_text), ("page", self.page)]
 
     def accuracy(self) -> list[tuple[str, str]]:

@@ -139,4 +139,5 @@ TOOL = Composition(
     ),
     dialog_outputs=_in_dialog,
     numbers=(("POINT_COUNT", "Points"), ("GROUND_COUNT", "Ground points")),
+    texts=(("VERDICT", "Verdict"),),
 )  # fmt: skip

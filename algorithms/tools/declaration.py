@@ -159,6 +159,7 @@ class Tool:
     # Outputs that are numbers: their names, in lower case those of fields of the summary, and
     # labels.
     numbers: tuple[tuple[str, str], ...] = ()
+    texts: tuple[tuple[str, str], ...] = ()  # outputs that are sentences, named in the same way
     inputs: tuple[Input, ...] = ()
     titles: tuple[str, ...] = ()  # of the sets, in the help of the command
     list_name: str = "classified.vpc"  # of the virtual point cloud of many written files

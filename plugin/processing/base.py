@@ -13,7 +13,6 @@ from qgis.core import (
     QgsProcessingException,
     QgsProcessingFeedback,
     QgsProcessingOutputDefinition,
-    QgsProcessingOutputNumber,
     QgsProcessingParameterDefinition,
 )
 from qgis.PyQt.QtGui import QIcon
@@ -33,7 +32,7 @@ from ..styles.stage import Stage
 from .area import check_area_only
 from .feedback import FeedbackProgress, Refusal, tell_error_once, tell_of_unknown
 from .fields import field_of, parameters_of
-from .inputs import CloudCrs
+from .inputs import CloudCrs, remember_origin
 from .output_checks import check_outputs
 from .outputs import NOTHING_STAYS, do_not_load, is_blank, places_of
 from .presets import presets_of
@@ -148,11 +147,6 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def _is_shown(self, declaration: Declaration) -> bool:
         return not declaration.advanced if self.shown is None else declaration.name in self.shown
-
-    def add_numbers(self, numbers: Mapping[str, str]) -> None:
-        """Add outputs that are numbers, given their names and labels."""
-        for name, label in numbers.items():
-            self.addOutput(QgsProcessingOutputNumber(name, label))
 
     def point_cloud_destination(
         self, parameters: dict[str, Any], name: str, context: QgsProcessingContext
@@ -322,6 +316,12 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             crs = crs_of_text(self.stated)
             looks = {path: layers.in_crs(look, crs) for path, look in looks.items()}
         subject = self.subject or tr(self.title)
+        for path, label in labels.items():
+            remember_origin(path, subject)
+            if path not in looks and context.willLoadLayerOnCompletion(path):
+                details = context.layerToLoadOnCompletionDetails(path)
+                if details.name in ("", label):  # else it is named by a model
+                    details.name, details.forceName = f"{subject}: {label}", True
         origin = Origin.of(self.displayName(), self._settings, commands)
         layers.arrange(context, looks, labels, subject, self._stage, origin)
 

@@ -131,8 +131,13 @@ class CompositionAlgorithm(ToolAlgorithm):
             compat.load_point_cloud(done.cloud, context)
         shown = done.cloud, done.class_counts, chosen, done.cell_size
         self._show_cloud(*shown, context, progress)
+        # The files have the names of the outputs that are chosen without a delivery.
+        made = {"OUTPUT": done.cloud, **{name.upper(): file for name, file in done.layers.items()}}
+        fields = {output.field_name for output in self._outputs}
+        results = {name: file for name, file in made.items() if name in fields}
+        results.update({"VERDICT": done.verdict} if done.verdict else {})
         return {
-            FOLDER: folder, "PAGE": done.page,
+            **results, FOLDER: folder, "PAGE": done.page,
             "POINT_COUNT": done.point_count, "GROUND_COUNT": done.ground_count,
         }  # fmt: skip
 

@@ -69,6 +69,8 @@ _SURVEY_HELP = (
     " file (.txt) with one path in each line. May stay empty if a folder is given."
     f"{ALSO_REMOTE}"
 )
+# Names of the inputs of runs, by their temporary outputs.
+_ORIGINS: dict[Path, str] = {}
 _NOWHERE = mark("{} does not exist. Check the path.")
 # Help of other fields.
 CLOUD_HELP = f"A point cloud layer, or a .las, .laz or .copc.laz file.{ALSO_REMOTE}"
@@ -209,8 +211,18 @@ def survey_of(
 
 
 def name_of(source: Path | Remote) -> str:
-    """Return the name of a file or folder without the ending for its format, or of a layer."""
-    return source.name if isinstance(source, Remote) else split_name(source)[0]
+    """Return the name of a file or folder without the ending for its format, or of a layer; of a
+    temporary output, that of the input of its run.
+    """
+    if isinstance(source, Remote):
+        return source.name
+    return _ORIGINS.get(source) or split_name(source)[0]
+
+
+def remember_origin(output: str, name: str) -> None:
+    """Remember the input of a run for its output if this is temporary, and named after its field."""
+    if Path(QgsProcessingUtils.tempFolder()) in Path(output).parents:
+        _ORIGINS[Path(output)] = name
 
 
 def names_of(sources: Sequence[Path | Remote]) -> str:

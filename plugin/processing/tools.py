@@ -8,7 +8,9 @@ from typing import Any
 from qgis.core import (
     QgsProcessingContext,
     QgsProcessingOutputHtml,
+    QgsProcessingOutputNumber,
     QgsProcessingOutputRasterLayer,
+    QgsProcessingOutputString,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterFileDestination,
     QgsProcessingParameterFolderDestination,
@@ -110,7 +112,10 @@ class ToolAlgorithm(BareEarthAlgorithm):
                 self.addOutput(QgsProcessingOutputRasterLayer(name.upper(), label))
             if output.page:
                 self.addOutput(QgsProcessingOutputHtml("PAGE", output.page))
-        self.add_numbers(dict(self._tool.numbers))
+        for name, label in self._tool.numbers:
+            self.addOutput(QgsProcessingOutputNumber(name, label))
+        for name, label in self._tool.texts:
+            self.addOutput(QgsProcessingOutputString(name, label))
 
     def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
         """Find the input files."""
@@ -324,10 +329,15 @@ class FileToolAlgorithm(ToolAlgorithm):
             if path := outputs[output.name]:
                 results[output.field_name] = path
                 results.update(self._shown(output, Path(path), chosen, found, context))
-        results.update((name, getattr(found, name.lower())) for name, _ in self._tool.numbers)
-        # Figures that could not be measured are None, or NaN, which differs from itself.
-        measured = (name for name, value in results.items() if value is not None and value == value)
-        return {name: results[name] for name in measured}
+        told = (*self._tool.numbers, *self._tool.texts)
+        results.update((name, getattr(found, name.lower())) for name, _ in told)
+        # Figures that could not be measured are None, or NaN, which differs from itself, and a
+        # verdict that is not given is empty.
+        return {
+            name: int(value) if isinstance(value, bool) else value
+            for name, value in results.items()
+            if value is not None and value == value and value != ""
+        }
 
     def _shown(
         self,

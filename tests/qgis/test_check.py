@@ -76,6 +76,7 @@ def test_run_with_a_table(registry, cloud, table, rows, tmp_path, context, log):
     assert results["CHECKPOINT_COUNT"] == len(rows) and results["COUNTED"] == len(rows) - 1
     assert results["NVA_RMSE"] == pytest.approx(0.05, abs=0.01)
     assert results["VVA_RMSE"] == pytest.approx(0.05, abs=0.01)
+    assert results["MEETS_CLASS"] == 1 and "meet the class of 0.1 m" in results["VERDICT"]
     assert results["SHIFT"] == pytest.approx(0.05, abs=0.01) and "HOLD_OUT_RMSE" not in results
     layer = QgsVectorLayer(results["OUTPUT"], "errors")
     assert layer.isValid() and layer.featureCount() == len(rows)

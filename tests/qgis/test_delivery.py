@@ -114,7 +114,11 @@ def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
     assert results["DELIVERY_FOLDER"] == str(folder) and results["PAGE"] == str(
         folder / "index.html"
     )
-    assert results["POINT_COUNT"] == scene.count and "DTM" not in results
+    assert results["POINT_COUNT"] == scene.count
+    # What a model can give to its next step.
+    assert Path(results["DTM"]).parent == Path(results["CONTOURS"]).parent
+    for name in ("OUTPUT", "DTM", "DSM", "HILLSHADE", "CONFIDENCE", "CONTOURS"):
+        assert folder in Path(results[name]).parents and Path(results[name]).is_file(), name
     (group,) = root.findGroups()
     assert group.name() == "scene: Flood model"
     names = [node.name() for node in group.findLayers()]
@@ -181,7 +185,7 @@ def test_what_cannot_be_delivered_is_refused(deliver, tmp_path):
 def test_outputs_of_ones_own_are_not_made_beside_a_delivery(deliver, tmp_path):
     own = QgsProcessingOutputLayerDefinition(str(tmp_path / "own.tif"), QgsProject.instance())
     results, _, _ = deliver("drone-site", DTM=own)
-    assert "DTM" not in results and not (tmp_path / "own.tif").exists()
+    assert results["DTM"].endswith("dtm.tif") and not (tmp_path / "own.tif").exists()
 
 
 def test_a_cancel_leaves_nothing(scene, tmp_path):

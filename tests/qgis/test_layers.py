@@ -2,6 +2,7 @@
 
 import json
 import time
+from pathlib import Path
 
 import laspy
 import numpy as np
@@ -243,3 +244,18 @@ def test_birds_do_not_make_the_colours_of_heights_pale(output_as, scene, context
     renderer = next(iter(QgsProject.instance().mapLayers().values())).renderer()
     # The flat roof is 7.5 to 11 m above the tilted ground.
     assert highest > 30.0 and 7.5 < renderer.maximum() <= 11.5
+
+
+def test_layers_of_a_temporary_cloud_are_named_after_its_input(scene, tmp_path):
+    import processing
+
+    project, context = QgsProject.instance(), QgsProcessingContext()
+    context.setProject(project)
+    temporary = {"OUTPUT": "TEMPORARY_OUTPUT"}
+    values = {"INPUT": str(scene.path), **temporary}
+    cloud = processing.run(ALGORITHM, values, context=context)["OUTPUT"]
+    assert Path(cloud).name.startswith("OUTPUT.")
+    values = {"INPUT": cloud, "DTM": "TEMPORARY_OUTPUT"}
+    processing.runAndLoadResults("bareearth:terrainmodel", values, context=context)
+    assert [layer.name() for layer in project.mapLayers().values()] == ["scene: Terrain model"]
+    project.clear()

@@ -182,6 +182,7 @@ OUTPUTS = {
         "CONTOURS",
         "POINT_COUNT",
         "GROUND_COUNT",
+        "VERDICT",
     ],
     "bareearth:heightaboveground": [
         "OUTPUT",
@@ -230,8 +231,18 @@ OUTPUTS = {
         "VVA_RMSE",
         "SHIFT",
         "HOLD_OUT_RMSE",
+        "MEETS_CLASS",
+        "VERDICT",
     ],
-    "bareearth:quality": ["PAGE", "FOLDER", "PULSE_DENSITY", "GROUND_DENSITY", "STRIP_RMS"],
+    "bareearth:quality": [
+        "PAGE",
+        "FOLDER",
+        "PULSE_DENSITY",
+        "GROUND_DENSITY",
+        "STRIP_RMS",
+        "MEETS_SPECIFICATION",
+        "VERDICT",
+    ],
     "bareearth:relief": [
         "OUTPUT_FOLDER",
         "HILLSHADE",

@@ -32,6 +32,9 @@ def test_run_with_page_and_rasters(registry, cloud, tmp_path, context, log):
     assert "Lidar Base Specification, QL2" in page.read_text(encoding="utf-8")
     assert len(list(folder.glob("*.tif"))) == 7
     assert "--specification lbs-ql2" in log.text
+    assert " pass; not: " in results["VERDICT"] and results.get("MEETS_SPECIFICATION") != 1
+    results, ok = algorithm.create().run({"INPUT": str(cloud)}, context, log)
+    assert ok and "VERDICT" not in results and "MEETS_SPECIFICATION" not in results
 
 
 def test_a_page_that_is_no_page_is_refused(registry, cloud, tmp_path, context):

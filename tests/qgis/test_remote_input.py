@@ -8,6 +8,7 @@ from qgis.core import (
     QgsCoordinateTransform,
     QgsPointCloudLayer,
     QgsProcessingContext,
+    QgsProcessingOutputLayerDefinition,
     QgsProject,
     QgsProviderRegistry,
     QgsRectangle,
@@ -77,6 +78,19 @@ def test_part_of_an_address_is_downloaded(address, corner, tmp_path, log):
     assert results["POINT_COUNT"] == count == count_of(target)
     assert "Downloads " in log.text and " requests" in log.text
     assert "bare-earth fetch http://127.0.0.1" in log.text and "SECRET" not in log.text
+
+
+@needs_copc
+def test_the_layer_of_a_download_has_the_name_of_its_source(address, corner):
+    import processing
+
+    project, context, (box, _) = QgsProject.instance(), QgsProcessingContext(), corner
+    context.setProject(project)
+    target = QgsProcessingOutputLayerDefinition("TEMPORARY_OUTPUT", project)
+    values = {"ADDRESS": address, "EXTENT": extent(box), "OUTPUT": target}
+    processing.run(FETCH, values, context=context)
+    names = [details.name for details in context.layersToLoadOnCompletion().values()]
+    assert names == ["c: Downloaded point cloud"]
 
 
 def test_an_extent_in_another_crs_is_transformed(address, cloud, corner, tmp_path, log):

@@ -255,7 +255,9 @@ TOOL = FileTool(
         ("CHECKPOINT_COUNT", "Checkpoints"), ("COUNTED", "Counted checkpoints"),
         ("NVA_RMSE", "RMSE without vegetation [m]"), ("VVA_RMSE", "RMSE with vegetation [m]"),
         ("SHIFT", "Mean difference [m]"), ("HOLD_OUT_RMSE", "RMSE of held-out points [m]"),
+        ("MEETS_CLASS", "Meets the accuracy class (1 or 0)"),
     ),
+    texts=(("VERDICT", "Verdict"),),
     json="the figures",
     command="check",
     command_about="Compares the TIN of the ground points, and a terrain model, with checkpoints:"

@@ -171,5 +171,7 @@ TOOL = FileTool(
         ("PULSE_DENSITY", "First returns per m²"),
         ("GROUND_DENSITY", "Ground points per m²"),
         ("STRIP_RMS", "Differences between strips [m]"),
+        ("MEETS_SPECIFICATION", "Meets the specification (1 or 0)"),
     ),
+    texts=(("VERDICT", "Verdict"),),
 )

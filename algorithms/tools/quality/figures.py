@@ -70,6 +70,20 @@ class Quality:
         return None if self.left else True
 
     @property
+    def meets_specification(self) -> bool | None:
+        """The same; None also if there is no specification to compare with."""
+        return self.passes if self.comparison else None
+
+    @property
+    def verdict(self) -> str:
+        """How many comparisons pass, and which do not; empty without a specification."""
+        if not self.comparison:
+            return ""
+        passed = f"{len(self.comparison) - len(self.left)} of {len(self.comparison)} pass"
+        names = ", ".join(f"{line.name} ({line.state})" for line in self.left)
+        return f"{passed}; not: {names}" if names else passed
+
+    @property
     def left(self) -> list[Line]:
         """The comparisons that fail, and those that a person must look at."""
         return [line for line in self.comparison if line.state != PASS]
