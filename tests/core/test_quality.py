@@ -6,6 +6,7 @@ import os
 import laspy
 import numpy as np
 import pytest
+from quality_by_hand import quality_by_hand
 from runs import CancelAt
 from surveys import heights_of
 
@@ -241,6 +242,90 @@ def test_points_that_are_all_synthetic_count_unless_a_specification_asks_for_pul
     found = measured(path)
     assert found.ground_density == 4.0 and found.synthetic == len(x)
     assert measured(path, specification="lbs-ql2").pulse_density == 0.0
+
+
+# What infilled, virtual and synthetic points say of themselves.
+MADE = {
+    "no return": {"return_number": 0, "number_of_returns": 0, "classification": 2},
+    "no return of one": {"return_number": 0, "classification": 26},
+    "own source": {"classification": 26, "gps_time": 5.0},
+    "own source of virtual points": {"classification": 66, "point_source_id": 7},
+    "source of a strip": {"classification": 66, "point_source_id": 12},
+    "synthetic": {"synthetic": True},
+}
+
+
+def infilled_scene(**made):
+    """Return two strips with a house whose land was infilled, and which points are infilled."""
+    x, y, z, columns = scene()
+    columns["classification"][columns["classification"] == 9] = 2
+    strip = np.where(x + np.random.default_rng(4).uniform(-12, 12, len(x)) < 50, 11, 12)
+    house = (np.abs(x - 55) < 6) & (np.abs(y - 45) < 6)
+    here = np.flatnonzero(house)
+    which = np.concatenate((np.flatnonzero(~house), here))
+    is_made = np.arange(len(which)) >= len(which) - len(here)
+    columns = {name: values[which] for name, values in columns.items()}
+    columns.update(point_source_id=strip[which], gps_time=np.where(is_made, 0.0, 1.0 + which))
+    z = z[which] - 3.0 * is_made
+    columns.update(return_number=1, number_of_returns=1, synthetic=False)
+    for name, value in {"point_source_id": 0, **made}.items():
+        columns[name] = np.where(is_made, value, columns[name])
+    columns = {name: np.broadcast_to(values, is_made.shape) for name, values in columns.items()}
+    return x[which], y[which], z, columns, is_made
+
+
+@pytest.mark.parametrize("kind", MADE)
+def test_points_that_were_made_are_neither_pulses_nor_strips_and_are_told(tmp_path, kind):
+    x, y, z, columns, is_made = infilled_scene(**MADE[kind])
+    path = write(tmp_path / "in.laz", x, y, z, **columns)
+    left = {name: values[~is_made] for name, values in columns.items()}
+    without = write(tmp_path / "out.laz", x[~is_made], y[~is_made], z[~is_made], **left)
+    found, right = (measured(some, specification="lbs-ql1") for some in (path, without))
+    assert found.strips == right.strips == [11, 12]
+    assert found.infilled + found.synthetic == is_made.sum() and right.infilled == 0
+    assert found.void_count == right.void_count > 100
+    for name in ("pulse_density", "ground_density", "filled_share", "strip_rms", "overlap_share"):
+        assert getattr(found, name) == pytest.approx(getattr(right, name), rel=1e-6)
+    assert f"ed: {is_made.sum():,}" in found.no_pulses or kind == "synthetic"
+
+
+def test_measured_points_of_producers_classes_and_without_any_return_numbers_count(tmp_path):
+    x, y, z, columns = scene()
+    whole = measured(write(tmp_path / "in.laz", x, y, z, **columns))
+    bridge = np.where(np.abs(x - 50) < 5, 26, columns["classification"])
+    times = np.ones(len(x))
+    path = write(tmp_path / "in.laz", x, y, z, **{**columns, "classification": bridge},
+                 gps_time=times)  # fmt: skip
+    assert measured(path).pulse_density == whole.pulse_density
+    zeros = np.zeros(len(x), dtype=int)
+    none = {**columns, "return_number": zeros, "number_of_returns": zeros}
+    path = write(tmp_path / "none.laz", x, y, z, **none)
+    found = measured(path)
+    assert found.infilled == 0 and found.pulse_density == found.point_density > 5
+    # Beside a tile that counts returns, too; but a tile of a lake that was filled is no survey.
+    counts = write(tmp_path / "counts.laz", x + 100, y, z, **columns)
+    assert measured(path, counts).infilled == 0
+    none["classification"] = np.full(len(x), 9)
+    lake = write(tmp_path / "lake.laz", x, y, z, **none)
+    assert measured(lake, counts).infilled == len(x) and measured(lake).infilled == 0
+
+
+def test_all_figures_are_those_of_a_computation_by_hand(tmp_path):
+    x, y, z, columns, is_made = infilled_scene(**MADE["no return"])
+    random = np.random.default_rng(8)
+    z += np.where(columns["point_source_id"] == 12, 0.02 + 0.1 * (y > 60), 0.0)
+    kept = (np.hypot(x - 40, y - 70) > 7) & (random.uniform(size=len(x)) < 0.5)
+    pond = np.hypot(x - 75, y - 70) < 9
+    columns["classification"] = np.where(pond & ~is_made, 9, columns["classification"])
+    columns = {name: values[kept] for name, values in columns.items()}
+    path = write(tmp_path / "in.laz", x[kept], y[kept], z[kept], **columns)
+    las = laspy.read(path)
+    names = ("x", "y", "z", *columns, "withheld")
+    right = quality_by_hand({name: las[name] for name in names}, is_made[kept], 0.35, 8.0)
+    found = measured(path, specification="lbs-ql1").as_dict()
+    assert right["void_count"] > 50 and right["compared"] > 100 and right["strip_largest"] > 0.1
+    for name, value in right.items():
+        assert found[name] == pytest.approx(value, rel=1e-6), name
 
 
 @pytest.mark.parametrize("flag", ["flag", "class 12"])

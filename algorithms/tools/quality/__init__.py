@@ -18,6 +18,7 @@ from ...survey.repeated_points import RepeatedPoints
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, FileTool, Output
 from .cells import Grids, QualityCells, Store
 from .figures import Quality
+from .made_points import MadePoints
 from .measuring import quality_of
 from .page import quality_html
 from .rasters import QUALITY_RASTERS, write_rasters
@@ -99,23 +100,18 @@ def _filled_cells(
     count = max(grid.window.rows * grid.window.columns for grid in (grids.fine, grids.spaced))
     store = Store(work, count, sum(tile.count for tile in survey.tiles))
     repeated = RepeatedPoints(survey.tiles, store.array)
-    from_images = not asked.source and _all_synthetic(survey)
-    if from_images:
+    made = MadePoints(survey, repeated.has_times, progress.part(0.02, 0.05))
+    if made.all_synthetic and not asked.source:
+        made.count_all_synthetic()
         progress.info("All points have the flag synthetic, as those of images do: all are counted.")
-    cells = QualityCells(grids, options.void_distance, store, ground, repeated, from_images)
-    for add, share in ((cells.add, (0.02, 0.4)), (cells.compare, (0.45, 0.8))):
+    cells = QualityCells(grids, options.void_distance, store, ground, repeated, made)
+    for add, share in ((cells.add, (0.05, 0.4)), (cells.compare, (0.45, 0.8))):
         if add == cells.compare:
             cells.make_planes(progress.part(0.4, 0.45))
         for points in survey.parts(progress.part(*share), True, repeated.has_times):
             points.require_projected()
             add(points, frame)
     return cells
-
-
-def _all_synthetic(survey: Survey) -> bool:
-    """Return whether all points have the flag synthetic; mostly the first part of them tells."""
-    parts = survey.parts(strips=True)
-    return all(part.synthetic is not None and part.synthetic.all() for part in parts)
 
 
 TOOL = FileTool(

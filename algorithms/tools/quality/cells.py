@@ -28,9 +28,9 @@ from ...rasters.cell_grid import MOST_CELLS
 from ...survey.ground_classes import GroundClasses
 from ...survey.kept_classes import NOISE, overlapping
 from ...survey.repeated_points import RepeatedPoints
+from .made_points import WATER, MadePoints
 from .planes import WINDOWS, planes
 
-WATER = 9
 # Bits of cells: a first return that counts as a pulse; water; a first return with the flag of
 # overlap; a pulse with several returns.
 PULSE, WET, FLAGGED, ROUGH = 1, 2, 4, 8
@@ -129,14 +129,15 @@ class Counts:
     withheld: int = 0  # excluded by the producer
     shared: int = 0  # that another file holds as well
     duplicates: int = 0  # others that repeat one of their file
-    synthetic: int = 0  # made and not measured
+    synthetic: int = 0  # made and not measured, by their flag
+    infilled: int = 0  # made and not measured, by what else they say
     flagged: int = 0  # of overlap, by the flag, or by class 12 in point formats 0 to 5
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     returns: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     strips: set[int] = field(default_factory=set)  # point source ids
 
-    def add(self, part: PointCloud, used: np.ndarray) -> None:
-        """Count the points of a part, of which some are not withheld."""
+    def add(self, part: PointCloud, used: np.ndarray, is_made: np.ndarray) -> None:
+        """Count the points of a part, of which some are not withheld, and some were made."""
         self.points += part.count
         self.withheld += int(np.count_nonzero(part.withheld))
         if part.synthetic is not None:
@@ -145,7 +146,7 @@ class Counts:
         self.classes += np.bincount(part.classification[used], minlength=256)
         self.returns += np.bincount(part.return_number[used], minlength=256)
         if part.strip is not None:
-            self.strips.update(np.unique(part.strip[used]).tolist())
+            self.strips.update(np.unique(part.strip[used & ~is_made]).tolist())
 
 
 # Slices of rows and of columns.
@@ -165,11 +166,11 @@ class Extent(NamedTuple):
 
 
 class QualityCells:
-    """The cells of a survey; synthetic points count only if all are, as those of images."""
+    """The cells of a survey, without points that were made."""
 
     # points, first, ground_points, low: uint32 (rows, columns), numbers of points, first returns,
     # ground points and points of low vegetation in each cell; rows from south to north, as
-    # everywhere here. Noise, withheld and synthetic points are left out, and points that repeat
+    # everywhere here. Noise, withheld and made points are left out, and points that repeat
     # others. Points of overlap are left out of points and first returns.
     # highest: float32 (rows / 2, columns / 2), height of the highest point in metres that is not
     # withheld, minus infinity for none.
@@ -187,11 +188,11 @@ class QualityCells:
         store: Store,
         ground: GroundClasses,
         repeated: RepeatedPoints,
-        all_synthetic: bool,
+        made: MadePoints,
     ) -> None:
-        self.grids, self._ground, self._repeated = grids, ground, repeated
+        self.grids, self._ground, self._repeated, self._made = grids, ground, repeated, made
         self.void = void  # distance in metres from which on ground is missing
-        self._all_synthetic = all_synthetic
+        self._no_strips = np.zeros(0, dtype=np.uint16)
         self.counts = Counts()
         fine, coarse = grids.fine.window.shape, grids.coarse.window.shape
         make = store.array
@@ -215,17 +216,18 @@ class QualityCells:
 
     def add(self, part: PointCloud, frame: Frame) -> None:
         """Add a part of the points, before the planes are made."""
-        used = ~part.withheld
-        self.counts.add(part, used)
+        used, is_made = ~part.withheld, self._made.made(part)
+        self.counts.add(part, used, is_made)
+        self._made.add(part, used)
         self._repeated.add(part)
         x, y, z = part.points(used, frame)
         place, row, column = self.grids.fine.places(x, y)
         coarse = self._coarse(row, column)
         np.maximum.at(self.highest.reshape(-1), coarse, z.astype(np.float32))
-        is_water = part.classification[used] == WATER
+        is_water = ((part.classification == WATER) & ~is_made)[used]
         _mark(self.marks, coarse[is_water], WET)
         _mark(self.filled, self.grids.spaced.places(x[is_water], y[is_water])[0], WET)
-        real = self._real(part)[used]
+        real = _real(part, is_made)[used]
         if part.strip is not None:
             last = (part.return_number >= part.number_of_returns)[used]
             heights = np.where(last, z, np.inf)[real]
@@ -235,13 +237,6 @@ class QualityCells:
         sums = ((self._x, east), (self._y, north), (self._z, z))
         values = ((cells, value[ground]) for cells, value in sums)
         _add(place[ground], (self._number, None), *values)
-
-    def _real(self, part: PointCloud) -> np.ndarray:
-        """Return which points were measured: neither withheld nor synthetic, and no noise."""
-        real = ~part.withheld & ~np.isin(part.classification, NOISE)
-        if part.synthetic is not None and not self._all_synthetic:
-            real &= ~part.synthetic
-        return real
 
     def _add_strips(self, coarse: np.ndarray, strip: np.ndarray, heights: np.ndarray) -> None:
         """Add strips to the cells of their points, with their lowest points."""
@@ -263,6 +258,7 @@ class QualityCells:
     def make_planes(self, progress: Progress = SILENT) -> None:
         """Make planes of the ground round the cells with points, when all points are added."""
         self._repeated.find()
+        self._leave_out_strips()
         self.counts.shared = self._repeated.shared
         self.counts.duplicates = self._repeated.duplicates
         (rows, columns), size = self.grids.fine.window.shape, self.grids.fine.size
@@ -283,9 +279,21 @@ class QualityCells:
                     array[row + low, column + left] = values
             progress(min(south + _TILE, rows) / rows)
 
+    def _leave_out_strips(self) -> None:
+        """Leave out source ids that only points have that were made."""
+        self._no_strips = self._made.sources()
+        self.counts.strips.difference_update(self._no_strips.tolist())
+        for rows in self.grids.coarse.parts():
+            strips = self.strip[:, rows]
+            strips[np.isin(strips, self._no_strips + 1)] = 0
+
     def compare(self, part: PointCloud, frame: Frame) -> None:
         """Count a part of the points, and compare it with the planes."""
-        used = self._real(part) & ~self._repeated.among(part)
+        is_made = self._made.made(part)
+        if part.strip is not None:
+            is_made |= np.isin(part.strip, self._no_strips)
+        self.counts.infilled += int(np.count_nonzero(is_made & ~part.synthetic & ~part.withheld))
+        used = _real(part, is_made) & ~self._repeated.among(part)
         x, y, z = part.points(used, frame)
         number, flagged = part.return_number[used], overlapping(part)[used]
         place, row, column = self.grids.fine.places(x, y)
@@ -306,7 +314,8 @@ class QualityCells:
             (self.ground_points, ground), (self.low, (above >= LOW[0]) & (above <= LOW[1])),
         )  # fmt: skip
         if part.strip is not None:
-            of = part.number_of_returns[used]
+            # Some files count returns, but do not say of how many.
+            of = np.maximum(part.number_of_returns[used], number)
             _mark(self.marks, coarse[of > 1], ROUGH)
             last = (number >= of) & ~np.isnan(above)
             reach = _NEAR + (np.abs(rise_x) + np.abs(rise_y)) * self.grids.coarse.size
@@ -362,13 +371,17 @@ class QualityCells:
         """Where the survey lies, when all points are compared."""
         from scipy import ndimage
 
-        rows, columns = self.grids.coarse.window.shape
+        window = self.grids.coarse.window
         side = max(round(_SQUARE / self.grids.coarse.size), 1)
+        # Squares are counted from (0, 0), too: the first may begin before the first cell.
+        before = window.row % side, window.column % side
+        margins = [(start, -(start + count) % side) for start, count in zip(before, window.shape)]
+        own = tuple(slice(start, start + count) for start, count in zip(before, window.shape))
 
         def in_squares(values: np.ndarray) -> np.ndarray:
             """Return whether any value in squares of cells is true."""
-            padded = np.pad(values, ((0, -rows % side), (0, -columns % side)))
-            squares = padded.reshape(-(-rows // side), side, -1, side)
+            padded = np.pad(values, margins)
+            squares = padded.reshape(padded.shape[0] // side, side, -1, side)
             return np.logical_or.reduce(squares, axis=(1, 3))
 
         inside = ndimage.binary_fill_holes(in_squares(self._has_points))
@@ -378,7 +391,7 @@ class QualityCells:
             inner = inside
         return Extent(
             *(
-                squares.repeat(side, axis=0).repeat(side, axis=1)[:rows, :columns]
+                squares.repeat(side, axis=0).repeat(side, axis=1)[own]
                 for squares in (inside, inner, inner & ~wet, inner & ~(flagged & ~pulses))
             )
         )
@@ -386,6 +399,11 @@ class QualityCells:
 
 # Makes something of a rectangle of cells.
 Make = Callable[[QualityCells, Rectangle], np.ndarray]
+
+
+def _real(part: PointCloud, is_made: np.ndarray) -> np.ndarray:
+    """Return which points count: neither withheld nor made, and no noise."""
+    return ~(part.withheld | is_made | np.isin(part.classification, NOISE))
 
 
 def _add(place: np.ndarray, *sums: tuple[np.ndarray, np.ndarray | None]) -> None:

@@ -34,7 +34,8 @@ class Quality:
     withheld: int  # excluded by the producer
     shared: int  # points that another file holds as well
     duplicates: int  # points that repeat one of their file
-    synthetic: int  # points that were not measured
+    synthetic: int  # points that were not measured, by their flag
+    infilled: int  # other points that were not measured: infilled and virtual ones
     flagged: int  # points with the flag of overlap
     classes: dict[int, int]
     returns: dict[int, int]
@@ -98,7 +99,8 @@ class Quality:
         """The points and the area that densities leave out, beside withheld points and noise."""
         counts = {
             "shared by files": self.shared, "duplicates": self.duplicates,
-            "synthetic": self.synthetic, "flag of overlap": self.flagged,
+            "synthetic": self.synthetic, "infilled": self.infilled,
+            "flag of overlap": self.flagged,
         }  # fmt: skip
         area = f", {self.flagged_area:,.0f} m2 have only points with this flag"
         return _counts(counts) + area * bool(self.flagged_area)

@@ -33,11 +33,12 @@ def quality_html(found: Quality, cells: QualityCells, survey: Survey) -> str:
             table([(figure.title, figure.text(found)) for figure in FIGURES], is_named=True),
             paragraph(
                 "Withheld points are left out. Densities leave out noise (classes 7 and 18), points"
-                " that were not measured (synthetic), points with the flag of overlap, and points"
-                " that repeat others of their file or of another one. Densities and shares are"
-                " those of the area of the survey without a border of 10 to 20 m, which points fill"
-                " in part only, and without squares of 10 m in which all first returns have the"
-                " flag of overlap."
+                " that were not measured (synthetic, infilled or virtual), points with the flag of"
+                " overlap, and points that repeat others of their file or of another one. Points"
+                " that were not measured are no strips and tell nothing of water. Densities and"
+                " shares are those of the area of the survey without a border of up to 10 m, which"
+                " points may fill in part only, and without squares of 10 m in which all first"
+                " returns have the flag of overlap."
             ),
         ),
         section("Maps", maps(_maps(cells, survey))),
