@@ -5,14 +5,17 @@ from __future__ import annotations
 import contextlib
 import errno
 import sys
+import time
 from pathlib import Path
-from typing import Iterator
+from typing import Callable, Iterator
 
 from .errors import BareEarthError
 from .files import describe_write_error
 
 # Errors of the system for a file that another process has locked.
 _LOCKED = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
+# Seconds after which a run that waits looks again.
+_BEAT = 0.05
 
 
 @contextlib.contextmanager
@@ -28,36 +31,50 @@ def alone_in(folder: Path) -> Iterator[None]:
             file = opened.enter_context(open(path, "ab"))
         except OSError as error:
             raise describe_write_error(path, error) from error
-        try:
-            _lock(file.fileno())
-        except OSError as error:
-            if error.errno in _LOCKED:
-                raise BareEarthError(
-                    f"Another run writes into {folder.parent}. Wait until it ends, or choose"
-                    " another folder."
-                ) from error
+        is_locked = True
+        with contextlib.suppress(OSError):
+            is_locked = _is_locked(file.fileno())
+        if not is_locked:
+            raise BareEarthError(
+                f"Another run writes into {folder.parent}. Wait until it ends, or choose another"
+                " folder."
+            )
         yield
 
 
 @contextlib.contextmanager
-def one_at_a_time(path: Path) -> Iterator[None]:
+def one_at_a_time(path: Path, waiting: Callable[[], object] = lambda: None) -> Iterator[None]:
     """Wait until no other thread or process is in such a block for the same path, a file that is
-    made and stays.
+    made and stays; `waiting` is called meanwhile, and may end it by an exception.
     """
     # If the file system has no locks, nobody waits.
     with contextlib.ExitStack() as opened:
         with contextlib.suppress(OSError):
-            _lock(opened.enter_context(open(path, "ab")).fileno(), waits=True)
+            number = opened.enter_context(open(path, "ab")).fileno()
+            while not _is_locked(number):
+                waiting()
+                time.sleep(_BEAT)
         yield
 
 
-def _lock(number: int, waits: bool = False) -> None:
-    """Lock an open file; if it is locked, wait or fail at once."""
+def _is_locked(number: int) -> bool:
+    """Lock an open file; return False if another one has locked it."""
+    try:
+        _lock(number)
+    except OSError as error:
+        if error.errno not in _LOCKED:
+            raise
+        return False
+    return True
+
+
+def _lock(number: int) -> None:
+    """Lock an open file, or fail at once."""
     if sys.platform == "win32":
         import msvcrt
 
-        msvcrt.locking(number, msvcrt.LK_LOCK if waits else msvcrt.LK_NBLCK, 1)
+        msvcrt.locking(number, msvcrt.LK_NBLCK, 1)
     else:
         import fcntl
 
-        fcntl.flock(number, fcntl.LOCK_EX | (0 if waits else fcntl.LOCK_NB))
+        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)

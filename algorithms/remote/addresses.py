@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 from urllib.parse import quote, unquote, urljoin, urlsplit, urlunsplit
 
 from ..core.errors import BareEarthError
 
-WEB, STORES = ("http", "https"), ("s3", "gs", "az", "abfs")
+DEFAULT_PORTS = {"http": 80, "https": 443}
+WEB, STORES = tuple(DEFAULT_PORTS), ("s3", "gs", "az", "abfs")
 # Such as "s3://", but not a single letter: that is a drive of Windows.
 _SCHEME = re.compile(r"([a-z][a-z0-9+.-]+)://", re.IGNORECASE)
+# What was meant as an address: "http:/user:password@host/..." and "user:password@host/...".
+_MISTYPED = re.compile(r"https?:[/\\]|[^/\\:@]{2,}:[^\\]*@[\w.:\[\]-]+(/|$)", re.IGNORECASE)
+# A server and its port, without a user.
+_HOST = re.compile(r"([^@:\[\]]*|\[[^@\[\]]*\])(:\d*)?")
 # What must not be encoded again, since signatures depend on it.
 _SAFE = "%/:?&=#+@!$'()*,;~[]|"
 
 
 def is_address(text: str) -> bool:
-    """Return whether a text is an address, and not a path on this computer."""
-    return _SCHEME.match(text) is not None
+    """Return whether a text is an address, if perhaps a mistyped one, and not a path on this
+    computer.
+    """
+    if _SCHEME.match(text):
+        return True
+    return _MISTYPED.match(text) is not None and not os.path.exists(text)
 
 
 def checked(address: str) -> str:
@@ -37,7 +47,10 @@ def checked(address: str) -> str:
     except ValueError:
         parts = urlsplit("")
     if not parts.hostname:
-        raise BareEarthError(f"{shown(address)} names no server. Check the address.")
+        raise BareEarthError(
+            f"{shown(address)} names no server. Check the address; in a password, / is %2F and @ is"
+            " %40."
+        )
     return urlunsplit(parts._replace(fragment=""))
 
 
@@ -45,14 +58,28 @@ def shown(address: str) -> str:
     """Return an address without user, password, query and fragment, which may be secret."""
     scheme = _SCHEME.match(address)
     if scheme is None:
-        return address
-    host, slash, path = re.split("[?#]", address[scheme.end() :])[0].partition("/")
-    return f"{scheme[0]}{host.rpartition('@')[2]}{slash}{path}"
+        return f"...@{address.rpartition('@')[2]}" if is_address(address) else address
+    rest = address[scheme.end() :]
+    if _HOST.fullmatch(re.split("[/?#]", rest)[0]):
+        return f"{scheme[0]}{re.split('[?#]', rest)[0]}"
+    # A password can hold what ends a server or a path elsewhere.
+    return f"{scheme[0]}{re.split('[?#]', rest.rpartition('@')[2])[0]}"
 
 
 def host_of(address: str) -> str:
     """Return the server of an address, or what stands for it: the bucket of a store."""
     return (urlsplit(address).hostname or "").lower()
+
+
+def origin_of(address: str) -> str:
+    """Return scheme, server and port of an address, or scheme and bucket: who names one address
+    has named these.
+    """
+    parts = urlsplit(address)
+    scheme, host = parts.scheme.lower(), host_of(address)
+    host = f"[{host}]" if ":" in host else host
+    is_usual = scheme not in WEB or parts.port in (None, DEFAULT_PORTS[scheme])
+    return f"{scheme}://{host}" if is_usual else f"{scheme}://{host}:{parts.port}"
 
 
 def name_of(address: str) -> str:

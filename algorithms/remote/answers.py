@@ -11,16 +11,24 @@ RFC 9110, HTTP Semantics, sections 8.8.3 (ETag), 13.1 (If-Match) and 14 (ranges)
 from __future__ import annotations
 
 import email.utils
+import json
 import re
 import time
-from typing import NamedTuple, Protocol
+import zlib
+from typing import Any, NamedTuple, Protocol
 
 from ..core.errors import BareEarthError
 from .addresses import host_of, shown
 
-_RANGE = re.compile(r"bytes (\d+)-(\d+)/(\d+)")
+# No more digits than sizes of files have.
+_RANGE = re.compile(r"bytes ([0-9]{1,18})-([0-9]{1,18})/([0-9]{1,18})")
+_NUMBER = re.compile(r"[0-9]{1,18}")
 _AGAIN = (408, 425, 429, 500, 502, 503, 504)
 REDIRECTS = (301, 302, 303, 307, 308)
+_GZIP = "gzip"
+# Bytes of memory that Python needs at most for an object, a list, a member and a value of JSON, by
+# the mark that each has, and for a whole document.
+_COSTS, _MOST_MEMORY = {b"{": 64, b"[": 72, b":": 150, b",": 40}, 600_000_000
 # Parameters of the query that say that an address is signed: of Azure, Amazon and Google.
 _SIGNED = re.compile(r"[?&](sig|X-Amz-Signature|Signature|X-Goog-Signature)=", re.IGNORECASE)
 
@@ -35,9 +43,10 @@ class Headers(Protocol):
 class Unfinished(Exception):
     """The answer is missing or incomplete; the next one may be right."""
 
-    def __init__(self, reason: str, pause: float = 0.0) -> None:
+    def __init__(self, reason: str, pause: float = 0.0, data: bytes = b"") -> None:
         super().__init__(reason)
         self.pause = pause  # seconds that the server asks for
+        self.data = data  # what came of the bytes that were asked for, from their first one on
         self.is_stale = False  # whether only a connection was too old
 
 
@@ -91,11 +100,14 @@ def check_range(
     if status == 416:
         raise BareEarthError(f"{shown(address)} is empty or cut off. Check the address.")
     check_status(address, status, headers)
+    if encoding := encoding_of(headers):
+        raise _not_asked(address, f"it compressed by {encoding}, although it was asked not to")
     found = _RANGE.fullmatch(headers.get("Content-Range", "").strip())
     if status != 206 or found is None:
         raise _not_asked(address, "no range of bytes, or none whose file has a size")
     first, last, size = map(int, found.groups())
-    state = State(size, headers.get("ETag", "").strip(), headers.get("Last-Modified", "").strip())
+    etag, modified = (headers.get(name, "").strip() for name in ("ETag", "Last-Modified"))
+    state = State(size, etag if etag.isprintable() else "", modified)
     if known is not None and not _is_same(known, state):
         raise changed(address)
     if first != start or last != min(stop, size if known is None else stop) - 1 or last < first:
@@ -111,19 +123,49 @@ def check_whole(address: str, status: int, headers: Headers, most: int) -> int |
     their end.
     """
     check_status(address, status, headers)
+    if encoding_of(headers) not in ("", _GZIP):
+        raise _not_asked(address, f"it compressed by {encoding_of(headers)}")
     if status != 200:
         raise _not_asked(address, f"status {status}")
     stated = headers.get("Content-Length", "").strip()
-    if not stated.isdigit():
+    if not _NUMBER.fullmatch(stated):
         if headers.get("Transfer-Encoding", "").lower() == "chunked":
             return None
         raise _not_asked(address, "a file without its length, which may be cut off")
     if int(stated) > most:
-        raise BareEarthError(
-            f"{shown(address)} has {int(stated):,} bytes, which is too much for what it should be."
-            " Check the address."
-        )
+        raise too_large(address, f"has {int(stated):,} bytes")
     return int(stated)
+
+
+def encoding_of(headers: Headers) -> str:
+    """Return how an answer is compressed, empty if it is not."""
+    encoding = headers.get("Content-Encoding", "").strip().lower()
+    return {"identity": "", "x-gzip": _GZIP}.get(encoding, encoding)
+
+
+def unpacked(address: str, data: bytes, most: int) -> bytes:
+    """Return a whole file that a server compressed by gzip, of at most so many bytes."""
+    stream = zlib.decompressobj(wbits=31)
+    try:
+        found = stream.decompress(data, most + 1)
+    except zlib.error as error:
+        raise Unfinished("its compressed answer is damaged") from error
+    if len(found) > most:
+        raise too_large(address, f"has more than {most:,} bytes")
+    if not stream.eof or stream.unused_data:
+        raise Unfinished("its compressed answer is cut off")
+    return found
+
+
+def parsed(text: bytes) -> Any:
+    """Return what a document in JSON says; ValueError if it is none, or would fill the memory."""
+    size = sum(text.count(mark) * cost for mark, cost in _COSTS.items())
+    if size > _MOST_MEMORY:
+        raise ValueError("it would need too much memory")
+    try:
+        return json.loads(text.decode("utf-8-sig"))
+    except RecursionError as error:
+        raise ValueError("it is nested too deeply") from error
 
 
 def check_status(address: str, status: int, headers: Headers) -> None:
@@ -148,9 +190,6 @@ def check_status(address: str, status: int, headers: Headers) -> None:
         raise refused_by_proxy(host)
     if not 200 <= status < 300:
         raise BareEarthError(f"{host} does not give {place} (status {status}). Check the address.")
-    encoding = headers.get("Content-Encoding", "").strip().lower()
-    if encoding not in ("", "identity"):
-        raise _not_asked(address, f"it compressed by {encoding}, although it was asked not to")
 
 
 def refused_by_proxy(host: str) -> BareEarthError:
@@ -158,6 +197,13 @@ def refused_by_proxy(host: str) -> BareEarthError:
     return BareEarthError(
         f"The proxy asks for user and password before it lets you reach {host}. Set them in"
         " HTTPS_PROXY, with a colon between them and @ before the proxy."
+    )
+
+
+def too_large(address: str, how: str) -> BareEarthError:
+    """Return the error for a file that would fill the memory."""
+    return BareEarthError(
+        f"{shown(address)} {how}, which is too much for what it should be. Check the address."
     )
 
 
@@ -177,17 +223,15 @@ def _is_same(known: State, state: State) -> bool:
 def _not_asked(address: str, what: str) -> BareEarthError:
     return BareEarthError(
         f"{host_of(address)} answers with something else than was asked for of {shown(address)}:"
-        f" {what}. Download the whole file with a browser, or ask who runs the server."
+        f" {what}. Ask who runs the server, or download what you need with a browser."
     )
 
 
 def _pause(text: str) -> float:
     """Return the seconds to wait that a server states, as a number or as a date."""
-    if text.strip().isdigit():
+    if _NUMBER.fullmatch(text.strip()):
         return float(text)
-    date = email.utils.parsedate_to_datetime(text) if _is_date(text) else None
-    return 0.0 if date is None else max(date.timestamp() - time.time(), 0.0)
-
-
-def _is_date(text: str) -> bool:
-    return email.utils.parsedate_tz(text) is not None
+    try:
+        return max(email.utils.parsedate_to_datetime(text).timestamp() - time.time(), 0.0)
+    except (ValueError, TypeError, OverflowError):  # it is none
+        return 0.0

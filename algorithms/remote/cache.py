@@ -3,64 +3,32 @@
 from __future__ import annotations
 
 import contextlib
-import hashlib
-import json
 import os
 import re
 import shutil
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Iterator, Mapping, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
-from ..core.files import describe_write_error, replacing, write_errors_told
+from ..core.files import describe_write_error
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
+from ..core.temporary import remove
 from ..crs.measurable import require_measurable
 from ..crs.system import Crs
-from ..survey.area import Area
 from ..survey.files import Inputs
-from ..survey.shapes import Place, Shapes
-from .addresses import beside, checked, is_address, name_of, shown
-from .copc import SUFFIX, CopcPart
-from .ept import DESCRIPTION, EptPart
-from .fetching import Part, Wanted, check_size, names_of, nothing_there
-from .files import RemoteFile
-from .lists import Cloud, clouds_of
-from .parts import remove_parts
+from .addresses import checked, is_address, shown
+from .fetching import Part, Wanted, check_size, nothing_there
+from .kept import CLEAR, DIGITS, Kept, Surroundings, is_sound
+from .lists import clouds_of, near
 from .transfers import Transfers
-from .whole import WholePart
+
+__all__ = ["Surroundings"]
 
 VARIABLE = "BARE_EARTH_CACHE"
-# Of folders; 16 of the 64 digits of a hash, since paths must be short for Windows.
-_DIGITS, _OURS = 16, re.compile(r"[0-9a-f]{16}")
-# Units of points whose CRS is not known may be feet: about so many are a metre.
-_UNITS_A_METRE = 3.3
-_MOST_JSON = 1 << 28
-_HOW = "fetch them first, by 'bare-earth fetch' with --follow"
-
-
-@dataclass(frozen=True, eq=False)
-class Surroundings(Area):
-    """The rectangle round an area, wider by a margin, whose points help to judge those inside."""
-
-    margin: float = 0.0  # metres
-    crs: Crs | None = None  # of the points, if the user states it
-
-    def located(self, place: Place, progress: Progress = SILENT) -> Area:
-        """Return the rectangle in the CRS of the points."""
-        crs = self.crs or place.crs
-        area = super().located(place._replace(crs=crs), progress)
-        metre = _UNITS_A_METRE if crs == Crs() else 1.0 / crs.horizontal_unit
-        return Area(area.buffered_box(self.margin * metre))
-
-    @property
-    def key(self) -> str:
-        """Text that differs for different areas."""
-        rings = [[ring.tolist() for ring in polygon] for polygon in self.polygons]
-        stated = self.polygons.crs if isinstance(self.polygons, Shapes) else None
-        return json.dumps([self.box, rings, stated, self.margin, repr(self.crs)])
+_OURS = re.compile(rf"[0-9a-f]{{{DIGITS}}}")  # names of folders
+_HOW = "fetch the points first, by 'bare-earth fetch' with --follow"
 
 
 class Here(NamedTuple):
@@ -68,70 +36,6 @@ class Here(NamedTuple):
 
     paths: dict[Path, str]  # of the point clouds, with their addresses as they are shown
     is_list: bool  # whether an address is that of a list of point clouds
-
-
-class _NoPoint(Exception):
-    """No point lies in the area, so that there is no file to keep."""
-
-
-class _Kept:
-    """The place in the cache of what an area needs of a point cloud."""
-
-    def __init__(self, cloud: Cloud, wanted: Wanted, cache: Path, transfers: Transfers) -> None:
-        self.address, self._wanted, self._transfers = cloud.address, wanted, transfers
-        area = wanted.area.key if isinstance(wanted.area, Surroundings) else ""
-        # Signatures differ from run to run, and belong into no file.
-        folder = cache / _digest(shown(cloud.address)) / _digest(f"{area} {wanted.resolution}")
-        self.waiting = folder / "parts"
-        with write_errors_told(folder):
-            folder.mkdir(parents=True, exist_ok=True)
-        self._file: RemoteFile | None = None
-        self.name, ending = name_of(cloud.address), SUFFIX
-        is_certain = True
-        # One request, which tells the version.
-        if self.name.lower() == DESCRIPTION:
-            text = transfers.one(lambda: transfers.read_whole(cloud.address, _MOST_JSON))
-            version, ending = hashlib.sha256(text).hexdigest(), ".laz"
-            self.name = name_of(beside(cloud.address, ""))
-        else:
-            self._file = RemoteFile(transfers, cloud.address, self.waiting)
-            version, is_certain = json.dumps(self._file.version), self._file.version.is_certain
-            if not self._file.is_copc:
-                # All of it serves any area.
-                folder = folder.with_name(_digest("all"))
-                ending = ".las" if self.name.lower().endswith(".las") else ".laz"
-        name = names_of([self.name])[0].replace(SUFFIX, ending)
-        self.path = folder / _digest(version) / name
-        self.is_here = is_certain and self.path.is_file()
-        if self.is_here:
-            self._remove_parts()
-
-    def part(self, progress: Progress) -> Part:
-        """Return what has to be fetched."""
-        wanted = self._wanted
-        if self._file is not None and not self._file.is_copc:
-            return WholePart(self._file, wanted.area, progress)
-        if self._file is not None:
-            return CopcPart(self._file, wanted.area, wanted.resolution, progress)
-        place = self._transfers, self.address, self.waiting
-        return EptPart(*place, wanted.area, wanted.resolution, wanted.skips_missing, progress)
-
-    def write(self, part: Part, progress: Progress) -> int:
-        """Write what was fetched, and return the number of points."""
-        count = 0
-        with contextlib.suppress(_NoPoint), write_errors_told(self.path):
-            self.path.parent.mkdir(parents=True, exist_ok=True)
-            with replacing(self.path) as temporary:
-                count = part.write(temporary, progress)
-                if not count:
-                    raise _NoPoint
-        self._remove_parts()
-        return count
-
-    def _remove_parts(self) -> None:
-        remove_parts(self.waiting)
-        with contextlib.suppress(OSError):  # it holds what was wanted
-            self.waiting.parent.rmdir()
 
 
 def cache_of(folder: str | Path | None) -> Path:
@@ -151,13 +55,13 @@ def bring_here(
     """Return files with what is wanted of addresses, fetched unless the cache has them; `advice`
     says what to do if that is too much.
     """
-    with Transfers(progress) as transfers:
+    with Transfers(progress, _HOW) as transfers:
         progress, clouds, is_list = transfers.progress, [], False
         for address in map(checked, addresses):
-            listed = clouds_of(address, transfers, False, _HOW)
+            listed = clouds_of(address, transfers)
             is_list = is_list or [cloud.address for cloud in listed] != [address]
-            clouds += [cloud for cloud in listed if cloud.may_touch(wanted.area)]
-        kept = [_Kept(cloud, wanted, cache, transfers) for cloud in dict.fromkeys(clouds)]
+            clouds += near(listed, wanted.area)
+        kept = [Kept(cloud, wanted, cache, transfers) for cloud in dict.fromkeys(clouds)]
         missing = [cloud for cloud in kept if not cloud.is_here]
         shares = progress.part(0.0, 0.1).shares(*[1.0] * len(missing))
         planned = [(cloud, cloud.part(share)) for cloud, share in zip(missing, shares)]
@@ -167,12 +71,9 @@ def bring_here(
                 _check_lengths(part, wanted.crs or part.crs)
         if parts:
             check_size([part for _, part in parts], wanted.most, advice, progress)
-        shares = progress.part(0.1, 0.7).shares(*(part.size for _, part in parts))
-        for (_, part), share in zip(parts, shares):
-            part.fetch(share)
-        shares = progress.part(0.7, 1.0).shares(*(part.point_count for _, part in parts))
+        shares = progress.part(0.1, 1.0).shares(*(part.point_count for _, part in parts))
         for (cloud, part), share in zip(parts, shares):
-            cloud.is_here = cloud.write(part, share) > 0
+            cloud.bring(part, share)
     found = [cloud for cloud in kept if cloud.is_here]
     if not found:
         raise nothing_there([part for _, part in planned], addresses[0])
@@ -218,11 +119,17 @@ def bring_all(
 
 @contextlib.contextmanager
 def addresses_named(found: Mapping[Path, str]) -> Iterator[None]:
-    """Let errors name addresses in place of files of the cache."""
+    """Let errors name addresses in place of files of the cache, and remove damaged ones."""
     try:
         yield
     except BareEarthError as error:
         for path, address in found.items():
+            if str(path) in str(error) and not is_sound(path):
+                remove(path)
+                raise BareEarthError(
+                    f"The copy of {address} in the cache was damaged, and is removed. Run it again."
+                    f" {CLEAR}."
+                ) from error
             error.args = (str(error).replace(str(path), address),)
         raise
 
@@ -240,11 +147,9 @@ def look(addresses: Sequence[str], cache: Path, progress: Progress = SILENT) -> 
     list states the extent.
     """
     found: list[Seen] = []
-    with Transfers(progress) as transfers:
+    with Transfers(progress, _HOW) as transfers:
         clouds = [
-            cloud
-            for address in map(checked, addresses)
-            for cloud in clouds_of(address, transfers, False, _HOW)
+            cloud for address in map(checked, addresses) for cloud in clouds_of(address, transfers)
         ]
         # No part of a cloud lies there, so that hardly more than its header is read.
         nowhere = Wanted(Surroundings((0.0, 0.0, 1e-6, 1e-6)))
@@ -254,7 +159,7 @@ def look(addresses: Sequence[str], cache: Path, progress: Progress = SILENT) -> 
                 box = west - 1.0, south - 1.0, east + 1.0, north + 1.0
                 found.append(Seen(cloud.address, found[0].crs, box))
                 continue
-            part = _Kept(cloud, nowhere, cache, transfers).part(transfers.progress.quiet())
+            part = Kept(cloud, nowhere, cache, transfers).part(transfers.progress.quiet())
             found.append(Seen(cloud.address, part.crs, part.box))
     return found
 
@@ -274,7 +179,3 @@ def clear(cache: Path) -> int:
     with contextlib.suppress(OSError):  # it holds something else
         cache.rmdir()
     return size
-
-
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()[:_DIGITS]

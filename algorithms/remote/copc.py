@@ -39,17 +39,21 @@ from ..las.lasfile import (
 from ..las.laszip import Compression
 from ..las.opening import read_layout
 from ..las.records import named
-from ..las.sources import FileState
+from ..las.sources import FileState, damaged
 from ..survey.area import Area
 from ..survey.shapes import Outside, Place
 from ..survey.window import are_inside
-from .files import Range, RangeFile
+from .files import RangeFile
+from .parts import Range
 
 SUFFIX = ".copc.laz"
 # Of the info record: position of the place of the first page, and of the GPS times.
 _ROOT = 40
-# Most bytes of a page that is asked for before it is known to be one, and of those of one depth.
-_LARGEST, _LARGEST_PAGES = 1 << 20, 1 << 28
+# Most bytes of a page that is asked for before it is known to be one, and of all pages.
+_LARGEST, _LARGEST_PAGES = 1 << 20, 1 << 26
+# Most bytes of the points of a node, those that it can have beyond twice these when compressed, and
+# those that are copied at a time.
+_LARGEST_NODE, _LEAST, _PIECE = 1 << 28, 1 << 12, 1 << 23
 # Metres in a degree of latitude.
 _DEGREE = 111_000.0
 EVERYWHERE = (-math.inf, -math.inf, math.inf, math.inf)
@@ -68,6 +72,11 @@ class CopcPart:
         progress: Progress = SILENT,
     ) -> None:
         self.file, self.name, self._bytes = file, file.name, cast(BinaryIO, file)
+        file.twice(lambda: self._read(area, resolution, progress))
+
+    def _read(self, area: Area | None, resolution: float | None, progress: Progress) -> None:
+        """Read the header and the pages of the octree that are needed."""
+        file, self._paged = self.file, 0
         file.fetch(file.plan(_first_pieces(self._bytes, file.size)), progress.quiet())
         file.seek(0)
         path = Path(file.name)
@@ -89,17 +98,20 @@ class CopcPart:
             self._bytes,
             lambda pages: self._get_pages(pages, progress.quiet()),
         )
+        sizes = self.nodes["count"].astype(np.int64) * self.layout.record_length
+        if (sizes > _LARGEST_NODE).any() or (self.nodes["size"] > 2 * sizes + _LEAST).any():
+            raise damaged(self.layout.path)
         self._plan = file.plan(self._pieces()) if len(self.nodes) else file.plan([])
         self.size, self.request_count = self._plan.size, len(self._plan.requests)
         self.point_count = int(self.nodes["count"].sum(dtype=np.int64))
 
     def _get_pages(self, pages: list[Range], progress: Progress) -> None:
-        plan = self.file.plan(pages)
-        if plan.size > _LARGEST_PAGES:
+        self._paged += sum(stop - start for start, stop in pages)
+        if self._paged > _LARGEST_PAGES:
             raise BareEarthError(
-                f"The octree of {self.name} is damaged: its pages would have {plan.size:,} bytes."
+                f"The octree of {self.name} is damaged: its pages would have {self._paged:,} bytes."
             )
-        self.file.fetch(plan, progress)
+        self.file.fetch(self.file.plan(pages), progress)
 
     def fetch(self, progress: Progress) -> None:
         """Get what was planned."""
@@ -120,6 +132,9 @@ class CopcPart:
         """Write the points as LAZ, or as COPC if the name says so, after they have been fetched;
         return their number, 0 if none lies in the area.
         """
+        return self.file.twice(lambda: self._write(target, progress))
+
+    def _write(self, target: Path, progress: Progress) -> int:
         is_copc = target.name.lower().endswith(SUFFIX)
         layout, statistics = self.layout, Statistics(self.layout)
         # The extents record states values of points that may be left out.
@@ -139,8 +154,9 @@ class CopcPart:
                 root = end + EVLR_HEADER, entries.nbytes, *statistics.gps_time
                 vlrs[place] = _with_root(vlrs[place], *root)
             for evlr in kept:
-                self._bytes.seek(evlr.start)
-                file.write(self._bytes.read(evlr.length))
+                for start in range(evlr.start, evlr.start + evlr.length, _PIECE):
+                    self._bytes.seek(start)
+                    file.write(self._bytes.read(min(_PIECE, evlr.start + evlr.length - start)))
             layout = with_statistics(
                 with_count(layout, count),
                 statistics.lowest.tolist(),
@@ -163,6 +179,7 @@ class CopcPart:
         laszip = next(vlr for vlr in layout.vlrs if vlr.key == LASZIP)
         chunks, written = ChunkFile(file, laszip.data), []
         for nodes, data, records in read_compressed(self._hierarchy, self.nodes, self._bytes):
+            self.file.checked()
             inside = self._inside(records)
             statistics.add(records if inside.all() else records[inside])
             stops, ends = (np.cumsum(nodes[name], dtype=np.int64) for name in ("count", "size"))

@@ -11,9 +11,10 @@ Entwine Point Tile specification 1.1, https://entwine.io/entwine-point-tile.html
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
-import json
 import re
+import threading
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -26,7 +27,7 @@ from ..core.files import temporary_folder
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..core.temporary import remove
-from ..crs.provider import library
+from ..core.words import counted
 from ..crs.stated import stated_wkt
 from ..crs.system import Crs, crs_of_wkt
 from ..las import header as fields
@@ -42,7 +43,7 @@ from ..survey.area import Area
 from ..survey.shapes import Place
 from ..survey.window import are_inside
 from .addresses import beside, is_address, name_of, shown
-from .answers import Missing
+from .answers import Missing, parsed, too_large
 from .copc import EVERYWHERE, area_of, levels_of
 from .ept_records import Schema
 from .parts import Parts
@@ -53,8 +54,12 @@ _ENDINGS = {"laszip": "laz", "binary": "bin", "zstandard": "zst"}
 Key = tuple[int, int, int, int]  # depth, x, y and z of a node
 _KEY = re.compile(r"(\d{1,2})-(\d{1,10})-(\d{1,10})-(\d{1,10})")
 _DEEPEST, _GPS_TIME_TYPE, _WKT = 30, 0x01, 0x10
-# Most bytes of the description and of a file of the hierarchy, and of a point in a tile.
-_MOST_JSON, _MOST_A_POINT = 1 << 28, 200
+# Most bytes of the description, of a file of the hierarchy and of a tile; six are read at a time.
+MOST_DESCRIPTION, _MOST_HIERARCHY, _MOST_TILE = 1 << 22, 1 << 24, 1 << 25
+# Most points of a tile, bytes of one in a tile, and tiles that are needed.
+_MOST_POINTS, _MOST_A_POINT, _MOST_TILES = 1 << 23, 200, 1_000_000
+# Points that are read at a time to check a tile.
+_PIECE = 100_000
 # Bytes that a compressed point usually has.
 _USUAL = 7
 # Places may differ by this share of a step when the integers of a tile are moved to another offset.
@@ -78,11 +83,17 @@ class EptPart:
     ) -> None:
         self._transfers, self._address, self._skips = transfers, address, skips_missing
         self.name = name_of(beside(address, "")) or name_of(address)
-        text = self._whole(DESCRIPTION, _MOST_JSON)
-        about = self._description(text)
+        self._parsing = threading.Lock()  # so that a single document fills the memory
+        text, about = transfers.one(lambda: self._document(DESCRIPTION, MOST_DESCRIPTION))
+        self._read(about)
         self.box: Box = self._numbers(about.get("boundsConforming") or self._cube)
-        self._wkt = _wkt_of(about.get("srs") or {})
+        self._wkt = _wkt_of(about.get("srs"))
         self.crs = (crs_of_wkt(self._wkt) if self._wkt else None) or Crs()
+        if self.kind != "laszip":
+            try:
+                self._schema = Schema(about["schema"], self._cube, self.crs.is_geographic)
+            except (ValueError, TypeError, KeyError, AttributeError, OverflowError) as error:
+                raise self._no_ept("its schema cannot be read") from error
         self.area = area_of(area, Place(self.name, self.crs, self.box), progress)
         self._parts = Parts(waiting, address)
         if is_address(address):
@@ -92,20 +103,42 @@ class EptPart:
         self._near = EVERYWHERE if self.area is None else self.area.bounds
         self.tiles = self._find_tiles(progress)
         self.point_count, self.missing_count = sum(self.tiles.values()), 0
+        stated = about.get("points")
+        is_all = self.area is None and resolution is None
+        if is_all and isinstance(stated, int) and stated != self.point_count:
+            transfers.progress.warning(
+                f"The tiles of {self.name} have {counted(self.point_count, 'point')}, not"
+                f" {stated:,} as its description says."
+            )
         missing = [key for key in self.tiles if not self._path(key).is_file()]
         self._waiting = missing if is_address(address) else []
         self.request_count = len(self._waiting)
         self.size = _USUAL * sum(self.tiles[key] for key in self._waiting)
 
-    def _description(self, text: bytes) -> dict[str, Any]:
-        """Return the description, after checks of what is used of it."""
+    def _document(self, name: str, most: int) -> tuple[bytes, Any]:
+        """Return the text of a document and what it says; one that makes no sense is asked for once
+        more.
+        """
+        with contextlib.suppress(ValueError):
+            return self._parsed(name, most)
         try:
-            about: dict[str, Any] = json.loads(text)
+            return self._parsed(name, most)
+        except ValueError as error:
+            raise self._no_ept(f"{name} cannot be read") from error
+
+    def _parsed(self, name: str, most: int) -> tuple[bytes, Any]:
+        text = self._whole(name, most)
+        with self._parsing:
+            return text, parsed(text)
+
+    def _read(self, about: dict[str, Any]) -> None:
+        """Read and check what is used of the description."""
+        try:
             self._cube = tuple(map(float, about["bounds"]))
             self._span, self.kind = int(about["span"]), str(about["dataType"])
             is_sound = len(self._cube) == 6 and bool(np.isfinite(self._cube).all())
             is_sound = is_sound and self._span > 0 and self._cube[3] > self._cube[0]
-        except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        except (ValueError, TypeError, KeyError, AttributeError, OverflowError) as error:
             raise self._no_ept("its description cannot be read") from error
         if not is_sound:
             raise self._no_ept("its cube has no size")
@@ -115,12 +148,6 @@ class EptPart:
                 f"The tiles of {shown(self._address)} are {self.kind}, which cannot be read here."
                 " Use 'pdal translate'."
             )
-        if self.kind != "laszip":
-            try:
-                self._schema = Schema(about["schema"])
-            except (ValueError, TypeError, KeyError, AttributeError) as error:
-                raise self._no_ept("its schema cannot be read") from error
-        return about
 
     def _numbers(self, bounds: Any) -> Box:
         """Return smallest x and y, largest x and y of bounds in the description."""
@@ -138,24 +165,38 @@ class EptPart:
         while files:
             seen |= {*files}
             tasks = [partial(self._read_hierarchy, key) for key in files]
-            pages = self._transfers.run(tasks, progress.quiet())
-            entries = {key: count for page in pages for key, count in page.items()}
-            files = [key for key, count in entries.items() if count < 0 and key not in seen]
-            found.update((key, count) for key, count in entries.items() if count > 0)
-        return dict(sorted(found.items()))
+            below: set[Key] = set()
+            for page in self._transfers.run(tasks, progress.quiet()):
+                below |= {key for key, count in page.items() if count < 0}
+                for key, count in page.items():
+                    if count >= 0 and found.setdefault(key, count) != count:
+                        raise self._no_ept(f"its hierarchy contradicts itself on {_name(key)}")
+                if len(found) + len(below) > _MOST_TILES:
+                    raise BareEarthError(
+                        f"More than {_MOST_TILES:,} tiles of {self.name} are needed. Choose a"
+                        " smaller area or a coarser resolution."
+                    )
+            files = sorted(below - seen)
+        return {key: count for key, count in sorted(found.items()) if count}
 
     def _read_hierarchy(self, key: Key) -> dict[Key, int]:
         """Return the needed nodes of a file of the hierarchy, -1 for those with a file of their
         own.
         """
         name = f"ept-hierarchy/{_name(key)}.json"
+        _, entries = self._document(name, _MOST_HIERARCHY)
         try:
-            entries = json.loads(self._whole(name, _MOST_JSON))
-            matches = [_KEY.fullmatch(text) for text in entries]
-            keys = np.array([match.groups() for match in matches], dtype=np.int64)  # type: ignore[union-attr]
+            if not all(map(_KEY.fullmatch, entries)):
+                raise ValueError("a key is none")
+            keys = np.array("-".join(entries).split("-") if entries else [], dtype=np.int64)
             counts = np.array([*entries.values()], dtype=np.int64)
-        except (ValueError, TypeError, AttributeError, RecursionError, OverflowError) as error:
+        except (ValueError, TypeError, AttributeError, OverflowError) as error:
             raise self._no_ept(f"{name} cannot be read") from error
+        # The points of such a node would be nowhere.
+        if entries.get(_name(key), 0) < 0:
+            raise self._no_ept(f"{name} names itself in place of a number of points")
+        if (counts > _MOST_POINTS).any():
+            raise self._no_ept(f"{name} names a tile of {counts.max():,} points")
         keys = keys.reshape(-1, 4)
         side = np.exp2(np.clip(keys[:, 0], 0, _DEEPEST))
         if (keys[:, 0] > _DEEPEST).any() or (keys[:, 1:] >= side[:, None]).any():
@@ -178,35 +219,67 @@ class EptPart:
         """
 
         def get(key: Key) -> bool:
-            most = self.tiles[key] * _MOST_A_POINT + (1 << 20)
+            if key not in waiting and self._is_sound(key):
+                return True
+            data = self._tile(key)
+            if data is None:
+                return False
             try:
-                data = self._whole(f"ept-data/{_name(key)}.{_ENDINGS[self.kind]}", most)
-            except Missing as error:
-                if self._skips:
-                    return False
-                raise BareEarthError(
-                    f"{error} If it is a tile that is missing in this data set, go on without it:"
-                    " --skip-missing."
-                ) from error
-            if self.kind != "laszip":
-                try:
-                    data = self._schema.las(data, self.kind == "zstandard", self.tiles[key])
-                except (ValueError, OverflowError) as error:
-                    raise self._no_ept(f"tile {_name(key)} is damaged") from error
-            self._parts.add_file(self._path(key).name, data)
-            self._open(key)
+                self._keep(key, data)
+            except BareEarthError:  # asked for once more
+                self._keep(key, self._tile(key) or b"")
             return True
 
-        tasks = [partial(get, key) for key in self._waiting]
-        there = self._transfers.run(tasks, progress, self.size)
-        gone = [key for key, is_there in zip(self._waiting, there) if not is_there]
+        waiting = {*self._waiting}
+        keys = [*self.tiles] if is_address(self._address) else []
+        there = self._transfers.run([partial(get, key) for key in keys], progress, self.size)
+        gone = [key for key, is_there in zip(keys, there) if not is_there]
         self.missing_count = len(gone)
         if gone:
             points = sum(self.tiles.pop(key) for key in gone)
             self._transfers.progress.warning(
-                f"{len(gone)} tiles of {self.name} with {points:,} points are missing on the"
-                " server: the points have gaps."
+                f"The server lacks {counted(len(gone), 'tile')} of {self.name} with"
+                f" {counted(points, 'point')}: the points have gaps."
             )
+
+    def _tile(self, key: Key) -> bytes | None:
+        """Return the bytes of a tile, None if it is missing and may be."""
+        most = min(self.tiles[key] * _MOST_A_POINT + (1 << 20), _MOST_TILE)
+        try:
+            return self._whole(f"ept-data/{_name(key)}.{_ENDINGS[self.kind]}", most)
+        except Missing as error:
+            if self._skips:
+                return None
+            raise BareEarthError(
+                f"{error} If it is a tile that is missing in this data set, go on without it:"
+                " --skip-missing."
+            ) from error
+
+    def _keep(self, key: Key, data: bytes) -> None:
+        """Keep a tile if all of its points can be read."""
+        if self.kind != "laszip":
+            try:
+                data = self._schema.las(data, self.kind == "zstandard", self.tiles[key])
+            except (ValueError, OverflowError) as error:
+                raise self._no_ept(f"tile {_name(key)} is damaged") from error
+        self._parts.add_file(self._path(key).name, data)
+        self._check(key)
+
+    def _is_sound(self, key: Key) -> bool:
+        with contextlib.suppress(BareEarthError):
+            self._check(key)
+            return True
+        return False
+
+    def _check(self, key: Key) -> None:
+        """Read a tile; one that is damaged does not stay, so that it is asked for again."""
+        path = self._path(key)
+        try:
+            for _ in read_records(open_las(path), _PIECE):
+                pass
+        except BareEarthError:
+            remove(path)
+            raise
 
     def write(self, target: Path, progress: Progress = SILENT) -> int:
         """Write the points as LAZ, or as COPC if the name says so, after they have been fetched;
@@ -224,7 +297,7 @@ class EptPart:
         """Write the points without compression."""
         layout, counts, total = None, None, 0
         for number, (key, stated) in enumerate(self.tiles.items()):
-            tile = self._open(key)
+            tile = open_las(self._path(key))
             if tile.count != stated:
                 self._transfers.progress.warning(
                     f"Tile {_name(key)} of {self.name} has {tile.count:,} points, not"
@@ -250,15 +323,6 @@ class EptPart:
         file.seek(0)
         file.write(layout.prefix(layout.vlrs, compressed=False))
         return total
-
-    def _open(self, key: Key) -> LasFile:
-        """Open a tile; one that is damaged does not stay, so that a next run asks for it again."""
-        try:
-            return open_las(self._path(key))
-        except BareEarthError:
-            if is_address(self._address):
-                remove(self._path(key))
-            raise
 
     def _layout(self, tile: LasFile) -> LasFile:
         """Return header and records of the output, LAS 1.4, given those of a tile."""
@@ -291,12 +355,15 @@ class EptPart:
         return are_inside(tile, self.area, x, y)
 
     def _whole(self, name: str, most: int) -> bytes:
-        """Return a file of the data set."""
+        """Return a file of the data set, of at most so many bytes."""
         place = beside(self._address, name)
         if is_address(place):
             return self._transfers.read_whole(place, most)
         with open_source(Path(place)) as file:
-            return file.read()
+            data = file.read(most + 1)
+        if len(data) > most:
+            raise too_large(place, f"has more than {most:,} bytes")
+        return data
 
     def _path(self, key: Key) -> Path:
         """Return where a tile is on this computer, once it was fetched."""
@@ -314,13 +381,16 @@ def _name(key: Key) -> str:
     return "-".join(map(str, key))
 
 
-def _wkt_of(srs: dict[str, Any]) -> str | None:
+def _wkt_of(srs: Any) -> str | None:
     """Return the CRS of a description as well-known text, if it says one."""
-    if isinstance(srs.get("wkt"), str) and srs["wkt"].strip():
-        return srs["wkt"].strip()
-    code = str(srs.get("horizontal") or "")
-    if str(srs.get("authority", "")).upper() == "EPSG" and code.isdigit() and library() is not None:
-        return stated_wkt(f"EPSG:{code}")
+    about, text = (srs, srs.get("wkt")) if isinstance(srs, dict) else ({}, None)
+    if isinstance(text, str) and text.strip():
+        return text.strip()
+    text = srs if isinstance(srs, str) else ""
+    if str(about.get("authority", "")).upper() == "EPSG":
+        text = f"EPSG:{about.get('horizontal')}"
+    with contextlib.suppress(BareEarthError):  # it is none, or needs a library
+        return stated_wkt(text)
     return None
 
 

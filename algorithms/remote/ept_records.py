@@ -8,7 +8,7 @@ Entwine Point Tile specification 1.1, "schema" and "dataType"; names of dimensio
 from __future__ import annotations
 
 import struct
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -35,22 +35,36 @@ _NAMES = {
 _FLAGS = ("synthetic", "key_point", "withheld", "overlap")  # the bits of ClassFlags
 _ANGLE, _ANGLE_UNIT, _CLASS_FLAGS = "ScanAngleRank", 0.006, "ClassFlags"
 _OFFSETS = tuple("XYZ")
+# Steps of coordinates that are no integers, in units of the CRS and in degrees.
+_STEP, _STEP_DEGREES = 0.001, 1e-8
 
 
 class Schema:
     """The dimensions of the points of a data set."""
 
-    def __init__(self, described: Any) -> None:
-        """Read the description; raise ValueError, TypeError or KeyError if it makes no sense."""
+    def __init__(self, described: Any, cube: Sequence[float], is_geographic: bool) -> None:
+        """Read the description, which raises ValueError, TypeError or KeyError if it makes no
+        sense; what is no integer of 32 bits becomes one in the cube of the octree.
+        """
         rows = [
             (str(row["name"]), f"<{_KINDS[row['type']]}{int(row['size'])}") for row in described
         ]
         self._row = np.dtype(rows)
         names, known = set(self._row.names or ()), {row["name"]: row for row in described}
-        if any(self._row[axis] != np.dtype("<i4") for axis in _OFFSETS):
-            raise ValueError("coordinates are no integers")
-        self._scale = [float(known[axis].get("scale", 1.0)) for axis in _OFFSETS]
-        self._offset = [float(known[axis].get("offset", 0.0)) for axis in _OFFSETS]
+        self._stated = {
+            axis: (float(known[axis].get("scale", 1.0)), float(known[axis].get("offset", 0.0)))
+            for axis in _OFFSETS
+        }
+        self._scale, self._offset = map(list, zip(*self._stated.values()))
+        for number, axis in enumerate(_OFFSETS):
+            (scale, offset), kind = self._stated[axis], self._row[axis]
+            middle = (cube[number] + cube[3 + number]) / 2
+            if kind.kind == "f":
+                scale = _STEP_DEGREES if is_geographic and axis != "Z" else _STEP
+                offset = float(np.floor(middle))
+            elif kind.itemsize > 2 and kind != np.dtype("<i4"):
+                offset += scale * float(np.rint((middle - offset) / scale))
+            self._scale[number], self._offset[number] = scale, offset
         self._format = 8 if "Infrared" in names else 7 if "Red" in names else 6
         usual = {*_OFFSETS, *_NAMES, _ANGLE, _CLASS_FLAGS}
         self._extra = [name for name in self._row.names or () if name not in usual]
@@ -72,9 +86,11 @@ class Schema:
         points = as_points(
             self._format, [(f"extra {n}", s) for n, (_, s) in enumerate(extra)], records
         )
+        for number, axis in enumerate(_OFFSETS):
+            points[axis] = self._integers(rows[axis], number)
         for name in self._row.names or ():
-            if name in _OFFSETS or name in _NAMES:
-                points[_NAMES.get(name, name)] = rows[name]
+            if name in _NAMES:
+                points[_NAMES[name]] = rows[name]
         if _ANGLE in (self._row.names or ()):
             points["scan_angle"] = np.rint(rows[_ANGLE] / _ANGLE_UNIT).astype(np.int16)
         for bit, name in enumerate(_FLAGS if _CLASS_FLAGS in (self._row.names or ()) else ()):
@@ -85,6 +101,20 @@ class Schema:
             records[:, place : place + bytes_of] = raw
             place += bytes_of
         return self._header(count, length) + records.tobytes()
+
+    def _integers(self, values: np.ndarray, axis: int) -> np.ndarray:
+        """Return coordinates as the integers of the output; ValueError if they do not fit."""
+        (stated_scale, stated_offset), kind = self._stated[_OFFSETS[axis]], values.dtype
+        scale, offset = self._scale[axis], self._offset[axis]
+        if kind.kind == "f":
+            whole = np.rint((values * stated_scale + (stated_offset - offset)) / scale)
+        else:
+            whole = values.astype(np.int64) - np.rint((offset - stated_offset) / scale).astype(
+                np.int64
+            )
+        if not (np.abs(whole) < 1 << 31).all():  # or no number
+            raise ValueError("coordinates lie too far outside of the cube")
+        return whole.astype(np.int32)
 
     def _header(self, count: int, length: int) -> bytes:
         descriptors = b"".join(

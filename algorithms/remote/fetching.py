@@ -11,6 +11,7 @@ from ..core.errors import BareEarthError
 from ..core.files import make_work_folder, temporary_folder, write_errors_told
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
+from ..core.words import counted
 from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.system import Crs
 from ..survey.area import Area
@@ -19,7 +20,7 @@ from .addresses import checked, is_address, name_of, shown
 from .copc import SUFFIX, CopcPart
 from .ept import DESCRIPTION, EptPart
 from .files import LocalFile, RemoteFile
-from .lists import clouds_of
+from .lists import clouds_of, near
 from .parts import remove_parts
 from .transfers import Transfers
 from .utm import STATED, Utm, states_height_unit, utm_of
@@ -30,6 +31,7 @@ _NO_HEIGHT_UNIT = (
     " The unit of its heights is not stated, and can be metres or feet: look it up, and give it"
     " with --height-unit."
 )
+_FOLLOW = "run it again with --follow"
 _UNSAFE = re.compile(r"[^\w.,+() -]")  # in names of files
 
 
@@ -61,10 +63,9 @@ class Fetched:
     @property
     def text(self) -> str:
         """The counts in a sentence."""
-        files = "1 file" if self.file_count == 1 else f"{self.file_count} files"
         return (
-            f"{self.point_count:,} points in {files}; {in_words(self.size)} were downloaded in"
-            f" {self.request_count:,} requests"
+            f"{counted(self.point_count, 'point')} in {counted(self.file_count, 'file')};"
+            f" {in_words(self.size)} were downloaded in {counted(self.request_count, 'request')}"
         )
 
 
@@ -97,11 +98,11 @@ def fetch(
     an error or a cancel.
     """
     address = checked(address) if is_address(address) else address
-    is_planned = False
+    is_planned, was_begun = False, _size_of_parts(waiting) > 0
     with write_errors_told(waiting):
         make_work_folder(waiting)
     try:
-        with Transfers(progress, wanted.follows) as transfers:
+        with Transfers(progress, None if wanted.follows else _FOLLOW) as transfers:
             progress = transfers.progress
             parts = _found(address, transfers, waiting, wanted, progress.part(0.0, 0.1))
             if len(parts) > 1 and target.suffix:
@@ -120,7 +121,7 @@ def fetch(
                 is_planned = False
                 raise nothing_there(parts, address)
     except BaseException:
-        if is_planned:
+        if is_planned or was_begun:
             _tell_of_rest(waiting, progress)
         else:
             remove_parts(waiting)
@@ -134,11 +135,11 @@ def _found(
     address: str, transfers: Transfers, waiting: Path, wanted: Wanted, progress: Progress
 ) -> list[Part]:
     """Return what is needed of each point cloud that has points in the area."""
-    clouds = clouds_of(address, transfers, wanted.follows)
-    near = [cloud.address for cloud in clouds if cloud.may_touch(wanted.area)]
+    clouds = near(clouds_of(address, transfers), wanted.area)
+    shares = progress.shares(*[1.0] * len(clouds))
     parts = [
-        _part(place, transfers, waiting / str(number), wanted, share)
-        for number, (place, share) in enumerate(zip(near, progress.shares(*[1] * len(near))))
+        _part(cloud.address, transfers, waiting / str(number), wanted, share)
+        for number, (cloud, share) in enumerate(zip(clouds, shares))
     ]
     found = [part for part in parts if part.point_count]
     if not found:
@@ -153,10 +154,11 @@ def _part(
     if name_of(address).lower() == DESCRIPTION:
         skips = wanted.skips_missing
         return EptPart(transfers, address, waiting, wanted.area, wanted.resolution, skips, progress)
-    is_remote = is_address(address)
-    file = RemoteFile(transfers, address, waiting) if is_remote else LocalFile(Path(address))
-    transfers.files.enter_context(file)
-    return CopcPart(file, wanted.area, wanted.resolution, progress)
+    if is_address(address):
+        file = RemoteFile(transfers, address).keep_in(waiting)
+        return CopcPart(file, wanted.area, wanted.resolution, progress)
+    local = transfers.files.enter_context(LocalFile(Path(address)))
+    return CopcPart(local, wanted.area, wanted.resolution, progress)
 
 
 def _zone_of(part: Part, wanted: Wanted, progress: Progress) -> Utm | None:
@@ -189,14 +191,14 @@ def check_size(parts: Sequence[Part], most: float, advice: str, progress: Progre
         )
     if size > most:
         raise BareEarthError(
-            f"This would download {about}{in_words(size)} ({points:,} points), more than the limit"
-            f" of {in_words(most)}. {advice}, or raise the limit: --limit"
+            f"This would download {about}{in_words(size)} ({counted(points, 'point')}), more than"
+            f" the limit of {in_words(most)}. {advice}, or raise the limit: --limit"
             f" {size / _GIGABYTE + 0.1:.1f}."
         )
     requests = sum(part.request_count for part in parts)
     progress.info(
-        f"Downloads {about}{in_words(size)} in {requests:,} requests, with {points:,} points in and"
-        " near the area."
+        f"Downloads {about}{in_words(size)} in {counted(requests, 'request')}, with"
+        f" {counted(points, 'point')} in and near the area."
     )
     for part in whole:
         if part.area is not None:
@@ -261,8 +263,7 @@ def nothing_there(parts: Sequence[Part], address: str) -> Outside:
 
 def _tell_of_rest(waiting: Path, progress: Progress) -> None:
     """Tell where the next run goes on; remove what would not save a request."""
-    files = [path for path in waiting.rglob("*-*") if path.is_file()]
-    size = sum(path.stat().st_size for path in files)
+    size = _size_of_parts(waiting)
     if not size:
         remove_parts(waiting)
         return
@@ -270,6 +271,11 @@ def _tell_of_rest(waiting: Path, progress: Progress) -> None:
         f"{in_words(size)} are kept in {waiting}: the same command goes on from there. Delete this"
         " folder if you do not need it."
     )
+
+
+def _size_of_parts(waiting: Path) -> int:
+    """Return the bytes of what was downloaded before."""
+    return sum(path.stat().st_size for path in waiting.rglob("*-*") if path.is_file())
 
 
 def in_words(size: float) -> str:

@@ -5,14 +5,17 @@ from __future__ import annotations
 import io
 from functools import partial
 from pathlib import Path
-from typing import Iterable, NamedTuple, Protocol
+from typing import Callable, Iterable, NamedTuple, Protocol, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..las.sources import open_source
 from .addresses import name_of, shown
-from .parts import Parts
+from .answers import State, changed, too_large
+from .parts import Parts, Range
 from .transfers import Transfers
+
+_Result = TypeVar("_Result")
 
 # Where the user id of the first record stands behind the header of LAS 1.4.
 _COPC = slice(377, 381)
@@ -20,12 +23,10 @@ _COPC = slice(377, 381)
 _FIRST = 1 << 16
 # Fewer bytes than these are not worth a request.
 _LEAST = 1 << 14
-# Most bytes of a request of several pieces.
-_MOST = 1 << 23
+# Most bytes of a request of several pieces, of any request, and of a single read.
+_MOST, _LARGEST, _MOST_READ = 1 << 23, 1 << 25, 1 << 28
 # Most bytes of a gap, about what a request costs, and of all gaps in proportion to what is wanted.
 _WIDEST_GAP, _GAPS = 1 << 16, 0.1
-
-Range = tuple[int, int]  # first byte, and the one after the last
 
 
 class Plan(NamedTuple):
@@ -53,18 +54,34 @@ class RangeFile(Protocol):
     def read(self, count: int = -1) -> bytes:
         """Return the bytes from the position on."""
 
+    def checked(self) -> None:
+        """Note that all that was read so far is sound."""
+
+    def twice(self, work: Callable[[], _Result]) -> _Result:
+        """Do work that reads and checks; if it fails, ask once more for what it read."""
+
 
 class RemoteFile(io.RawIOBase):
     """A file on a server; what was not fetched before is asked for when it is read."""
 
-    def __init__(self, transfers: Transfers, address: str, folder: Path) -> None:
+    def __init__(self, transfers: Transfers, address: str) -> None:
         super().__init__()
         self.address, self.name = address, name_of(address)
-        self._transfers, self._parts, self._position = transfers, Parts(folder, address), 0
+        self._transfers, self._position = transfers, 0
+        # What was read, but not yet found to be sound.
+        self._unchecked: list[Range] = []
         # Asked for in any case, since it tells the version of the file.
-        self._head, self.version = transfers.one(lambda: transfers.read(address, 0, _FIRST, None))
+        self._head, self.version = self._first()
         self.size = self.version.size
+
+    def _first(self) -> tuple[bytes, State]:
+        return self._transfers.one(lambda: self._transfers.read(self.address, 0, _FIRST, None))
+
+    def keep_in(self, folder: Path) -> RemoteFile:
+        """Keep what is fetched in a folder, from which it is not fetched again."""
+        self._parts = Parts(folder, self.address)
         self._parts.begin(self.version._asdict(), self.version.is_certain)
+        return self
 
     @property
     def is_copc(self) -> bool:
@@ -73,16 +90,52 @@ class RemoteFile(io.RawIOBase):
 
     def plan(self, pieces: Iterable[Range]) -> Plan:
         """Return the requests that give some pieces, joined across gaps."""
-        missing = sorted(piece for piece in pieces if not self._has(*piece))
-        if any(stop > self.size for _, stop in missing):
+        wanted = [piece for piece in pieces if piece[1] > len(self._head)]
+        if any(stop > self.size for _, stop in wanted):
             raise BareEarthError(f"{shown(self.address)} is cut off. Check the address.")
-        requests = _joined(missing)
+        missing = sorted(part for piece in wanted for part in self._parts.missing(*piece))
+        requests = [
+            (first, min(first + _LARGEST, stop))
+            for start, stop in _joined(missing)
+            for first in range(start, stop, _LARGEST)
+        ]
         return Plan(requests, sum(stop - start for start, stop in requests))
 
-    def fetch(self, plan: Plan, progress: Progress) -> None:
+    def fetch(self, plan: Plan, progress: Progress | None = None) -> None:
         """Get what was planned, in threads, and keep it on disk."""
         tasks = [partial(self._fetch, *piece) for piece in plan.requests]
         self._transfers.run(tasks, progress, plan.size)
+
+    def checked(self) -> None:
+        """Note that all that was read so far is sound."""
+        self._unchecked.clear()
+
+    def twice(self, work: Callable[[], _Result]) -> _Result:
+        """Do work that reads and checks; if it fails, ask once more for what it read."""
+        self.checked()
+        try:
+            return work()
+        except BareEarthError:
+            if not self._dropped():
+                raise
+        try:
+            return work()
+        except BareEarthError:
+            self._dropped()
+            raise
+
+    def _dropped(self) -> bool:
+        """Drop what was read and not found to be sound, so that it is asked for once more; return
+        whether there was any.
+        """
+        bad, self._unchecked = self._unchecked, []
+        for piece in bad:
+            self._parts.drop(*piece)
+        if any(start < len(self._head) for start, _ in bad):
+            self._head, version = self._first()
+            if version != self.version:
+                raise changed(self.address)
+        return bool(bad)
 
     def readable(self) -> bool:
         """Return that it can be read."""
@@ -105,18 +158,18 @@ class RemoteFile(io.RawIOBase):
         """Return the bytes from the position on."""
         start = min(self._position, self.size)
         stop = self.size if count < 0 else min(start + count, self.size)
+        if stop - start > _MOST_READ:
+            raise too_large(self.address, f"wants {stop - start:,} bytes to be read at once")
         data = self._kept(start, stop)
         if data is None:
             piece = start, min(max(stop, start + _LEAST), self.size)
-            self._transfers.one(lambda: self._fetch(*piece))
+            self.fetch(self.plan([piece]))
             data = self._kept(start, stop)
         if data is None:
             raise BareEarthError(f"What was fetched of {self.name} has changed. Run it again.")
+        self._unchecked.append((start, stop))
         self._position = stop
         return data
-
-    def _has(self, start: int, stop: int) -> bool:
-        return stop <= len(self._head) or self._parts.holding(start, stop) is not None
 
     def _kept(self, start: int, stop: int) -> bytes | None:
         """Return bytes that are here already."""
@@ -125,7 +178,11 @@ class RemoteFile(io.RawIOBase):
         return self._parts.read(start, stop)
 
     def _fetch(self, start: int, stop: int) -> None:
-        data, _ = self._transfers.read(self.address, start, stop, self.version)
+        try:
+            data, _ = self._transfers.read(self.address, start, stop, self.version, self._parts.add)
+        except BareEarthError:
+            self.checked()  # it is not what was read that is wrong
+            raise
         self._parts.add(start, data)
 
 
@@ -143,6 +200,13 @@ class LocalFile(io.FileIO):
 
     def fetch(self, plan: Plan, progress: Progress) -> None:
         """Get nothing."""
+
+    def checked(self) -> None:
+        """Note nothing: what is wrong stays wrong."""
+
+    def twice(self, work: Callable[[], _Result]) -> _Result:
+        """Do the work once."""
+        return work()
 
 
 def _joined(pieces: list[Range]) -> list[Range]:

@@ -11,27 +11,36 @@ STAC 1.0 and 1.1 with the extension "projection"
 
 from __future__ import annotations
 
-import json
+import contextlib
 from functools import partial
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
+from ..core.words import counted
 from ..crs.provider import library
 from ..crs.stated import stated_wkt
 from ..crs.system import Crs, crs_of_wkt
 from ..las.sources import open_source
 from ..survey.area import Area
 from ..survey.shapes import Place, Shapes
-from .addresses import checked, ends_with, host_of, is_address, name_of, referred, shown
+from .addresses import checked, ends_with, is_address, name_of, origin_of, referred, shown
+from .answers import parsed, too_large
 from .copc import area_of
 from .ept import DESCRIPTION
 from .transfers import Transfers
 
 # Endings and media types of clouds of which parts can be read.
 _ENDINGS, _MEDIA = (".copc.laz", DESCRIPTION), ("application/vnd.laszip+copc",)
-_MOST_BYTES, _MOST_ITEMS, _MOST_PAGES = 1 << 26, 5_000, 100
+_MOST_ITEMS, _MOST_PAGES = 5_000, 100
+# Most bytes of a list and of a document with a single item, of which six are read at a time.
+_MOST_LIST, _MOST_ITEM = 1 << 25, 1 << 22
+# Lists round to metres, or to so many degrees.
+_ROUNDED, _ROUNDED_DEGREES = 1.0, 1e-5
+_MOST_DEGREES = 361.0
+# Most point clouds that are asked themselves where their list says that none is near.
+_MOST_ASKED = 100
 
 
 class Cloud(NamedTuple):
@@ -46,74 +55,100 @@ class Cloud(NamedTuple):
         if area is None or self.box is None:
             return True
         crs = None
-        if isinstance(area.polygons, Shapes):
-            if self.crs is None or library() is None:
-                return True
-            crs = crs_of_wkt(stated_wkt(self.crs) or "")
+        if self.crs is not None and library() is not None:
+            with contextlib.suppress(BareEarthError):  # it is none that is known here
+                crs = crs_of_wkt(stated_wkt(self.crs) or "")
         west, south, east, north = self.box
-        # Lists round.
-        box = west - 1, south - 1, east + 1, north + 1
+        more = _ROUNDED_DEGREES if crs is not None and crs.is_geographic else _ROUNDED
+        box = west - more, south - more, east + more, north + more
+        has_crs = isinstance(area.polygons, Shapes)
+        if has_crs and crs is None:
+            return True
+        # What has no CRS is in that of the points: nothing can be said if the list is in degrees.
+        stated = area.box or (box if has_crs else area.bounds)
+        is_in_degrees = crs.is_geographic if crs else max(map(abs, box)) <= _MOST_DEGREES
+        if is_in_degrees and max(map(abs, stated)) > _MOST_DEGREES:
+            return True
         located = area_of(area, Place(name_of(self.address), crs or Crs(), box))
         return located is None or located.may_touch(box)
 
 
-def clouds_of(
-    address: str, transfers: Transfers, follows: bool, how: str = "run it again with --follow"
-) -> list[Cloud]:
+def clouds_of(address: str, transfers: Transfers) -> list[Cloud]:
     """Return the point clouds at an address, or at the path of a file: itself, or those of a list;
-    refuse a list that leads to servers that the user did not name, and say `how` it may.
+    refuse a list that leads to servers that the user did not name, unless that is allowed.
     """
     if ends_with(address, ".laz", ".las") or name_of(address).lower() == DESCRIPTION:
         return [Cloud(address)]
-    reader = _Reader(address, transfers, follows)
-    clouds = list(dict.fromkeys(cloud for item in reader.items() for cloud in reader.clouds(item)))
-    if reader.strange_hosts:
-        hosts = ", ".join(sorted(reader.strange_hosts))
+    reader = _Reader(address, transfers)
+    clouds = reader.clouds()
+    if reader.strange:
         raise BareEarthError(
-            f"{shown(address)} names files on other servers: {hosts}. If you trust them, {how}."
+            f"{shown(address)} names files on other servers: {', '.join(sorted(reader.strange))}."
+            f" If you trust them, {transfers.refusal}."
         )
     if not clouds:
         raise BareEarthError(
             f"{shown(address)} lists no COPC and no EPT point cloud. Give the address of one, or of"
             " a virtual point cloud, a STAC item or collection with such files."
         )
+    if reader.twice_count:
+        count = counted(reader.twice_count, "item")
+        transfers.progress.warning(
+            f"{count} of {shown(address)} name the same points as COPC and as EPT: COPC is taken."
+        )
     return clouds
+
+
+def near(clouds: list[Cloud], area: Area | None) -> list[Cloud]:
+    """Return the point clouds that can have points in an area; if a list says that none has, it may
+    state extents in another CRS than that of the points, and only they can tell.
+    """
+    found = [cloud for cloud in clouds if cloud.may_touch(area)]
+    return found or (clouds if len(clouds) <= _MOST_ASKED else [])
 
 
 class _Reader:
     """Reads a list."""
 
-    def __init__(self, address: str, transfers: Transfers, follows: bool) -> None:
-        self._address, self._transfers, self._follows = address, transfers, follows
-        self.strange_hosts: set[str] = set()
+    def __init__(self, address: str, transfers: Transfers) -> None:
+        self._address, self._transfers = address, transfers
+        self.strange: set[str] = set()  # servers that the user did not name
+        self.twice_count = 0  # items of which one file of several is taken
 
-    def items(self) -> list[tuple[str, dict[str, Any]]]:
-        """Return the items, each with the address of the document in which it stands."""
-        found: list[tuple[str, dict[str, Any]]] = []
+    def clouds(self) -> list[Cloud]:
+        """Return the point clouds of all items, each once."""
+        found: dict[Cloud, None] = {}
         pages, seen = [self._address], set()
         while pages:
             address = pages.pop(0)
             if address in seen:
                 continue
             seen.add(address)
-            content = self._read(address)
+            content, items = self._read(address), []
             if content.get("type") == "Feature":
-                found.append((address, content))
+                found.update(dict.fromkeys(self._clouds(address, content)))
             elif content.get("type") == "FeatureCollection":
-                found += [(address, item) for item in _list_of(content, "features")]
+                features = _list_of(content, "features")
+                self._check(len(features), len(seen))
+                for item in features:
+                    found.update(dict.fromkeys(self._clouds(address, item)))
                 pages += self._links(address, content, "next")
             elif content.get("type") in ("Collection", "Catalog"):
                 pages += self._links(address, content, "items")
                 items = self._links(address, content, "item")
-                self._check(len(found) + len(items), 0)
-                read = self._transfers.run([partial(self._read, item) for item in items])
-                found += zip(items, read)
+                self._check(len(items), 0)
+                for clouds in self._transfers.run([partial(self._item, item) for item in items]):
+                    found.update(dict.fromkeys(clouds))
                 if isinstance(content.get("assets"), dict):
-                    found.append((address, content))
+                    found.update(dict.fromkeys(self._clouds(address, content)))
             else:
                 raise self._no_list(address)
             self._check(len(found), len(seen))
-        return found
+        return [*found]
+
+    def _item(self, address: str) -> list[Cloud]:
+        """Return the point clouds of an item that is a document of its own."""
+        return [*self._clouds(address, self._parsed(address, _MOST_ITEM))]
 
     def _check(self, items: int, pages: int) -> None:
         if items > _MOST_ITEMS or pages > _MOST_PAGES:
@@ -122,9 +157,8 @@ class _Reader:
                 " of the list, such as the answer to a search for the area."
             )
 
-    def clouds(self, item: tuple[str, dict[str, Any]]) -> Iterator[Cloud]:
-        """Yield the point clouds of an item."""
-        base, content = item
+    def _clouds(self, base: str, content: Any) -> Iterator[Cloud]:
+        """Yield the point clouds of an item in a document."""
         assets = content.get("assets") if isinstance(content, dict) else None
         known = [
             asset
@@ -137,6 +171,10 @@ class _Reader:
             for asset in known
             if ends_with(asset["href"], *_ENDINGS) or asset.get("type") in _MEDIA
         ]
+        without_ept = [asset for asset in right if not ends_with(asset["href"], DESCRIPTION)]
+        if without_ept and len(without_ept) < len(right):
+            self.twice_count += 1
+            right = without_ept
         # Some name COPC without its ending; what is none is refused when it is opened.
         for asset in right or [asset for asset in known if ends_with(asset["href"], ".laz")]:
             properties = content.get("properties")
@@ -159,22 +197,27 @@ class _Reader:
             yield str(Path(base).parent / reference)
             return
         place = checked(referred(base, reference) if is_address(base) else reference)
-        named = host_of(self._address) if is_address(self._address) else None
-        if self._follows or host_of(place) == named:
+        named = origin_of(self._address) if is_address(self._address) else None
+        if self._transfers.refusal is None or origin_of(place) == named:
             yield place
         else:
-            self.strange_hosts.add(host_of(place))
+            self.strange.add(origin_of(place))
 
     def _read(self, address: str) -> dict[str, Any]:
-        """Return a document."""
+        """Return a document, while the caller can cancel."""
+        return self._transfers.one(lambda: self._parsed(address, _MOST_LIST))
+
+    def _parsed(self, address: str, most: int) -> dict[str, Any]:
+        if is_address(address):
+            text = self._transfers.read_whole(address, most)
+        else:
+            with open_source(Path(address)) as file:
+                text = file.read(most + 1)
+            if len(text) > most:
+                raise too_large(address, f"has more than {most:,} bytes")
         try:
-            if is_address(address):
-                text = self._transfers.read_whole(address, _MOST_BYTES)
-            else:
-                with open_source(Path(address)) as file:
-                    text = file.read()
-            content = json.loads(text.decode("utf-8-sig"))
-        except (ValueError, RecursionError) as error:
+            content = parsed(text)
+        except ValueError as error:
             raise self._no_list(address) from error
         if not isinstance(content, dict):
             raise self._no_list(address)

@@ -8,7 +8,7 @@ import json
 import re
 import threading
 from pathlib import Path
-from typing import Mapping
+from typing import Iterable, Iterator, Mapping
 
 from ..core.errors import BareEarthError
 from ..core.files import make_work_folder, replacing, write_errors_told
@@ -17,6 +17,7 @@ from .addresses import shown
 
 _ABOUT, _RANGE = "about.json", re.compile(r"(\d+)-(\d+)")
 _TILE = re.compile(r"\d+-\d+-\d+-\d+\.\w+")
+Range = tuple[int, int]  # first byte, and the one after the last
 
 
 class Parts:
@@ -26,8 +27,7 @@ class Parts:
 
     def __init__(self, folder: Path, address: str) -> None:
         self._folder, self._address = folder, address
-        self._starts: list[int] = []
-        self._stops: dict[int, int] = {}
+        self._ranges: list[Range] = []  # in order
         self._lock = threading.Lock()
 
     def begin(self, version: Mapping[str, object], is_certain: bool) -> None:
@@ -50,7 +50,7 @@ class Parts:
                     temporary.write_text(about, encoding="utf-8")
             for path in self._folder.iterdir():
                 found = _RANGE.fullmatch(path.name)
-                if found and path.stat().st_size == int(found[2]) - int(found[1]):
+                if found and _size_of(path) == int(found[2]) - int(found[1]):
                     self._know(int(found[1]), int(found[2]))
 
     def _about(self) -> str | None:
@@ -59,23 +59,49 @@ class Parts:
         return None
 
     def _know(self, start: int, stop: int) -> None:
-        if start not in self._stops:
-            bisect.insort(self._starts, start)
-        self._stops[start] = max(stop, self._stops.get(start, 0))
-
-    def holding(self, start: int, stop: int) -> tuple[int, int] | None:
-        """Return the part that holds all bytes of a range, if any."""
         with self._lock:
-            for first in reversed(self._starts[: bisect.bisect_right(self._starts, start)]):
-                if self._stops[first] >= stop:
-                    return first, self._stops[first]
-        return None
+            bisect.insort(self._ranges, (start, stop))
+
+    def _pieces(self, start: int, stop: int) -> Iterator[tuple[Range, Range | None]]:
+        """Yield the pieces of a range, each with the part that holds it, or None."""
+        with self._lock:
+            ranges = self._ranges[: bisect.bisect_left(self._ranges, (stop, 0))]
+        while start < stop:
+            inside = [part for part in ranges if part[0] <= start < part[1]]
+            if inside:
+                part = max(inside, key=lambda part: part[1])
+                yield (start, min(part[1], stop)), part
+                start = part[1]
+            else:
+                end = min((part[0] for part in ranges if part[0] > start), default=stop)
+                yield (start, end), None
+                start = end
+
+    def missing(self, start: int, stop: int) -> list[Range]:
+        """Return what of a range is not here."""
+        return [piece for piece, part in self._pieces(start, stop) if part is None]
 
     def add(self, start: int, data: bytes) -> None:
-        """Keep bytes; the file gets its name when it is whole."""
-        self.add_file(f"{start}-{start + len(data)}", data)
+        """Keep bytes, in the place of fewer of them; the file gets its name when it is whole."""
+        stop = start + len(data)
+        self.add_file(_name(start, stop), data)
         with self._lock:
-            self._know(start, start + len(data))
+            fewer = [part for part in self._ranges if start <= part[0] and part[1] <= stop]
+        self._remove(part for part in fewer if part != (start, stop))
+        if (start, stop) not in fewer:
+            self._know(start, stop)
+
+    def drop(self, start: int, stop: int) -> None:
+        """Remove what holds bytes of a range, which are damaged."""
+        with self._lock:
+            bad = [part for part in self._ranges if part[0] < stop and part[1] > start]
+        self._remove(bad)
+
+    def _remove(self, parts: Iterable[Range]) -> None:
+        for part in parts:
+            with self._lock:
+                self._ranges.remove(part)
+            remove(self.path_of(_name(*part)))
 
     def add_file(self, name: str, data: bytes) -> None:
         """Keep a whole file."""
@@ -88,14 +114,29 @@ class Parts:
         return self._folder / name
 
     def read(self, start: int, stop: int) -> bytes | None:
-        """Return the bytes of a range; None if they are not all in one part."""
-        part = self.holding(start, stop)
-        if part is None:
-            return None
-        with open(self._folder / f"{part[0]}-{part[1]}", "rb") as file:
-            file.seek(start - part[0])
-            data = file.read(stop - start)
-        return data if len(data) == stop - start else None
+        """Return the bytes of a range; None if some are not here."""
+        found = bytearray()
+        for (first, last), part in self._pieces(start, stop):
+            if part is None:
+                return None
+            with contextlib.suppress(OSError), open(self.path_of(_name(*part)), "rb") as file:
+                file.seek(first - part[0])
+                found += file.read(last - first)
+            if len(found) != last - start:  # somebody removed or changed it
+                self.drop(*part)
+                return None
+        return bytes(found)
+
+
+def _name(start: int, stop: int) -> str:
+    return f"{start}-{stop}"
+
+
+def _size_of(path: Path) -> int:
+    """Return the size of a file, -1 if another process has removed it."""
+    with contextlib.suppress(OSError):
+        return path.stat().st_size
+    return -1
 
 
 def _is_ours(path: Path) -> bool:

@@ -11,11 +11,13 @@ from urllib.parse import urlsplit
 
 from ..core.errors import BareEarthError
 from ..core.progress import PassingOn, Progress
+from ..core.words import counted
 from .addresses import STORES, host_of
 from .answers import Expired, Missing, State, Unfinished
 from .connections import HttpReader
 from .object_stores import StoreReader
 from .signing import Signatures
+from .web_reader import LEAST_SPEED
 
 _Result = TypeVar("_Result")
 
@@ -27,6 +29,10 @@ _SIGNED = 2
 # Seconds before the second attempt, doubled before each further one, and the most that a server may
 # ask for.
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.25, 120.0
+# Seconds that failing attempts may take together, without the pauses that the server asks for.
+_LONGEST = 45.0
+# Seconds without a byte after which the user is told what is waited for.
+_SILENCE = 5.0
 # Seconds after which the caller looks again whether the user has cancelled.
 _BEAT = 0.1
 # Seconds that the threads may take to end.
@@ -43,6 +49,8 @@ class Reader(Protocol):
     requests: int  # made so far
     received: int  # bytes
     notes: list[str]  # what the user should know, not yet told
+    # How the user allows that requests are passed on to other servers; None if that is allowed.
+    refusal: str | None
 
     def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
         """Return bytes of a file, of the known version of it."""
@@ -55,6 +63,9 @@ class Reader(Protocol):
 
     def close(self) -> None:
         """End all connections, also those in use by other threads."""
+
+    def end_overdue(self) -> None:
+        """End the connections whose answers take too long."""
 
 
 class _Pace:
@@ -98,12 +109,18 @@ class _Latest(PassingOn):
 
 
 class Transfers:
-    """Requests of a run, which end with the block; `signs` if it may ask for signatures."""
+    """Requests of a run, which end with the block; with a `refusal`, which says how they may, lists
+    and redirects lead to no servers that the user did not name, and no signatures are asked for.
+    """
 
-    def __init__(self, progress: Progress, signs: bool = False) -> None:
-        self.progress = _Latest(progress)
+    def __init__(self, progress: Progress, refusal: str | None = "give its address") -> None:
+        self.progress, self.refusal = _Latest(progress), refusal
         self._web, self._stores = _READERS[0](), StoreReader()
-        self._signatures = Signatures(self.read_whole, signs)
+        self._web.refusal = refusal
+        self._signatures = Signatures(self.read_whole, refusal is None)
+        self._asked = ""  # the server that was asked last
+        self._silent = {""}  # the servers of which the user knows
+        self._heard = (0, 0.0)  # bytes so far, and when they grew
         self._stopped = threading.Event()
         self._threads: list[threading.Thread] = []
         self.files = contextlib.ExitStack()  # which end with the block, too
@@ -131,10 +148,32 @@ class Transfers:
         """Bytes of answers so far."""
         return self._web.received + self._stores.received
 
-    def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
-        """Return bytes of a file, of the known version of it, in as many attempts as it takes."""
-        reader = self._reader(address)
-        return self._patiently(address, lambda place: reader.read(place, start, stop, known))
+    def read(
+        self,
+        address: str,
+        start: int,
+        stop: int,
+        known: State | None,
+        keep: Callable[[int, bytes], object] = lambda start, data: None,
+    ) -> tuple[bytes, State]:
+        """Return bytes of a file, of the known version of it, in as many attempts as it takes; what
+        came of an answer that was cut off, or cancelled, is given to `keep`.
+        """
+        reader, came = self._reader(address), bytearray()
+
+        def ask(place: str) -> tuple[bytes, State]:
+            if known is not None and start + len(came) == stop:
+                return bytes(came), known
+            try:
+                data, state = reader.read(place, start + len(came), stop, known)
+            except Unfinished as error:
+                if known is not None and error.data:
+                    keep(start + len(came), error.data)
+                    came.extend(error.data)
+                raise
+            return bytes(came) + data, state
+
+        return self._patiently(address, ask)
 
     def read_whole(self, address: str, most: int) -> bytes:
         """Return a whole file of at most so many bytes."""
@@ -155,6 +194,7 @@ class Transfers:
         waiting = iter(enumerate(tasks))
         done: queue.Queue[tuple[int, _Result | None, BaseException | None]] = queue.Queue()
         lock, before = threading.Lock(), self.received
+        self._heard = before, time.monotonic()
 
         def work() -> None:
             while not self._stopped.is_set():
@@ -180,8 +220,24 @@ class Transfers:
                 raise error
             if number >= 0:
                 results[number] = result  # type: ignore[assignment]
+            self._watch()
             self._tell(progress, (self.received - before) / size if size else 0.0)
         return [results[number] for number in range(len(tasks))]
+
+    def whole(self, address: str, most: int) -> bytes:
+        """Return a whole file of at most so many bytes, while the caller can cancel."""
+        return self.one(lambda: self.read_whole(address, most))
+
+    def _watch(self) -> None:
+        """End what takes too long, and tell the user once for each server that is silent."""
+        self._web.end_overdue()
+        if self.received != self._heard[0]:
+            self._heard = self.received, time.monotonic()
+        elif time.monotonic() - self._heard[1] > _SILENCE and self._asked not in self._silent:
+            self._silent.add(self._asked)
+            self.progress.warning(
+                f"No bytes have come from {self._asked} for {_SILENCE:.0f} seconds: waiting for it."
+            )
 
     def one(self, task: Callable[[], _Result]) -> _Result:
         """Do one task, as `run`."""
@@ -203,11 +259,12 @@ class Transfers:
     def _patiently(self, address: str, ask: Callable[[str], _Result]) -> _Result:
         """Ask until there is an answer, at most some times."""
         reader, host, attempt, signed = self._reader(address), host_of(address), 0, 0
-        place = self._signatures.signed(address)
+        place, took = self._signatures.signed(address), 0.0
         while True:
             self._stopped.wait(_PACE.pause(host_of(reader.place_of(place))))
             if self._stopped.is_set():
                 raise Unfinished("cancelled")
+            self._asked, begun = host, time.monotonic()
             try:
                 return ask(place)
             except (Missing, Expired) as error:
@@ -216,11 +273,13 @@ class Transfers:
                     raise
                 place = self._signatures.sign(address, place, error)
             except Unfinished as error:
+                # What came until then was worth its time.
+                took += time.monotonic() - begun - len(error.data) / LEAST_SPEED
                 attempt += not error.is_stale
                 pause = error.pause or _FIRST_PAUSE * 2 ** (attempt - 1)
-                if attempt >= _ATTEMPTS or pause > _LONGEST_PAUSE:
+                if attempt >= _ATTEMPTS or pause > _LONGEST_PAUSE or took > _LONGEST:
                     raise BareEarthError(
-                        f"{host} cannot be read: {error}, after {attempt} attempts. Check the"
-                        " connection and the address, or run it again later."
+                        f"{host} cannot be read: {error}, after {counted(attempt, 'attempt')}."
+                        " Check the connection and the address, or run it again later."
                     ) from error
                 self._stopped.wait(0.0 if error.is_stale else pause)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import BinaryIO, cast
 
+from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..las.crs_records import read_crs
-from ..las.opening import read_layout
-from ..las.sources import FileState
+from ..las.opening import open_las, read_layout
+from ..las.records import read_records
+from ..las.sources import FileState, damaged
 from ..survey.area import Area
 from ..survey.shapes import Place
 from .copc import area_of
@@ -27,25 +29,36 @@ class WholePart:
     def __init__(self, file: RemoteFile, area: Area | None, progress: Progress = SILENT) -> None:
         self.file, self.name = file, file.name
         state = FileState(file.size, 0, 0, 0)
-        layout = read_layout(Path(file.name), cast(BinaryIO, file), state)
+        layout = file.twice(lambda: read_layout(Path(file.name), cast(BinaryIO, file), state))
         self.crs, self.box, self.point_count = read_crs(layout), layout.box, layout.count
         self.area = area_of(area, Place(file.name, self.crs, self.box), progress)
         if self.area is not None and not self.area.may_touch(self.box):
             self.point_count = 0
         starts = range(0, file.size, _PIECE)
         self._pieces = [(start, min(start + _PIECE, file.size)) for start in starts]
-        self._plan = file.plan(self._pieces)
-        self.size, self.request_count = self._plan.size, len(self._plan.requests)
+        plan = file.plan(self._pieces)
+        self.size, self.request_count = plan.size, len(plan.requests)
 
     def fetch(self, progress: Progress) -> None:
         """Get all of it."""
-        self.file.fetch(self._plan, progress)
+        self.file.fetch(self.file.plan(self._pieces), progress)
 
     def write(self, target: Path, progress: Progress = SILENT) -> int:
-        """Write the same bytes; return the number of points."""
+        """Write the same bytes, if all points can be read; return the number of points."""
+        self.file.twice(lambda: self._write(target, progress))
+        return self.point_count
+
+    def _write(self, target: Path, progress: Progress) -> None:
+        self.fetch(progress.part(0.0, 0.1))  # again what was damaged
         with open(target, "wb") as file:
             for start, stop in self._pieces:
                 self.file.seek(start)
                 file.write(self.file.read(stop - start))
-                progress(stop / self.file.size)
-        return self.point_count
+                progress(0.1 + 0.2 * stop / self.file.size)
+        try:
+            layout, done = open_las(target), 0
+            for records in read_records(layout):
+                done += len(records)
+                progress(0.3 + 0.7 * done / layout.count)
+        except BareEarthError as error:
+            raise damaged(Path(self.name)) from error

@@ -30,10 +30,10 @@ def no_pauses(monkeypatch):
     monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
 
 
-def fetched(address, folder, progress=Progress(), pieces=PIECES):
+def fetched(address, folder, progress=Progress(), pieces=PIECES, refusal="say so"):
     """Return the pieces as they are read, and the transfers, which count."""
-    with Transfers(progress) as transfer:
-        file = RemoteFile(transfer, address, folder)
+    with Transfers(progress, refusal) as transfer:
+        file = RemoteFile(transfer, address).keep_in(folder)
         file.fetch(file.plan(pieces), progress)
         found = []
         for start, stop in pieces:
@@ -167,7 +167,11 @@ def test_redirects_to_another_host_are_told_and_get_no_password(server, tmp_path
     server.fault = lambda number, path: (
         f"to {server.address('b', 'localhost')}?sig=SECRET" if path == "a" else ""
     )
-    assert fetched(address, tmp_path / "parts", notes)[0] == wanted()
+    with pytest.raises(BareEarthError, match="leads to another server, http://localhost:") as told:
+        fetched(address, tmp_path / "parts")
+    assert "SECRET" not in str(told.value) and [path for path, *_ in server.asked] == ["a"]
+    server.asked.clear()
+    assert fetched(address, tmp_path / "parts", notes, refusal=None)[0] == wanted()
     assert notes.messages == [("warning", "127.0.0.1 passes the request on to localhost.")]
     by_path = {path: headers for path, _, headers, _ in server.asked}
     assert by_path["a"]["Authorization"].startswith("Basic ")
@@ -233,7 +237,7 @@ def test_ign_is_asked_less_than_ten_times_a_second(server, tmp_path, monkeypatch
     monkeypatch.delenv("no_proxy", raising=False)
     pieces = [(start, start + 10) for start in range(70_000, 900_000, 70_000)]
     begun = time.monotonic()
-    fetched(f"http://{host}/a", tmp_path / "parts", pieces=pieces)
+    fetched(f"http://{host}/a", tmp_path / "parts", pieces=pieces, refusal=None)
     asked = [path for path, *_ in server.asked if "geopf" in path]
     assert len(asked) == 1 + len(pieces)
     assert len(pieces) / (time.monotonic() - begun) <= 10.0
@@ -303,5 +307,5 @@ def test_objects_of_stores_are_checked_as_well(tmp_path, monkeypatch, fault, wor
 
 def test_a_store_without_fsspec_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "fsspec", None)
-    with pytest.raises(BareEarthError, match="pip install fsspec s3fs"):
+    with pytest.raises(BareEarthError, match="pip install fsspec"):
         fetched("s3://bucket/a", tmp_path / "parts")

@@ -174,7 +174,7 @@ def test_an_item_of_stac_leads_to_signed_clouds(planet, content, tmp_path):
     assets = {"data": {"href": near}, "thumbnail": {"href": far.replace("laz", "png")}}
     item = {"type": "Feature", "properties": {}, "assets": assets}
     address = planet.add("api/stac/v1/item", json.dumps(item).encode(), TOKENS)
-    with pytest.raises(BareEarthError, match=f"other servers: {BLOBS}"):
+    with pytest.raises(BareEarthError, match=f"other servers: http://{BLOBS}"):
         bare_earth.fetch(address, tmp_path / "part.laz", extent=BOX)
     assert not planet.asked_for_tokens
     done = bare_earth.fetch(address, tmp_path / "part.laz", extent=BOX, follow=True)
