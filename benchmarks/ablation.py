@@ -2,8 +2,9 @@
 
 Each rule is left out of its pipeline, alone and in groups (`benchmarks/rules.py`), on the ISPRS
 samples in some phases of the grid and on the real tiles. On all tiles the terrain model counts,
-with its spikes and pits, and on those whose labels are trusted the labels as well. Generated scenes
-do not count: a rule is worth what it does on real land.
+with its spikes and pits, and on those whose labels are trusted the labels as well. What a rule
+protects and what it takes of plain things (`benchmarks/plain.py`) is counted as well: rows that are
+held only with it, and only without it. `--on plain --quick --rules low-groups` does only that.
 
 What has been measured is kept in ~/.cache/bare-earth/benchmarks (or $BARE_EARTH_CACHE) until a
 filter, a grid or the data change, so that a run that was stopped goes on where it stopped.
@@ -27,11 +28,12 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.tools.assess import AssessmentOptions, compare
 
 from . import ablation_page as page
-from . import cache, data, work
+from . import cache, data, plain, scenes, work
 from .accuracy import method_name, tell
 from .measure import Filter, ReferenceModel
 from .phases import PHASES, shifted
 from .rules import BASE, GROUPS, VALUES, switched_off, variants
+from .scenes.plain import KINDS, PLACES, rows
 
 # Tiles that the quick form leaves out, and the tile on which time is measured.
 _LONG, _TIMED = ("hawaii_forest", "nrw_rural", "wires_single_return"), "ahn3_urban"
@@ -41,10 +43,10 @@ _FILTERS = _ALGORITHMS / "filters", _ALGORITHMS / "grids"
 
 
 class Place(NamedTuple):
-    """A cloud whose ground is known: a sample in a phase, or a real tile."""
+    """What the ground of is known: a sample in a phase, a real tile, or plain things of a kind."""
 
     kind: str  # one of `ablation_page.KINDS`
-    name: str
+    name: str  # of plain things with their place of the grid
     phase: tuple[float, ...] = ()
 
     @property
@@ -59,7 +61,9 @@ class Place(NamedTuple):
         return tiles[self.name] if self.kind == "real" else None
 
     def path(self) -> Path:
-        """Return the file of a sample or a tile."""
+        """Return the file of a sample or a tile, or what makes plain things."""
+        if self.kind == "plain":
+            return Path(scenes.__file__).parent
         if self.tile:
             return data.real(self.tile.name)
         return data.FOLDER / "isprs" / f"{self.name}.laz"
@@ -73,7 +77,8 @@ def places(is_quick: bool) -> list[Place]:
     for tile in data.REAL:
         if data.real(tile.name).exists() and tile.title not in left_out:
             found.append(Place("real", tile.title))
-    return found
+    of_grid = PLACES[:1] if is_quick else PLACES
+    return found + [Place("plain", f"{kind.name} {one}") for kind in KINDS for one in of_grid]
 
 
 class Job(NamedTuple):
@@ -92,7 +97,7 @@ def run(job: Job) -> dict[str, page.Figures]:
     keys = {name: repr(GROUPS.get(name) or VALUES.get(name) or name) for name in job.variants}
     todo = [name for name, key in keys.items() if key not in kept]
     if todo and not job.only_kept:
-        figures = _Scorer(job).figures
+        figures = (_PlainScorer if job.place.kind == "plain" else _Scorer)(job).figures
         kept.update({keys[name]: figures(name) for name in todo})
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(kept), "utf-8")
@@ -144,11 +149,35 @@ class _Scorer:
         return found
 
 
+class _PlainScorer:
+    """Counts plain things of a kind that are held with all rules, and without some."""
+
+    def __init__(self, job: Job) -> None:
+        self._filter = Filter(job.method)
+        kind, of_grid = job.place.name.split(" ")
+        self._judges = [
+            plain.Judge(row) for row in rows() if (row.kind.name, row.place) == (kind, of_grid)
+        ]
+        self._base = self._held(BASE)
+
+    def figures(self, variant: str) -> page.Figures:
+        """Return how many are held, only held with what the variant leaves out, only without."""
+        held = self._base if variant == BASE else self._held(variant)
+        counts = held, self._base & ~held, held & ~self._base
+        names = "held", "protects", "takes", "rows"
+        return dict(zip(names, [float(some.sum()) for some in counts] + [float(len(held))]))
+
+    def _held(self, variant: str) -> np.ndarray:
+        with switched_off(variant):
+            return np.array([judge.verdict(self._filter).held for judge in self._judges])
+
+
 def _digest(job: Job) -> str:
     """Return what tells apart what is kept: the code, the method, the data and the measuring."""
     place, own = job.place, hashlib.sha256(_code(_FILTERS))
     own.update(repr((job.method, place)).encode())
-    own.update(place.path().read_bytes())
+    path = place.path()
+    own.update(_code((path,)) if path.is_dir() else path.read_bytes())
     return f"{place.kind}-{place.name}-{own.hexdigest()[:24]}"
 
 

@@ -13,16 +13,16 @@ from .phases import Range
 from .rules import BASE, GROUPS, VALUES, lines, variants
 
 # Kinds of places where rules are measured.
-KINDS = "isprs", "real"
+KINDS = "isprs", "real", "plain"
 PAGE = Path(__file__).parents[1] / "docs" / "rules.md"
 COMMENTS = Path(__file__).parent / "rules_comments.md"
 _HEAD = (
     "Left out", "lines", "CPU, %", "ISPRS", "labels: worst", "best", "RMSE, %", "DTM: worst",
-    "best", "spikes", "pits",
+    "best", "spikes", "pits", "protects", "takes",
 )  # fmt: skip
 _BASE_HEAD = (
     "All rules", "ISPRS total error, %", "tiles with labels, %", "DTM: RMSE, m", "spikes", "pits",
-    "samples and phases", "tiles",
+    "samples and phases", "tiles", "plain things", "of them held",
 )  # fmt: skip
 _ABOUT = """# What each rule is worth
 
@@ -39,6 +39,9 @@ is measured again. A rule is worth its code if errors get worse without it, abov
 - *DTM*: the real tiles on which the RMSE of the terrain model changes most, in metres, of {models}.
 - *spikes*, *pits*: change of their number on all tiles: connected places of 3 m² and more where the
   terrain model is over 1 m above, or below, that of the reference.
+
+- *protects*, *takes*: plain things (`python -m benchmarks.plain`, {plain} rows) that come out right
+  only with the rule, and only without it.
 
 A positive change is a loss without the rule. 0 is less than can be printed. A rule may be worth
 nothing alone and something in a group, where no other stands in for it. The command
@@ -116,6 +119,12 @@ def _summed(places: Places, name: str, figure: str) -> str:
     return _signed(sum(changes.values()), 0) if changes else tables.NONE
 
 
+def _counted(places: Places, name: str, figure: str) -> str:
+    """Return a sum over all plain things."""
+    found = _of(places, name, "plain", figure)
+    return f"{sum(found.values()):.0f}" if found else tables.NONE
+
+
 def _saved(places: Places, name: str) -> str:
     for place, seconds in _of(places, name, "real", "cpu").items():
         return f"{100.0 * (1.0 - seconds / _of(places, name, 'real', 'cpu_base')[place]):.0f}"
@@ -135,6 +144,7 @@ def table(places: Places, method: str) -> list[str]:
             _of_models(places, name),
             *_ends(_changes(places, name, "real", "rmse"), 3),
             *(_summed(places, name, figure) for figure in ("spikes", "pits")),
+            *(_counted(places, name, figure) for figure in ("protects", "takes")),
         ]
         for name in variants(method)
         if name in known and name != BASE
@@ -153,7 +163,8 @@ def _base(method: str, places: Places) -> list[str]:
             f"{sum(_of(places, BASE, 'real', figure).values()):.0f}"
             for figure in ("spikes", "pits")
         ),
-        *(str(sum(kind == of_kind for of_kind, _ in places)) for kind in KINDS),
+        *(str(sum(kind == of_kind for of_kind, _ in places)) for kind in KINDS[:2]),
+        *(_counted(places, BASE, figure) for figure in ("rows", "held")),
     ]
 
 
@@ -167,6 +178,7 @@ def write(results: Results, is_quick: bool) -> None:
             samples=len({name for name, _ in samples}),
             phases=len({phase for _, phase in samples}),
             labels=", ".join(_of(everywhere, BASE, "real", "total")),
+            plain=max((_counted(places, BASE, "rows") for places in results.values()), key=len),
             models=", ".join(_of(everywhere, BASE, "real", "rmse")),
             form="its quick form, `--quick`" if is_quick else "its full form",
         ),

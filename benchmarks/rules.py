@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import dataclasses
 import inspect
+import re
 from typing import Any, Iterator
 
 import numpy as np
@@ -83,9 +85,17 @@ def lines(method: str, variant: str) -> int:
 
 
 def changed(pipeline: Pipeline, variant: str) -> Pipeline:
-    """Return a pipeline without the rule or the group of this name, or with such values."""
-    if variant in VALUES:
-        return Pipeline(tuple(_with(rule, *VALUES[variant]) for rule in pipeline.rules))
+    """Return a pipeline without the rule or the group of this name, or with values: those of
+    `VALUES`, or one as in ``gentle-border.least_area=50``.
+    """
+    kind, values = VALUES.get(variant, (None, {}))
+    if "=" in variant:
+        name, field, text = re.split("[.=]", variant, maxsplit=2)
+        parts = (part for rule in pipeline.rules for part in rule.parts())
+        kind, values = {part.name: type(part) for part in parts}.get(name), {}
+        values[field] = ast.literal_eval(text)
+    if kind is not None:
+        return Pipeline(tuple(_with(rule, kind, values) for rule in pipeline.rules))
     names = set(GROUPS.get(variant, (variant,)))
     return pipeline.without(*names.intersection(pipeline.names))
 

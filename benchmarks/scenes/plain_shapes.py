@@ -40,8 +40,8 @@ def pit(u, v, width, depth):
     return -depth * _trapezoid(np.hypot(u, v), width - 0.6, 0.3)
 
 
-def dug(u, v, width, depth, length=None):
-    inside = np.minimum(width / 2 - np.abs(v), (length or width) / 2 - np.abs(u))
+def cellar(u, v, width, depth, length):
+    inside = np.minimum(width / 2 - np.abs(v), length / 2 - np.abs(u))
     return -depth * np.clip(inside / _FACE, 0.0, 1.0)
 
 
@@ -64,8 +64,18 @@ def hollow_way(u, v, width, depth):
     return -depth * smooth(1.5 - 2.0 * np.abs(v + 3.0 * np.sin(u / 15.0)) / width)
 
 
+def cutting(u, v, bottom, depth):
+    return -depth * _trapezoid(np.abs(v), bottom, 1.5 * depth)
+
+
 def crest(u, v, width, height):
     return height * np.clip(1.0 - np.abs(v + 2.0 * np.sin(u / 12.0)) / (width / 2), 0.0, None)
+
+
+def crag(u, v, width, height):
+    """A crest of rock: steep, broken, and lower towards its ends."""
+    broken = 1.0 + 0.15 * np.sin(u * 1.1) * np.sin(v * 0.9 + u * 0.5)
+    return crest(u, v, width, height) * broken * smooth(2.0 - np.abs(u) / 15.0)
 
 
 def rock(u, v, width, height):
@@ -77,6 +87,21 @@ def rock(u, v, width, height):
 
 def dyke(u, v, top, height, flank=2.0):
     return height * _trapezoid(np.abs(v), top, flank * height)
+
+
+def embankment(u, v, top, height):
+    return dyke(u, v, top, height, 1.5)
+
+
+def levee(u, v, top, height):
+    return dyke(u, v, top, height, 3.0)
+
+
+def plateau(u, v, side, height, run):
+    """A raised square with walls, and one way up."""
+    inside = side / 2 - np.maximum(np.abs(u), np.abs(v))
+    way = np.where(np.abs(v) < side / 6, (side / 2 + run - u) / run, 0.0) * (u > 0)
+    return height * np.clip(np.maximum(inside / _FACE, way), 0.0, 1.0)
 
 
 def bank(u, v, width, height):
@@ -91,7 +116,7 @@ def terraces(u, v, width, height):
     return height * np.clip(number + rise, -2.0, 2.0)
 
 
-def scarp(u, v, height, run):
+def scarp(u, v, run, height):
     return height * np.clip(v / run + 0.5, 0.0, 1.0)
 
 
@@ -181,9 +206,16 @@ def boxes(u, v, length, width, height, gap, count):
     return flat(_row(u, length, gap, count), _row(v, width, gap, count), length, width, height)
 
 
-def dome(u, v, width, height):
-    r = 2.0 * np.hypot(u, v) / width
+def domes(u, v, width, height, gap, count):
+    """As many round bushes by as many, a gap apart."""
+    r = 2.0 * np.hypot(_row(u, width, gap, count), _row(v, width, gap, count)) / width
     return np.where(r <= 1.0, height * (0.35 + 0.65 * np.sqrt(np.clip(1 - r**2, 0, 1))), -np.inf)
+
+
+def crop_rows(u, v, height, cover, apart):
+    """Rows of a crop, whose cover is in percent."""
+    on = np.abs(np.mod(v / apart, 1.0) - 0.5) < cover / 200.0
+    return np.where(on, height, -np.inf)
 
 
 def drum(u, v, width, height):

@@ -64,6 +64,7 @@ def test_a_rule_is_off_only_within():
 
 def test_what_was_measured_is_kept(kept, monkeypatch, capsys):
     arguments = ["--quick", "--method", "slope", "--rules", "progressive-opening", "rocks"]
+    arguments += ["--on", "isprs", "real"]
     ablation.main([*arguments, "--write"])
     printed = capsys.readouterr().out
     page = (kept / "rules.md").read_text("utf-8")
@@ -71,10 +72,32 @@ def test_what_was_measured_is_kept(kept, monkeypatch, capsys):
     monkeypatch.setattr(ablation, "Filter", None)  # nothing is measured again
     ablation.main([*arguments, "--kept"])
     assert capsys.readouterr().out == printed
-    (place,) = ablation.places(True)
+    place = ablation.places(True)[0]
     job = ablation.Job("slope", place, ("base", "progressive-opening", "rocks"))
     base, without_opening, without_rocks = ablation.run(job).values()
     assert without_opening["total"] > base["total"] and without_rocks == base
+
+
+def test_plain_things_that_a_rule_protects_and_takes_are_counted(kept, monkeypatch, capsys):
+    some = [kind for kind in ablation.KINDS if kind.name in ("bowl", "low-clumps")]
+    chosen = [
+        scene for scene in ablation.rows()
+        if scene.kind in some and scene.text in ("5x1.5/0/4", "0.5x2x8/0/4")
+    ]  # fmt: skip
+    monkeypatch.setattr(ablation, "KINDS", some)
+    monkeypatch.setattr(ablation, "rows", lambda: chosen)
+
+    def ground(method, cloud):  # bowls come out right without a rule, low points with it
+        without = "rocks" not in pipeline_of(method.name).names
+        (scene,) = [scene for scene in chosen if scene.name in cloud.path.name]
+        truth, is_bowl = scene.make().scene.ground, scene.kind.stays
+        return truth if without == is_bowl else ~truth
+
+    monkeypatch.setattr(Filter, "ground", ground)
+    ablation.main(["--quick", "--method", "slope", "--rules", "rocks", "--on", "plain", "--write"])
+    (line,) = [line for line in capsys.readouterr().out.splitlines() if "| rocks" in line]
+    assert [cell.strip() for cell in line.split("|")[-3:-1]] == ["1", "1"]
+    assert ", 2 rows)" in (kept / "rules.md").read_text("utf-8")
 
 
 def test_labels_and_terrain_models_are_measured(kept, monkeypatch):
