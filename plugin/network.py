@@ -5,30 +5,31 @@ passwords of the user.
 from __future__ import annotations
 
 import email.message
+import time
 
 from qgis.core import QgsApplication, QgsNetworkAccessManager
 from qgis.PyQt.QtCore import QEventLoop, QMetaObject, Qt, QUrl
 from qgis.PyQt.QtNetwork import QNetworkReply, QNetworkRequest
 
 from ..algorithms.core.errors import BareEarthError
-from ..algorithms.remote.addresses import host_of
+from ..algorithms.remote.addresses import host_of, origin_of
 from ..algorithms.remote.answers import REDIRECTS, Unfinished
-from ..algorithms.remote.connections import Check, WebReader
 from ..algorithms.remote.transfers import use
+from ..algorithms.remote.web_reader import Check, WebReader
 
 # Milliseconds without a byte after which a request is given up. The timeout of QGIS ends no
 # request of a thread of Python.
 _TIMEOUT = 30_000
-# The ids of the authentication configurations of layers, by hosts.
+# The ids of the authentication configurations of layers, by servers.
 _LOGINS: dict[str, str] = {}
 
 
 def use_for(address: str, login: str) -> None:
-    """Let the manager of QGIS read from the web, with a login for the host of an address."""
+    """Let the manager of QGIS read from the web, with a login for the server of an address."""
     use(QgisReader)
-    _LOGINS.pop(host_of(address), None)
+    _LOGINS.pop(origin_of(address), None)
     if login:
-        _LOGINS[host_of(address)] = login
+        _LOGINS[origin_of(address)] = login
 
 
 class QgisReader(WebReader):
@@ -45,6 +46,11 @@ class QgisReader(WebReader):
         """End all requests, also those of other threads."""
         with self._lock:
             self._closed = True
+        self.end_overdue()
+
+    def end_overdue(self) -> None:
+        """Let all requests look whether they are to end."""
+        with self._lock:
             for loop in self._running:
                 QMetaObject.invokeMethod(loop, "quit", Qt.ConnectionType.QueuedConnection)
 
@@ -52,7 +58,7 @@ class QgisReader(WebReader):
         self, place: str, headers: dict[str, str], check: Check, most: int, is_named: bool
     ) -> bytes | str:
         """Return the bytes of an answer that passes a check, or where a redirect leads."""
-        request, login = _request(place, headers), _LOGINS.get(host_of(place))
+        request, login = _request(place, headers), _LOGINS.get(origin_of(place))
         if login and is_named:
             is_known, request = QgsApplication.authManager().updateNetworkRequest(request, login)
             if not is_known:
@@ -63,6 +69,7 @@ class QgisReader(WebReader):
                 raise Unfinished("cancelled")
             self.requests += 1
             self._running.add(loop)
+        end = time.monotonic() + self.patience
         direct = Qt.ConnectionType.DirectConnection
         reply = QgsNetworkAccessManager.instance(direct).get(request)
         # A server that knows no ranges sends the whole file, which would fill the memory.
@@ -73,6 +80,8 @@ class QgisReader(WebReader):
             for signal in (reply.finished, reply.metaDataChanged, reply.readyRead):
                 signal.connect(loop.quit)
             while not (reply.isFinished() or self._closed or _length(reply) > most):
+                if time.monotonic() > end + reply.bytesAvailable() / self.least_speed:
+                    break
                 loop.exec()
             return self._answer(reply, check)
         finally:
@@ -84,7 +93,7 @@ class QgisReader(WebReader):
     def _answer(self, reply: QNetworkReply, check: Check) -> bytes | str:
         """Return what came of a request; whether Qt names an error means nothing."""
         status = reply.attribute(QNetworkRequest.Attribute.HttpStatusCodeAttribute)
-        if self._closed or not status:
+        if not status:
             is_error = reply.error() != QNetworkReply.NetworkError.NoError
             raise Unfinished(reply.errorString() if is_error else "it does not answer in time")
         headers = email.message.Message()  # whose names may have any case
@@ -96,7 +105,8 @@ class QgisReader(WebReader):
         with self._lock:
             self.received += len(data)
         if (length is not None and len(data) != length) or not reply.isFinished():
-            raise Unfinished(f"it sent {len(data):,} bytes in place of those that it states")
+            reason = f"it sent {len(data):,} bytes in place of those that it states"
+            raise Unfinished(reason, data=data[:length])
         return data
 
 

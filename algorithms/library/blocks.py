@@ -63,6 +63,10 @@ class _Work(NamedTuple):
     crs: Crs
     cache: Path | None  # None for the usual folder
     most: float  # bytes that may be fetched
+    sources: tuple[str, ...]  # as they are read: signatures are needed, and shown to nobody
+
+    def __repr__(self) -> str:
+        return "_Work(...)"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -80,7 +84,7 @@ class Block:
     window : tuple of float
         The same with the margin whose points help to classify: what a call reads.
     sources : tuple of str
-        The files or addresses that may have points in the window.
+        The files, and the addresses without their signatures, that may have points in the window.
     crs : str or None
         The CRS as well-known text (WKT), None if it is not known.
     """
@@ -172,9 +176,10 @@ def blocks_of(values: SimpleNamespace, sets: list[Any]) -> list[Block]:
         names = sorted(one.name for one in near if touch(one.outer, window))
         whole = box_round(np.array([source.box for source in inside[place]]))
         work = _Work(
-            grid, place, values.classified, shared_by(extent, whole), crs, cache, most_bytes(values)
-        )
-        made.append(Block(extent, window, tuple(names), crs.wkt, work))
+            grid, place, values.classified, shared_by(extent, whole), crs, cache,
+            most_bytes(values), tuple(names),
+        )  # fmt: skip
+        made.append(Block(extent, window, tuple(map(shown, names)), crs.wkt, work))
     return made
 
 
@@ -253,8 +258,8 @@ def points_of(block: Block, progress: Progress) -> list[PointCloud]:
 
 def _read(block: Block, progress: Progress) -> Iterator[PointCloud]:
     """Yield the points of each file in the window of a block."""
-    work, paths = block.work, [Path(name) for name in block.sources if not is_remote(name)]
-    remote, fetched = [name for name in block.sources if is_remote(name)], {}
+    work, paths = block.work, [Path(name) for name in block.work.sources if not is_remote(name)]
+    remote, fetched = [name for name in work.sources if is_remote(name)], {}
     if remote:
         wanted = Wanted(Surroundings(block.window), most=work.most)
         advice = "Allow more, by the argument limit"

@@ -46,7 +46,8 @@ def checked(address: str) -> str:
         parts.port  # noqa: B018  a ValueError if it is no number
     except ValueError:
         parts = urlsplit("")
-    if not parts.hostname:
+    # An @ in a path would be part of a password that holds a slash.
+    if not parts.hostname or (parts.username is not None and "@" in parts.path):
         raise BareEarthError(
             f"{shown(address)} names no server. Check the address; in a password, / is %2F and @ is"
             " %40."

@@ -20,7 +20,7 @@ from urllib.parse import SplitResult, unquote, urlsplit, urlunsplit
 from ..core.errors import BareEarthError
 from .addresses import DEFAULT_PORTS, shown
 from .answers import REDIRECTS, Unfinished, refused_by_proxy
-from .web_reader import LEAST_SPEED, PATIENCE, Check, WebReader
+from .web_reader import Check, WebReader
 
 # Seconds without a byte after which a connection is given up.
 _TIMEOUT = 30.0
@@ -114,7 +114,7 @@ class HttpReader(WebReader):
                         self.received += len(block)
                         if self._closed:
                             raise Unfinished("cancelled")
-                        self._open[connection] += len(block) / LEAST_SPEED
+                        self._open[connection] += len(block) / self.least_speed
                     if len(data) > limit:
                         raise Unfinished("it sends more bytes than it says")
         except Unfinished as error:
@@ -132,7 +132,7 @@ class HttpReader(WebReader):
             self.requests += 1
             idle = self._idle.get(_origin(parts))
             connection = idle.pop() if idle else _new_connection(parts)
-            self._open[connection] = time.monotonic() + PATIENCE
+            self._open[connection] = time.monotonic() + self.patience
             return connection, connection.sock is not None
 
 

@@ -17,7 +17,6 @@ from .answers import Expired, Missing, State, Unfinished
 from .connections import HttpReader
 from .object_stores import StoreReader
 from .signing import Signatures
-from .web_reader import LEAST_SPEED
 
 _Result = TypeVar("_Result")
 
@@ -29,8 +28,9 @@ _SIGNED = 2
 # Seconds before the second attempt, doubled before each further one, and the most that a server may
 # ask for.
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.25, 120.0
-# Seconds that failing attempts may take together, without the pauses that the server asks for.
-_LONGEST = 45.0
+# Seconds that failing attempts may take together, without the pauses that the server asks for, and
+# without the time of what came, at so many bytes a second.
+_LONGEST, _LEAST_SPEED = 45.0, 10_000
 # Seconds without a byte after which the user is told what is waited for.
 _SILENCE = 5.0
 # Seconds after which the caller looks again whether the user has cancelled.
@@ -274,7 +274,7 @@ class Transfers:
                 place = self._signatures.sign(address, place, error)
             except Unfinished as error:
                 # What came until then was worth its time.
-                took += time.monotonic() - begun - len(error.data) / LEAST_SPEED
+                took += time.monotonic() - begun - len(error.data) / _LEAST_SPEED
                 attempt += not error.is_stale
                 pause = error.pause or _FIRST_PAUSE * 2 ** (attempt - 1)
                 if attempt >= _ATTEMPTS or pause > _LONGEST_PAUSE or took > _LONGEST:

@@ -22,8 +22,6 @@ from .answers import (
     unpacked,
 )
 
-# Seconds that an answer may take, and that its bytes take at the least speed, in bytes a second.
-PATIENCE, LEAST_SPEED = 30.0, 10_000
 _MOST_REDIRECTS = 5
 
 # Refuses an answer by its status and headers, or returns the number of bytes that follow, None if
@@ -33,6 +31,9 @@ Check = Callable[[int, Headers], Optional[int]]
 
 class WebReader:
     """Base of what reads from web servers; several threads can use it at the same time."""
+
+    # Seconds that an answer may take, beside those of its bytes at so many a second.
+    patience, least_speed = 30.0, 10_000.0
 
     def __init__(self) -> None:
         self.requests = self.received = 0  # and bytes of answers

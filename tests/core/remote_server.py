@@ -1,11 +1,24 @@
 """A server on this computer that answers ranges, rightly or in the ways of bad servers."""
 
 import contextlib
+import gzip
 import http.server
 import re
 import socket
 import threading
 import time
+
+# What begins an answer that has no end, and what goes on.
+_FIRST = b"HTTP/1.1 206 P\r\nContent-Range: bytes 0-65535/1000000\r\n"
+ENDLESS = {
+    "hundred": (b"", b"HTTP/1.1 100 Continue\r\n\r\n"),
+    "header": (b"HTTP/1.1 206 P\r\nX: ", b"a"),
+    "trailer": (
+        _FIRST + b"Transfer-Encoding: chunked\r\n\r\n10000\r\n" + bytes(1 << 16) + b"\r\n0\r\n",
+        b"X: y\r\n",
+    ),
+    "body": (_FIRST + b"Content-Length: 65536\r\n\r\n", b"a"),
+}  # fmt: skip
 
 
 class Server:
@@ -13,6 +26,7 @@ class Server:
 
     def __init__(self, secured=None):
         self.files, self.etags, self.asked = {}, {}, []
+        self.headers = {}  # more of them, of refusals
         self.fault = lambda number, path: ""
         self.latency, self.sent = 0.0, 0
         self.lock = threading.Lock()
@@ -73,6 +87,8 @@ class _Handler(http.server.BaseHTTPRequestHandler):
             server.asked.append((path, self.headers.get("Range"), dict(self.headers), query))
         time.sleep(server.latency)
         fault = server.fault(number, path)
+        if fault in ENDLESS:
+            return self._go_on(*ENDLESS[fault])
         if fault.isdigit():
             return self._refuse(int(fault))
         if fault.startswith("to "):
@@ -80,6 +96,8 @@ class _Handler(http.server.BaseHTTPRequestHandler):
         if path not in server.files:
             return self._refuse(404)
         data, etag = server.files[path], server.etags[path]
+        if fault == "packed":
+            return self._send(200, gzip.compress(data), "gzip", {"ETag": etag})
         if self.headers.get("If-Match", etag) != etag and fault != "ignores versions":
             return self._refuse(412)
         wanted = re.fullmatch(r"bytes=(\d+)-(\d+)", self.headers.get("Range", ""))
@@ -88,14 +106,24 @@ class _Handler(http.server.BaseHTTPRequestHandler):
         start, stop = int(wanted[1]), min(int(wanted[2]) + 1, len(data))
         if fault == "shifted":
             start, stop = start + 1, min(stop + 1, len(data))
+        if fault == "wrong":
+            data = data[:start] + bytes(byte ^ 255 for byte in data[start:stop]) + data[stop:]
         if fault == "fewer":
             stop -= 100
         stated = {"Content-Range": f"bytes {start}-{stop - 1}/{len(data)}", "ETag": etag}
         return self._send(206, data[start:stop], fault, stated)
 
+    def _go_on(self, start, more):
+        with contextlib.suppress(OSError):
+            self.wfile.write(start)
+            while not self.server_of_test.released.wait(0.02):
+                self.wfile.write(more)
+                self.wfile.flush()
+        self.close_connection = True
+
     def _refuse(self, status, **headers):
         self.send_response(status)
-        for name, value in {"Retry-After": "0", **headers}.items():
+        for name, value in {"Retry-After": "0", **self.server_of_test.headers, **headers}.items():
             self.send_header(name, value)
         self.send_header("Content-Length", "0")
         self.end_headers()

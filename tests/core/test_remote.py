@@ -6,14 +6,22 @@ import time
 
 import numpy as np
 import pytest
-from remote_server import serving
+from remote_server import ENDLESS, serving
 
 from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.core.progress import Notes
 from bare_earth.algorithms.remote import connections, transfers
-from bare_earth.algorithms.remote.addresses import beside, checked, ends_with, referred, shown
+from bare_earth.algorithms.remote.addresses import (
+    beside,
+    checked,
+    ends_with,
+    origin_of,
+    referred,
+    shown,
+)
 from bare_earth.algorithms.remote.files import RemoteFile
 from bare_earth.algorithms.remote.transfers import Transfers
+from bare_earth.algorithms.remote.web_reader import WebReader
 
 DATA = np.random.default_rng(0).integers(0, 256, 1_000_000, dtype=np.uint8).tobytes()
 PIECES = [(100_000, 140_000), (141_000, 180_000), (400_000, 500_000), (900_000, 950_000)]
@@ -217,6 +225,94 @@ def test_a_silent_server_is_given_up(server, tmp_path, monkeypatch):
         fetched(server.add("a", DATA), tmp_path / "parts")
 
 
+@pytest.mark.parametrize("fault", ENDLESS)
+def test_an_answer_without_end_is_given_up(server, tmp_path, monkeypatch, fault):
+    monkeypatch.setattr(WebReader, "patience", 0.3)
+    monkeypatch.setattr(WebReader, "least_speed", 1e9)
+    monkeypatch.setattr(transfers, "_LONGEST", 0.5)
+    monkeypatch.setattr(transfers, "_LEAST_SPEED", 1e9)
+    monkeypatch.setattr(transfers, "_SILENCE", 0.05)
+    server.fault = lambda number, path: fault
+    notes, begun = Notes(), time.monotonic()
+    with pytest.raises(BareEarthError, match=r"127\.0\.0\.1"):
+        fetched(server.add("a", DATA), tmp_path / "parts", notes)
+    assert time.monotonic() - begun < 5 and len(server.asked) <= 3
+    told = [text for _, text in notes.messages]
+    assert told == ["No bytes have come from 127.0.0.1 for 0 seconds: waiting for it."] or (
+        not told and fault in ("body", "trailer")
+    )
+
+
+@pytest.mark.parametrize(
+    ("status", "headers", "words"),
+    [
+        ("429", {"Retry-After": "\u00b2"}, "status 429, after 6 attempts"),
+        ("503", {"Retry-After": "Fri, 32 Nov 2026 25:61:61 GMT"}, "status 503, after 6 attempts"),
+        ("429", {"Retry-After": "9" * 5000}, "status 429"),
+        ("302", {"Location": "http://[::bad/x"}, "leads to something that is no address"),
+        ("302", {"Location": "http://a:b/x"}, "names no server"),
+        ("206", {"Content-Range": f"bytes 0-{'9' * 5000}/{'9' * 5000}"}, "no range of bytes"),
+        ("206", {"Content-Range": "bytes 0-\u00b2/\u00b2"}, "no range of bytes"),
+    ],
+)
+def test_bad_headers_are_one_sentence(server, tmp_path, status, headers, words):
+    server.headers = {
+        name: text.encode().decode("latin-1") for name, text in headers.items()
+    }  # fmt: skip
+    server.fault = lambda number, path: status
+    with pytest.raises(BareEarthError, match=words) as told:
+        fetched(server.add("a", DATA), tmp_path / "parts")
+    assert len(str(told.value)) < 400
+
+
+def test_what_came_of_an_answer_is_not_asked_for_again(server, tmp_path):
+    server.fault = lambda number, path: "cut" if number == 1 else ""
+    address = server.add("a", DATA)
+    assert fetched(address, tmp_path / "parts", pieces=[(200_000, 900_000)])[0] == [
+        DATA[200_000:900_000]
+    ]
+    first, again = (int(asked[1][6:].partition("-")[0]) for asked in server.asked[1:])
+    assert first == 200_000 < again and server.asked[2][1].endswith("-899999")
+
+
+def test_a_cancel_keeps_what_came(server, tmp_path):
+    server.fault = lambda number, path: "slow" if number else ""
+    address, pieces = server.add("a", DATA), [(200_000, 900_000)]
+    with pytest.raises(Cancelled):
+        fetched(address, tmp_path / "parts", Cancelling(1.0), pieces)
+    for thread in threading.enumerate():
+        if thread.name == "download":
+            thread.join(5)
+    kept = sum(path.stat().st_size for path in (tmp_path / "parts").glob("[0-9]*-*"))
+    assert kept > 4000
+    server.fault, server.sent = lambda number, path: "", 0
+    assert fetched(address, tmp_path / "parts", pieces=pieces)[0] == [DATA[200_000:900_000]]
+    assert server.sent == 65_536 + 700_000 - kept
+
+
+def test_what_is_damaged_is_dropped_and_asked_for_once_more(server, tmp_path):
+    def read(file):
+        file.seek(200_000)
+        if file.read(1000) != DATA[200_000:201_000]:
+            raise BareEarthError("damaged")
+        return True
+
+    address, kept = server.add("a", DATA), tmp_path / "parts"
+    for wrong, is_read in (({1}, True), ({1, 2}, False), ((), True)):
+        server.asked.clear()
+        server.fault = lambda number, path, wrong=wrong: "wrong" if number in wrong else ""
+        with Transfers(Progress()) as transfer:
+            file = RemoteFile(transfer, address).keep_in(kept)
+            if is_read:
+                assert file.twice(lambda file=file: read(file))
+            else:
+                with pytest.raises(BareEarthError, match="damaged"):
+                    file.twice(lambda file=file: read(file))
+        assert len(server.asked) == 1 + len(wrong) + is_read * (not wrong or len(wrong) == 1)
+        for path in kept.glob("2*"):
+            path.unlink()
+
+
 def test_a_host_gets_no_more_requests_than_it_allows(server, tmp_path, monkeypatch):
     monkeypatch.setitem(transfers._LIMITS, "localhost", 20.0)
     server.add("a", DATA)
@@ -257,6 +353,13 @@ def test_a_proxy_is_asked_for_the_address(server, tmp_path, monkeypatch):
 
 def test_addresses_are_shown_without_secrets():
     assert shown("https://me:word@host.org:8/a b?sig=x#y") == "https://host.org:8/a b"
+    assert shown("https://me:w/rd@host.org/a@b") == "https://b"
+    assert shown("http://host:8/tiles@2/a") == "http://host:8/tiles@2/a"
+    assert shown("me:word@host.org/a") == shown("http:/me:word@host.org/a") == "...@host.org/a"
+    origins = ["http://h/a", "http://u:p@H:80/b", "https://h", "http://h:81", "s3://h"]
+    assert [origin_of(place) for place in origins] == [
+        "http://h", "http://h", "https://h", "http://h:81", "s3://h",
+    ]  # fmt: skip
     assert checked("https://host.org/a b.laz?sig=%2F+=") == "https://host.org/a%20b.laz?sig=%2F+="
     assert ends_with("https://host.org/A.COPC.LAZ?sig=x.json", ".copc.laz")
     assert beside("https://h/e/ept.json?s=1", "ept-data/0.laz") == "https://h/e/ept-data/0.laz?s=1"

@@ -69,14 +69,14 @@ SCHEMA = [
 ]  # fmt: skip
 
 
+def kinds_of(schema):
+    kinds = {"signed": "i", "unsigned": "u", "float": "f"}
+    return np.dtype([(row["name"], f"<{kinds[row['type']]}{row['size']}") for row in schema])
+
+
 def rows_of(points):
     """Return points as rows of the schema."""
-    kinds = {"signed": "i", "unsigned": "u", "float": "f"}
-    names = [
-        (dimension["name"], f"<{kinds[dimension['type']]}{dimension['size']}")
-        for dimension in SCHEMA
-    ]
-    rows = np.zeros(len(points), dtype=names)
+    rows = np.zeros(len(points), dtype=kinds_of(SCHEMA))
     for axis, name in enumerate("XYZ"):
         rows[name] = np.rint((points[:, axis] - SCHEMA[axis]["offset"]) / 0.01)
     rows["Classification"], rows["OriginId"] = points[:, 3], points[:, 4]
@@ -316,6 +316,92 @@ def test_a_tile_that_is_no_cloud_is_refused(server, tmp_path):
     assert not (tmp_path / "part.laz").exists()
 
 
+@pytest.mark.parametrize("count", [-1, -7])
+@pytest.mark.parametrize("page", ["0-0-0-0", "1-0-0-0"])
+def test_a_page_that_names_itself_is_refused(server, tmp_path, count, page):
+    address, name = add_ept(server)[1], f"set/ept-hierarchy/{page}.json"
+    server.files[name] = json.dumps({**json.loads(server.files[name]), page: count}).encode()
+    with pytest.raises(BareEarthError, match=f"{page}.json names itself"):
+        bare_earth.fetch(address, tmp_path / "part.laz")
+
+
+@pytest.mark.parametrize("fault", ["packed", ""])
+def test_documents_may_be_compressed_and_are_asked_for_twice(server, tmp_path, fault):
+    points, address = add_ept(server)
+    first = {"set/ept-hierarchy/0-0-0-0.json", "set/ept-data/2-1-1-0.laz"}
+
+    def answer(number, path):
+        if fault:
+            return fault * path.endswith("json")
+        is_first = path in first
+        first.discard(path)
+        return "wrong" * is_first
+
+    server.fault = answer
+    bare_earth.fetch(address, tmp_path / "part.laz")
+    assert np.allclose(table_of(tmp_path / "part.laz"), points, atol=1e-6)
+
+
+def test_a_document_that_unpacks_to_too_much_is_refused(server, tmp_path):
+    address = add_ept(server)[1]
+    server.files["set/ept.json"] = b"[" + bytes(1 << 23)
+    server.fault = lambda number, path: "packed"
+    with pytest.raises(BareEarthError, match="has more than 4,194,304 bytes"):
+        bare_earth.fetch(address, tmp_path / "part.laz")
+
+
+@pytest.mark.parametrize("kind", ["f8", "i8", "f4"])
+def test_coordinates_of_other_types_are_read(server, tmp_path, kind):
+    points, address = add_ept(server, kind="binary")
+    about = json.loads(server.files["set/ept.json"])
+    old = kinds_of(SCHEMA)
+    new = np.dtype([(name, f"<{kind}" if name in "XYZ" else old[name]) for name in old.names])
+    for row in about["schema"][:3]:
+        row["type"] = {"f": "float", "i": "signed"}[kind[0]]
+        row["size"] = int(kind[1])
+        if kind[0] == "f":
+            del row["scale"], row["offset"]
+        elif kind == "i8":
+            row["offset"] = 0.0
+    server.files["set/ept.json"] = json.dumps(about).encode()
+    for path in [path for path in server.files if path.endswith(".bin")]:
+        rows = np.frombuffer(server.files[path], old)
+        moved = rows.astype(new)
+        for row, axis in zip(SCHEMA, "XYZ"):
+            if kind[0] == "f":
+                moved[axis] = rows[axis] * row["scale"] + row["offset"]
+            elif kind == "i8":
+                moved[axis] = rows[axis].astype("i8") + round(row["offset"] / row["scale"])
+        server.files[path] = moved.tobytes()
+    bare_earth.fetch(address, tmp_path / "part.laz")
+    found = table_of(tmp_path / "part.laz")
+    assert np.allclose(found, points, atol=0.5 if kind == "f4" else 1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("ept-hierarchy/0-0-0-0.json", b'{"0-0-0-0": 200000000}', "a tile of 200,000,000 points"),
+        ("ept-hierarchy/0-0-0-0.json", b" " * (1 << 24) + b"{}", "too much for what it should be"),
+        ("ept.json", b"[" + b"[]," * (1 << 20) + b"0]", "description cannot be read"),
+    ],
+)
+def test_sizes_are_checked_before_they_are_read(server, tmp_path, name, text, words):
+    address = add_ept(server)[1]
+    server.files[f"set/{name}"] = text
+    with pytest.raises(BareEarthError, match=words):
+        bare_earth.fetch(address, tmp_path / "part.laz")
+
+
+def test_a_crs_as_text_is_read_and_missing_points_are_told(server, tmp_path):
+    address = add_ept(server, srs=WKT)[1]
+    about = json.loads(server.files["set/ept.json"])
+    server.files["set/ept.json"] = json.dumps({**about, "points": 3001}).encode()
+    errors = said("fetch", address, tmp_path / "part.laz")[2]
+    assert "set have 3,000 points, not 3,001 as its description says" in errors
+    assert read_crs(open_las(tmp_path / "part.laz")).epsg == 25832
+
+
 # Lists
 
 
@@ -381,6 +467,47 @@ def test_clouds_outside_of_the_area_are_not_asked_for(server, copc, tmp_path):
     box = (400_000, 5_000_000, 400_050, 5_000_050)
     bare_earth.fetch(address, tmp_path / "part.laz", extent=box)
     assert {path for path, *_ in server.asked} == {"all.vpc", "clouds/a.copc.laz"}
+
+
+@pytest.mark.parametrize("href", ["s3://127.0.0.1/a.copc.laz", "http://127.0.0.1:9/a.copc.laz"])
+def test_another_port_or_scheme_is_another_server(server, tmp_path, href):
+    address = server.add("all.vpc", text_of(item_of(href)))
+    with pytest.raises(BareEarthError, match=f"other servers: {href[:14]}.*--follow"):
+        bare_earth.fetch(address, tmp_path / "part.laz")
+
+
+@pytest.mark.parametrize("about", [{"proj:epsg": 4326}, {"proj:code": "EPSG:4326"}, {}])
+def test_an_extent_in_degrees_says_nothing(server, copc, tmp_path, about):
+    pair = [
+        item_of(f"clouds/{name}.copc.laz", **{"proj:bbox": [2.0, 45.1, 2.1, 45.2], **about})
+        for name in ("a", "b")
+    ]
+    address = server.add("all.vpc", text_of(*pair))
+    box = (400_000, 5_000_000, 400_050, 5_000_050)
+    assert bare_earth.fetch(address, tmp_path / "all", extent=box).file_count == 2
+    # In another CRS that is not in degrees, nothing is near, so that the clouds are asked.
+    other = item_of("clouds/a.copc.laz", **{"proj:bbox": [1, 1, 2, 2], "proj:epsg": 3857})
+    server.add("all.vpc", text_of(other))
+    assert bare_earth.fetch(address, tmp_path / "part.laz", extent=box).file_count == 1
+
+
+def test_one_file_of_an_item_is_fetched(server, copc, tmp_path):
+    add_ept(server)
+    item = item_of("clouds/a.copc.laz")
+    item["assets"]["ept"] = {"href": "set/ept.json"}
+    address = server.add("all.vpc", text_of(item))
+    code, _, errors = said("fetch", address, tmp_path / "part.laz")
+    assert code == 0 and "1 item of" in errors and "COPC is taken" in errors
+    assert len(laspy.read(tmp_path / "part.laz")) == 4000
+
+
+def test_a_list_that_would_fill_the_memory_is_refused(server, tmp_path):
+    text = b'{"type": "FeatureCollection", "features": [' + b"{}," * 6_000 + b"{}]}"
+    with pytest.raises(BareEarthError, match="more than 5,000 point clouds"):
+        bare_earth.fetch(server.add("all.vpc", text), tmp_path / "part.laz")
+    with pytest.raises(BareEarthError, match="neither a point cloud nor a list"):
+        server.add("all.vpc", text.replace(b"{},", b"{}," * 1000))
+        bare_earth.fetch(server.address("all.vpc"), tmp_path / "part.laz")
 
 
 def test_items_and_collections_of_stac_are_followed(server, copc, tmp_path):

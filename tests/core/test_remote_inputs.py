@@ -3,6 +3,7 @@
 import json
 import re
 import sys
+import threading
 from pathlib import Path
 
 import laspy
@@ -13,7 +14,7 @@ from runs import said
 from surveys import ORIGIN, strip, write, write_classified, write_points
 
 import bare_earth
-from bare_earth import BareEarthError
+from bare_earth import BareEarthError, arrays
 from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.library.remote_points import margin_of
 from bare_earth.algorithms.remote import files, transfers, whole
@@ -388,3 +389,104 @@ def test_every_command_with_addresses_is_tried():
     names = re.findall(r"^    ([a-z-]+)", said("--help")[1], re.MULTILINE)
     with_cache = {name for name in names if "--cache" in said(name, "--help")[1]}
     assert {*COMMANDS, "info", "assess", "clear-cache"} == with_cache
+
+
+def test_a_moved_area_needs_only_what_is_not_here(server, tiles, tmp_path, monkeypatch):
+    monkeypatch.setattr(files, "_FIRST", 2_000)
+    monkeypatch.setattr(files, "_WIDEST_GAP", 0)
+    address, sent = add(server, tiles[0]), []
+    moved = (BOX[0] + 10, *BOX[1:2], BOX[2] + 10, BOX[3])
+    for box in (BOX, moved):
+        server.sent = 0
+        bare_earth.classify(address, tmp_path / "out.laz", extent=box, **NEAR)
+        sent.append(server.sent)
+    assert sent[1] < sent[0] / 2
+    here = tmp_path / "here.laz"
+    bare_earth.classify(tiles[0], here, extent=moved, **NEAR)
+    assert np.array_equal(labels_in(here, moved), labels_in(tmp_path / "out.laz", moved))
+
+
+@pytest.mark.parametrize("content", ["part", "whole"])
+def test_a_copy_that_is_damaged_mends_itself(server, tiles, tmp_path, content):
+    plain = tiles[0] if content == "part" else write(tmp_path / "plain.laz", strip())
+    address = add(server, plain)
+    before = bare_earth.info(address)
+    (copy,) = (path for path in cached(tmp_path) if "parts" not in path.parts)
+    data = bytearray(copy.read_bytes())
+    data[len(data) // 2] ^= 1
+    copy.write_bytes(bytes(data))
+    code, out, errors = said("info", address, "--json")
+    assert code == 0 and json.loads(out)["point_count"] == before.point_count
+    assert "in the cache is damaged" in errors and "bare-earth clear-cache" in errors
+    assert "damaged" not in said("info", address)[2]
+
+
+@pytest.mark.parametrize("plain", [False, True])
+def test_a_wrong_answer_is_asked_for_once_more(server, tiles, tmp_path, plain, monkeypatch):
+    monkeypatch.setattr(files, "_FIRST", 2_000)
+    source = write(tmp_path / "plain.laz", strip()) if plain else tiles[0]
+    address, wrong = add(server, source), {2}
+    server.fault = lambda number, path: "wrong" if number in wrong else ""
+    count = laspy.read(source).header.point_count
+    assert bare_earth.info(address).point_count == count
+    # The next run does not suffer from a server that was wrong for a whole run.
+    wrong, server.etags[source.name] = range(1, 1000), '"another"'
+    server.asked.clear()
+    with pytest.raises(BareEarthError):
+        bare_earth.info(address)
+    wrong = ()
+    assert bare_earth.info(address).point_count == count
+
+
+def test_two_runs_at_once_share_an_empty_cache(server, tiles, tmp_path):
+    server.latency, address, errors = 0.05, add(server, tiles[0]), []
+
+    def work(number):
+        try:
+            bare_earth.classify(address, tmp_path / f"{number}.laz", extent=BOX, **NEAR)
+        except BareEarthError as error:
+            errors.append(error)
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not errors
+    assert len({(tmp_path / f"{number}.laz").read_bytes() for number in range(3)}) == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has other permissions")
+def test_the_cache_is_for_its_owner_only(server, tiles, tmp_path):
+    (tmp_path / "cache").mkdir(mode=0o755)
+    bare_earth.info(add(server, tiles[0]))
+    for folder in (tmp_path / "cache").iterdir():
+        assert folder.stat().st_mode & 0o777 == 0o700
+
+
+def test_blocks_show_no_signature(server, tiles):
+    blocks = arrays.blocks([add(server, tiles[0])], classified=True)
+    assert blocks[0].sources == (server.address(tiles[0].name),)
+    assert "s3cr3t" not in repr(blocks[0]) + repr(blocks[0].work)
+    assert sum(len(block()["X"]) for block in blocks)
+
+
+@pytest.mark.parametrize(
+    "address",
+    [
+        "http:/user:s3cr3t@127.0.0.1/a.copc.laz",
+        "user:s3cr3t@127.0.0.1/a.copc.laz",
+        "user:s3cr3t@127.0.0.1:80/a.copc.laz",
+        "https://user:s3/s3cr3t@127.0.0.1/a.copc.laz",
+        "https://user:s3@x/s3cr3t@127.0.0.1/a.copc.laz",
+        "https://user:s3?s3cr3t@127.0.0.1/a.copc.laz",
+        "https://user:s3cr3t@[::1/a.copc.laz",
+        "ftp://user:s3cr3t@127.0.0.1/a.copc.laz",
+    ],
+)
+def test_a_mistyped_address_keeps_its_secret(server, tmp_path, address):
+    for words in (("info",), ("fetch",), ("classify",), ("terrain",)):
+        target = {"info": (), "terrain": ("--dtm", tmp_path / "a.tif")}
+        code, out, errors = said(*words, address, *target.get(words[0], (tmp_path / "a.laz",)))
+        assert code and errors.count("\n") == 1 and "s3cr3t" not in out + errors, errors
+    assert not list(tmp_path.iterdir())
