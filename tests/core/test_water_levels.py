@@ -131,6 +131,19 @@ def test_each_branch_of_a_river_has_its_own_level(name):
     assert np.percentile(channels.off(body), 95) < 0.2 and channels.off(body).max() < 0.3
 
 
+@pytest.mark.parametrize("angle", [45, 90])
+def test_two_arms_that_join_have_their_own_levels(angle):
+    """One falls three times as far as the other, and their banks meet in the last reaches."""
+    across = 280 * np.sin(np.radians(angle / 2))
+    west = 300 - 280 * np.cos(np.radians(angle / 2))
+    join = (300, 250, 100.0)
+    arms = [(west, 250 + across, 101.2), join, (590, 250, 99.8)], [(west, 250 - across, 102.0), join]
+    channels = Channels([(arms[0], 20), (arms[1], 18)])
+    (body,) = channels.water((600, 500), left=0.02)
+    assert body.grade == "certain" and len(body.lines) == 3
+    assert np.percentile(channels.off(body), 95) < 0.05 and channels.off(body).max() < 0.2
+
+
 def test_a_narrow_tributary_does_not_make_a_river_too_narrow():
     brook = [(300, 380, 101.5), (300, 150, 100.2)], 6
     (body,) = Channels([(MAIN, 17), brook]).water((600, 400), left=0.01)
@@ -221,7 +234,9 @@ def test_a_step_parts_the_water(name):
     assert lower.rings[0][:, 0].min() == pytest.approx(250, abs=3 * CELL)
     assert upper.rings[0][:, 0].max() < lower.rings[0][:, 0].min()
     for body in (upper, lower):
-        assert body.grade == "certain" and np.percentile(channels.off(body), 90) < 0.15
+        # A corner of the outline lies between two cells, perhaps on the step itself.
+        off = channels.off(body)[np.abs(np.concatenate(body.rings)[:, 0] - 250) > CELL]
+        assert body.grade == "certain" and np.percentile(off, 90) < 0.15
 
 
 def test_water_that_goes_round_a_weir_is_not_certain():

@@ -48,22 +48,27 @@ class Reaches(NamedTuple):
         groups = self._groups(places)
         reach = self.numbers[groups]
         off = self.along[groups] - self.middles[reach]
-        beyond, share, nearest = values[reach], np.zeros(len(reach)), np.full(len(reach), np.inf)
+        found, nearest = values[reach], np.full(len(reach), np.inf)
         edges = np.concatenate((self.network.edges, self.network.edges[:, ::-1]))
         edges = edges[np.argsort(edges[:, 0], kind="stable")]
         starts = np.searchsorted(edges[:, 0], np.arange(self.network.size + 1))
         for turn in range(int(np.diff(starts).max(initial=0))):
-            place = starts[reach] + turn
-            has_one = place < starts[reach + 1]
-            beside = np.where(has_one, edges[np.minimum(place, len(edges) - 1), 1], reach)
-            length = self.middles[beside] - self.middles[reach]
-            far = np.hypot(*(self.places[beside] - places).T)
-            closer = (length * off > 0) & (far < nearest)
-            ratio = np.clip(off / np.where(closer, length, 1.0), 0.0, 1.0)
-            share = np.where(closer, ratio, share)
-            beyond = np.where(closer, values[beside], beyond)
-            nearest = np.where(closer, far, nearest)
-        return values[reach] * (1.0 - share) + beyond * share
+            which = np.flatnonzero(starts[reach] + turn < starts[reach + 1])
+            start = reach[which]
+            end = edges[starts[start] + turn, 1]
+            # On the line between the middles of both reaches. Where branches meet, a reach belongs
+            # to all of them, so that the distance from one end of the water does not say enough.
+            line, place = self.places[end] - self.places[start], places[which] - self.places[start]
+            squared = np.maximum((line**2).sum(axis=1), 1e-9)
+            share = np.clip((line * place).sum(axis=1) / squared, 0.0, 1.0)
+            far = np.hypot(*(place - share[:, None] * line).T)
+            length = self.middles[end] - self.middles[start]
+            share += np.clip(off[which] / np.where(length == 0, np.inf, length), 0.0, 1.0)
+            closer = far < nearest[which]
+            which, start, end, share = which[closer], start[closer], end[closer], share[closer]
+            nearest[which] = far[closer]
+            found[which] = values[start] + (values[end] - values[start]) * share / 2.0
+        return found
 
 
 def reaches_of(water: np.ndarray, longest: float) -> Reaches:
