@@ -164,6 +164,27 @@ def test_ignored_ground_along_the_shore_gives_the_level_but_no_terrain(tmp_path)
     assert np.all(along > 20.9)
 
 
+def test_points_of_class_9_in_the_water_decide_its_level(tmp_path):
+    """The banks of this canal are 1 m above the water, and fall; a few returns are far below it."""
+    x, y = scatter(SIZE, 1.0, seed=6)
+    wet = np.abs(y - 60.0) < 10.0
+    z = np.where(wet, 7.0, 8.0 + 0.01 * x)
+    z[np.flatnonzero(wet)[::40]] -= 3.0
+    classes = np.where(wet, 9, 2)
+    source, tiles = tmp_path / "canal.laz", tmp_path / "tiles"
+    write_points(source, x, y, z, classes)
+    tiles.mkdir()
+    for name, part in (("west", x < 61.7), ("east", x >= 61.7)):
+        write_points(tiles / f"{name}.laz", x[part], y[part], z[part], classes[part])
+    water, river = _square(0, 50, SIZE, 70), _line((2, 60, 0), (118, 60, 0))
+    for rivers in ((), (river,)):
+        how = {"water": (water,), "rivers": rivers}
+        found, east, north = _raster(source, tmp_path / "dtm.tif", **how)
+        inside = (np.abs(north - 60.0) < 9.0) & (np.abs(east - 60.0) < 55.0)
+        assert np.abs(found[inside] - 7.0).max() < 0.01
+        np.testing.assert_array_equal(_raster(tiles, tmp_path / "tiles.tif", **how)[0], found)
+
+
 def test_an_island_stays(lake, tmp_path):
     shore = (*_square(30.0, 30.0, 90.0, 90.0), *_square(50.0, 50.0, 70.0, 70.0))
     found, x, y = _raster(lake, tmp_path / "dtm.tif", water=(shore,))

@@ -137,7 +137,10 @@ def test_two_arms_that_join_have_their_own_levels(angle):
     across = 280 * np.sin(np.radians(angle / 2))
     west = 300 - 280 * np.cos(np.radians(angle / 2))
     join = (300, 250, 100.0)
-    arms = [(west, 250 + across, 101.2), join, (590, 250, 99.8)], [(west, 250 - across, 102.0), join]
+    arms = (
+        [(west, 250 + across, 101.2), join, (590, 250, 99.8)],
+        [(west, 250 - across, 102.0), join],
+    )
     channels = Channels([(arms[0], 20), (arms[1], 18)])
     (body,) = channels.water((600, 500), left=0.02)
     assert body.grade == "certain" and len(body.lines) == 3
@@ -157,6 +160,63 @@ def test_returns_from_the_surface_decide_the_level():
     lake = Channels((), [(150, 150, 80, 100.0)])
     (body,) = lake.water((300, 300), left=0.02)
     assert body.kind == "lake" and abs(body.level - 100.0) < 0.02
+
+
+def canal(fall=0.0):
+    """Return a canal that falls evenly."""
+    return Channels([([(10, 60, 100.0 + fall), (590, 60, 100.0)], 9)])
+
+
+def with_class_9(channels, where, banks=0.0, left=0.03):
+    """Return the scene of a canal 600 m long, whose returns from the water have class 9 in a part
+    of it; elsewhere there are none. Its banks rise from east to west.
+    """
+    scene = channels.scene((600, 120), left=left)
+    wet = channels.at(scene.x, scene.y)[0] < 0
+    scene.classes[wet] = 9
+    scene.z[~wet] += banks * (1.0 - scene.x[~wet] / 600)
+    scene.keep(~wet | ((scene.x > where[0]) & (scene.x < where[1])))
+    return scene
+
+
+HOW = {"min_width": 5.0, "min_area": 5000.0}
+
+
+def test_water_that_class_9_shows_to_be_level_is_level():
+    """The banks fall by 0.8 m, the water does not."""
+    (river,) = with_class_9(canal(), (300, 300), banks=0.8).water(CELL, **HOW)
+    assert river.kind == "river" and river.level - river.lowest > 0.5
+    (found,) = with_class_9(canal(), (100, 500), banks=0.8).water(CELL, **HOW)
+    assert found.kind == "lake" and found.level == pytest.approx(100.0, abs=0.03)
+    assert found.class_share < 0.5
+
+
+def test_class_9_decides_the_level_of_a_river_that_falls():
+    """Its banks are a quay of 0.4 m, and the water beyond the points of class 9 falls as well."""
+    channels = canal(fall=2.0)
+    for where in ((100, 500), (250, 300)):
+        scene = with_class_9(channels, where)
+        scene.z[channels.at(scene.x, scene.y)[0] >= 0] += 0.4
+        (found,) = scene.water(CELL, **HOW)
+        assert found.kind == "river" and found.level == pytest.approx(102.0, abs=0.1)
+        assert found.lowest == pytest.approx(100.0, abs=0.1)
+        assert np.percentile(channels.off(found), 95) < 0.1
+
+
+def test_a_weir_beyond_level_points_of_class_9_still_parts_the_water():
+    channels = Channels(STEPS["a weir"])
+    scene = with_class_9(channels, (260, 590), left=0.05)
+    upper, lower = sorted(scene.water(CELL, **HOW), key=lambda body: -body.level)
+    assert upper.level == pytest.approx(100.25, abs=0.1)
+    assert lower.level == pytest.approx(99.15, abs=0.1)
+
+
+def test_water_of_class_9_that_the_border_of_the_survey_cuts_is_not_too_small():
+    """A tenth of the smallest area is enough; where nothing cuts it, or it is too narrow, not."""
+    cut, whole = Channels([([(-9, 60, 100), (90, 60, 100)], 9)]), Channels((), [(75, 60, 25, 100)])
+    for channels, count, width in ((cut, 1, 5.0), (cut, 0, 60.0), (whole, 0, 5.0)):
+        scene = with_class_9(channels, (0, 600))
+        assert len(scene.water(CELL, min_width=width, min_area=5000.0)) == count
 
 
 def test_a_lake_with_long_arms_has_one_level():

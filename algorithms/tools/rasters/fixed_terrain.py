@@ -22,6 +22,9 @@ from .level_water import LevelWater
 
 # This share of the ground along the border of water is below its level: banks are higher.
 _LEVEL = 10.0
+# The level is that of points of class 9 in the water, of which there are at least so many, and
+# which count as the means of squares of so many metres.
+_WATER_CLASS, _FEWEST, _SQUARE = 9, 8, 2.0
 # Metres between vertices inside water.
 _INSIDE = 10.0
 # Lines are used up to so many metres beyond the points of a block.
@@ -123,7 +126,14 @@ class GivenTerrain(NamedTuple):
             for polygon in polygons
         ]
         places = [along(line, step) for line in lines]
-        near, is_ground = _ground_near([*places, *borders], clouds, ground, frame)
+        # Levels that are given need no points.
+        open_ones = tuple(
+            _outline_of(polygon)
+            for polygon, border in zip(polygons, borders)
+            if np.isnan(border[:, 2]).any()
+        )
+        surface = _Surface(Area(None, open_ones) if open_ones else None)
+        near, is_ground = _ground_near([*places, *borders], clouds, ground, frame, surface)
         if polygons:
             # Points in the water are not on its banks.
             dry = ~Area(None, tuple(map(_outline_of, polygons))).contains(*near[:, :2].T)
@@ -133,7 +143,7 @@ class GivenTerrain(NamedTuple):
         shore = heights if is_ground.all() else NearestHeights(near, NEAR)
         rivers = [along(metres(line), STATION) for line in constraints.rivers]
         waters = [
-            _with_level(polygon, border, rivers, shore)
+            _with_level(polygon, border, rivers, shore, surface)
             for polygon, border in zip(polygons, borders)
         ]
         lines = without_wrong_heights(lines, heights, frame.vertical_unit, progress)
@@ -152,26 +162,46 @@ def _outline_of(polygon: Polygon) -> Polygon:
 
 
 def _with_level(
-    polygon: Polygon, border: np.ndarray, rivers: Sequence[np.ndarray], shore: NearestHeights
+    polygon: Polygon,
+    border: np.ndarray,
+    rivers: Sequence[np.ndarray],
+    shore: NearestHeights,
+    surface: _Surface,
 ) -> LevelWater:
-    """Return a polygon with its level: that of its corners, or of the ground along its border."""
+    """Return a polygon with its level: that of its corners, of the points of class 9 in it, or of
+    the ground along its border.
+    """
     rings = tuple(along(ring, STATION, is_closed=True) for ring in polygon)
     area = Area(None, (_outline_of(polygon),))
     parts = [line[area.contains(*line[:, :2].T)] for line in rivers]
     parts = [part for part in parts if len(part) > 1]
     if not np.isnan(border[:, 2]).any():
         return LevelWater(rings, tuple(parts))
-    places = border[:, :2]
-    heights = shore.near(places)
-    if np.isnan(heights).all():
+    places, percentile = border[:, :2], _LEVEL
+    heights, seen = shore.near(places), surface.within(area)
+    if np.isnan(heights).all() and not len(seen):
         return LevelWater(rings)
     stations = [part[:, :2] for part in parts]
-    level = float(np.nanpercentile(heights, _LEVEL))
+    if len(seen):
+        # Banks count for the shape of a fall only, and only where no such points are.
+        percentile = 50.0
+        if stations and not np.isnan(heights).all():
+            banks = falling(
+                stations, places, heights, np.concatenate((places, seen[:, :2])), _LEVEL
+            )
+            far = ~NearPlaces(seen[:, 0], seen[:, 1], 2.0 * NEAR).of(*places.T)
+            heights = banks[: len(places)] + np.median(seen[:, 2] - banks[len(places) :])
+            places, heights = places[far], heights[far]
+        else:
+            places, heights = places[:0], heights[:0]
+        places = np.concatenate((places, seen[:, :2]))
+        heights = np.concatenate((heights, seen[:, 2]))
+    level = float(np.nanpercentile(seen[:, 2] if len(seen) else heights, percentile))
 
     def raised(line: np.ndarray) -> np.ndarray:
         z = np.full(len(line), level)
         if stations:
-            z = falling(stations, places, heights, line[:, :2], _LEVEL)
+            z = falling(stations, places, heights, line[:, :2], percentile)
         return np.column_stack((line[:, :2], z))
 
     lines = map(raised, parts)
@@ -194,6 +224,42 @@ def _along_breaklines(given: GivenTerrain, step: float, progress: Progress) -> I
         )
 
 
+class _Surface:
+    """The points of class 9 in water, whose level is not given, as means of squares."""
+
+    def __init__(self, water: Area | None) -> None:
+        self.water = water
+        # Of each part of the survey: the number of each square; sums of x, y and z in whole
+        # millimetres, which are the same in any order, and of points
+        self._parts = [(np.zeros(0, dtype=np.int64), np.zeros((0, 4)))]
+
+    def add(self, points: np.ndarray) -> None:
+        """Add those of some points, shape (n, 3), that lie in the water."""
+        if self.water is not None:
+            points = points[self.water.contains(*points[:, :2].T)]
+            numbers = squares(points[:, 0], points[:, 1], _SQUARE)
+            sums = np.column_stack((np.rint(points * 1000.0), np.ones(len(points))))
+            self._parts.append(_summed(numbers, sums))
+
+    @cached_property
+    def _means(self) -> np.ndarray:
+        """The mean x, y and z in each square, and the number of points; shape (n, 4)."""
+        _, sums = _summed(*map(np.concatenate, zip(*self._parts)))
+        return np.column_stack((sums[:, :3] / 1000.0 / sums[:, 3:], sums[:, 3]))
+
+    def within(self, area: Area) -> np.ndarray:
+        """Return the means in an area, shape (n, 3); none of too few points."""
+        means = self._means[area.contains(*self._means[:, :2].T)]
+        return means[:, :3] if means[:, 3].sum() >= _FEWEST else means[:0, :3]
+
+
+def _summed(numbers: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the numbers, each once, and the sums of the values of each, shape (k, 4)."""
+    names, group = np.unique(numbers, return_inverse=True)
+    sums = [np.bincount(group, column, len(names)) for column in values.T]
+    return names, np.column_stack(sums)
+
+
 def _inside(water: LevelWater) -> np.ndarray:
     """Return vertices inside of water, shape (n, 3)."""
     x, y = inside_grid(water.bounds, _INSIDE).T
@@ -207,8 +273,11 @@ def _ground_near(
     clouds: Iterable[PointCloud],
     ground: GroundClasses,
     frame: Frame,
+    surface: _Surface,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return ground and ignored ground round lines, shape (n, 3), and which is ground."""
+    """Return ground and ignored ground round lines, shape (n, 3), and which is ground; add the
+    points of class 9 to the surface of water.
+    """
     found, are_ground = [np.zeros((0, 3))], [np.zeros(0, dtype=bool)]
     if lines:
         places = np.concatenate(lines)
@@ -219,4 +288,7 @@ def _ground_near(
             near = which[wanted.of(*cloud.places(which, frame))]
             found.append(np.column_stack(cloud.points(near, frame)))
             are_ground.append(is_ground[near])
+            if surface.water is not None:
+                wet = np.flatnonzero(ground.points_of(cloud, (_WATER_CLASS,)))
+                surface.add(np.column_stack(cloud.points(wet, frame)))
     return np.concatenate(found), np.concatenate(are_ground)

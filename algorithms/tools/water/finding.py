@@ -23,7 +23,17 @@ from ..rasters.constraints import STATION
 from .bridges import below_decks, beside_decks
 from .grid import WaterGrid, Window, regions_of
 from .level_areas import level_areas
-from .levels import MARGIN, STEP, Levels, Shore, levels_of, parts_of_step, shore_of, surface_of
+from .levels import (
+    FEW_RETURNS,
+    MARGIN,
+    STEP,
+    Levels,
+    Shore,
+    levels_of,
+    parts_of_step,
+    shore_of,
+    surface_of,
+)
 
 # Radius in cells of the disc that closes single stray cells, and of that which cuts thin links.
 _CLOSE, _OPEN = 1.5, 1.5
@@ -51,7 +61,8 @@ _ABOVE, _MOST_ABOVE = 2.0, 0.05
 _MOST_OFF = 0.5
 # Share of class 9 among the points from which a region needs no rising shore.
 _CLASSIFIED = 0.5
-# A part of water beyond a step of its level has at least this share of the smallest area.
+# A part of water beyond a step of its level, or of class 9 at the border of the survey, beyond which
+# it goes on, has at least this share of the smallest area.
 _LEAST_PART = 0.1
 # Most certainty where a part of the shore is farther from the level than the spread of water, or
 # the whole shore has such a spread, in metres.
@@ -175,10 +186,23 @@ class _Search:
         """Yield the connected regions that are large enough, without those that are covered."""
         cells = _without_links(closing(self.grid.candidates() | level, _CLOSE) & ~covered)
         below = below_decks(cells, self.grid)
-        for window, water in regions_of(cells | below, self.least, MARGIN, progress):
+        least = _LEAST_PART * self.least
+        for window, water in regions_of(cells | below, least, MARGIN, progress):
+            if self._is_small(water) and not self._goes_on(water, window):
+                continue
             water = self._with_small_islands(water)
             under, beyond, flat = (water & part[window] for part in (below, self.outside, level))
             yield _Region(window, water, under, beyond, flat, np.zeros_like(water))
+
+    def _is_small(self, water: np.ndarray) -> bool:
+        return np.count_nonzero(water) < self.least
+
+    def _goes_on(self, water: np.ndarray, window: Window) -> bool:
+        """Return whether a region has points of class 9 and reaches the border of the survey."""
+        # The margin of a window is missing only where the grid ends, as the survey does.
+        beside = dilation(water, 1.5) & self.outside[window]
+        ends = (water[[0, -1]].any(), water[:, [0, -1]].any(), beside.any())
+        return any(ends) and np.count_nonzero(water & self.grid.class_in(window)) >= FEW_RETURNS
 
     def _with_small_islands(self, water: np.ndarray) -> np.ndarray:
         from scipy.ndimage import label
@@ -247,8 +271,11 @@ class _Search:
         banks = marks.rising >= _RISING_FROM_BANKS and not region.outside.any()
         most = max(_MOST_SPREAD, _SPREAD_A_METRE * grid.cell)
         most *= 1.0 + (marks.share >= _CLASSIFIED or banks)
-        surface = _inner_returns(region.open, grid.lowest[region.window])
-        levels = levels_of(region.water, marks.shore, surface, most)
+        lowest = grid.lowest[region.window]
+        surface = _inner_returns(region.open, lowest)
+        is_water = region.water & grid.class_in(region.window) & np.isfinite(lowest) & is_shore
+        points = np.column_stack((np.argwhere(is_water), lowest[is_water].astype(np.float64)))
+        levels = levels_of(region.water, marks.shore, surface, most, points)
         parts = parts_of_step(region.water, levels, grid.ground[region.window])
         if len(parts) == 1:
             # The water goes round a step, where its level is that of neither side.
@@ -263,8 +290,9 @@ class _Search:
                     bodies += self._parts_of(part, is_shore)
             if bodies:
                 return bodies
-        is_river = levels.reaches is not None
-        is_narrow = is_river and levels.width * grid.cell < self.how.min_width
+        # Of water that is cut off, the width tells whether it is small.
+        has_width = levels.reaches is not None or self._is_small(region.water)
+        is_narrow = has_width and levels.width * grid.cell < self.how.min_width
         if levels.spread > most or is_narrow or not _is_free(surface, levels):
             return []
         return [self._body_of(region, marks, levels)]

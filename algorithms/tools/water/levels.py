@@ -34,7 +34,10 @@ _DEVIATIONS = 2.563
 _TOGETHER = 7
 # Returns from the surface lie at most so far from the level of the shore, in metres. At least so
 # many decide the level, and so large a share of all returns inside.
-_SURFACE, _FEW_RETURNS, _MOST_RETURNS = 0.5, 8, 0.6
+_SURFACE, FEW_RETURNS, _MOST_RETURNS = 0.5, 8, 0.6
+# Share of the reaches of each branch between the first and the last point of class 9 from which
+# these show that all of it is level.
+_SHOWN = 0.5
 # A river falls by so many metres, is so many times as long as wide, and its shore fits a falling
 # level so much better than one level.
 _FALL, _ELONGATED, _BETTER = 0.15, 3.0, 0.8
@@ -174,16 +177,27 @@ def _beyond(which: np.ndarray, ground: np.ndarray, places: np.ndarray, side: int
     return np.where(np.isfinite(lowest), lowest, np.nan)
 
 
-def levels_of(water: np.ndarray, shore: Shore, surface: np.ndarray, most: float) -> Levels:
+def levels_of(
+    water: np.ndarray, shore: Shore, surface: np.ndarray, most: float, points: np.ndarray
+) -> Levels:
     """Return the level of a lake or of a river, whose shore is at most so far from it, given row,
-    column and height of returns inside, shape (k, 3).
+    column and height of returns inside, and of those among the points of class 9, shape (k, 3).
     """
-    flat, river = _lake_level(water, shore, surface), _river_level(water, shore, surface)
+    # Banks are higher than the water, and all else can be a bridge or a boat: class 9 decides.
+    is_sure = len(points) >= FEW_RETURNS
+    surface = points if is_sure else surface
+    flat = _lake_level(water, shore, surface, is_sure)
+    river = _river_level(water, shore, surface, is_sure)
     if river is None or river.reaches is None:
         return flat
     is_long = river.reaches.length >= _ELONGATED * river.width
     fits = river.spread < _BETTER * flat.spread
-    if not is_long:
+    if is_sure and _is_shown_level(river, points):
+        fits = False
+    elif is_sure:
+        off = [points[:, 2] - levels.level_at(points[:, :2]) for levels in (river, flat)]
+        fits = spread_of(off[0]) < _BETTER * spread_of(off[1])
+    elif not is_long:
         # A river that flows into a wide lake is a small part of the shore.
         fits = flat.misfit > most and river.misfit < flat.misfit / 2.0
     if fits and np.ptp(river.heights) >= _FALL:
@@ -192,18 +206,37 @@ def levels_of(water: np.ndarray, shore: Shore, surface: np.ndarray, most: float)
     return flat._replace(width=river.width) if is_long else flat
 
 
-def _lake_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels:
+def _is_shown_level(river: Levels, points: np.ndarray) -> bool:
+    """Return whether points of the water along most of a river show that it does not fall."""
+    seen = np.zeros(len(river.heights), dtype=bool)
+    if river.reaches is not None:
+        seen[river.reaches.of(points[:, :2])] = True
+    if np.ptp(river.heights[seen]) >= _FALL:
+        return False
+    for chain in river.chains:
+        # Beyond them it may still step, as at a weir.
+        places = np.flatnonzero(seen[chain])
+        if not len(places) or np.ptp(places) + 1 < _SHOWN * len(chain):
+            return False
+        if _steps(river.heights, chain):
+            return False
+    return True
+
+
+def _lake_level(water: np.ndarray, shore: Shore, surface: np.ndarray, is_sure: bool) -> Levels:
     """Return one level: a low percentile of the ground along the shore, or that of the surface."""
     level = float(np.percentile(shore.heights, shore.percentile))
     level = min(level, float(np.median(shore.lowest)) + _NOISE)
-    off = _off_surface(np.full(len(surface), level), surface[:, 2])
+    off = _off_surface(np.full(len(surface), level), surface[:, 2], is_sure)
     if off is not None:
         level += float(np.median(off[~np.isnan(off)]))
     spread, misfit = _fit(shore, np.full(len(shore.lowest), level))
     return Levels(np.array([level]), spread, misfit, math.sqrt(np.count_nonzero(water)))
 
 
-def _river_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels | None:
+def _river_level(
+    water: np.ndarray, shore: Shore, surface: np.ndarray, is_sure: bool
+) -> Levels | None:
     """Return levels that fall along a region and its branches, or None if it has no length."""
     # The level of a reach is that of the lowest ground of the segments of the shore beside it, by
     # isotonic regression along the branches, and of returns from the surface.
@@ -212,22 +245,26 @@ def _river_level(water: np.ndarray, shore: Shore, surface: np.ndarray) -> Levels
         return None
     station, heights = reaches.of(shore.places), shore.lowest
     falling = descent(reaches.network, station, heights)
-    off = _off_surface(reaches.between(falling.levels, surface[:, :2]), surface[:, 2])
+    off = _off_surface(reaches.between(falling.levels, surface[:, :2]), surface[:, 2], is_sure)
     if off is not None:
         # Banks are higher than the water: they count for the shape of the fall only.
         near = ~np.isnan(off)
-        station = np.concatenate((station, reaches.of(surface[near, :2])))
-        heights = np.concatenate((heights + np.median(off[near]), surface[near, 2]))
+        seen = reaches.of(surface[near, :2])
+        beside = ~np.isin(station, seen) if is_sure else np.ones(len(station), dtype=bool)
+        station = np.concatenate((station[beside], seen))
+        heights = np.concatenate((heights[beside] + np.median(off[near]), surface[near, 2]))
         falling = descent(reaches.network, station, heights)
     spread, misfit = _fit(shore, reaches.between(falling.levels, shore.places))
     return Levels(falling.levels, spread, misfit, reaches.width, reaches, tuple(falling.chains))
 
 
-def _off_surface(levels: np.ndarray, heights: np.ndarray) -> np.ndarray | None:
+def _off_surface(levels: np.ndarray, heights: np.ndarray, is_sure: bool) -> np.ndarray | None:
     """Return how far returns lie above levels: NaN if not from the surface, None if too few are."""
     off = heights - levels
+    if is_sure:
+        return off
     near = np.abs(off) <= _SURFACE
-    if near.sum() < max(_FEW_RETURNS, _MOST_RETURNS * np.count_nonzero(~np.isnan(off))):
+    if near.sum() < max(FEW_RETURNS, _MOST_RETURNS * np.count_nonzero(~np.isnan(off))):
         return None
     return np.where(near, off, np.nan)
 
