@@ -61,8 +61,8 @@ _ABOVE, _MOST_ABOVE = 2.0, 0.05
 _MOST_OFF = 0.5
 # Share of class 9 among the points from which a region needs no rising shore.
 _CLASSIFIED = 0.5
-# A part of water beyond a step of its level, or of class 9 that the border of the survey cuts, has at
-# least this share of the smallest area.
+# A part of water beyond a step of its level, or of class 9 that the border of the survey cuts, has
+# at least this share of the smallest area.
 _LEAST_PART = 0.1
 # Most certainty where a part of the shore is farther from the level than the spread of water, or
 # the whole shore has such a spread, in metres.
