@@ -2,8 +2,9 @@
 
 `KINDS` is the matrix. A kind has rows such as ``5x1.5/20/8``, which are the sizes of a thing in
 metres (the arguments of its shape), the slope of the land in percent, and points per square metre.
-Each row is made at two places of the grid: "a" on smooth land with points scattered at random, "b"
-on rough land with the pattern of a scanner.
+Each row is made at two places of the grid. At "a" the thing lies along the grid on smooth land,
+below points scattered at random from straight above. At "b" it is turned, on rough land, and a
+scanner sees its walls from two sides.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ PLACES = "a", "b"
 # Metres of land round a thing, and the least side of a scene.
 _ROUND, _LEAST = 22.0, 60.0
 _NOISE = 0.025
-# Metres that pulses slant per metre of height, to both sides.
-_SLANT = 0.18
+# Metres that pulses slant per metre of height, to both sides, at the two places.
+_SLANTS = {"a": 0.02, "b": 0.18}
 # Share of the pulses that strike a crown, and of these, that end on the ground below.
 _CROWNS, _THROUGH = 0.7, 0.4
 # Share of the pulses that strike leaves where there are any, and of those that strike plants, that
@@ -93,7 +94,8 @@ class _Site:
         self.random = random = np.random.default_rng(zlib.crc32(row.name.encode()))
         self.row, self.side, is_rough = row, side, row.place == "b"
         slope, density = map(float, row.text.split("/")[1:])
-        self.angle, up = random.uniform(0.1, 1.4), random.uniform(0.0, 2 * np.pi)
+        self.angle = random.uniform(0.1, 1.4) if is_rough else random.integers(2) * np.pi / 2
+        up = random.uniform(0.0, 2 * np.pi)
         self._up = slope / 100.0 * np.array((np.cos(up), np.sin(up)))
         self._roll = waves(random, 0.12 if is_rough else 0.03, 22.0)
         self._bumps = waves(random, 0.03 if is_rough else 0.0, 3.0)
@@ -156,7 +158,7 @@ def _breadth(row: Row) -> float:
 def _struck(site: _Site, floor: Callable, top: Callable) -> tuple[np.ndarray, ...]:
     """Return x, y, z and what is solid of pulses from two sides, some of which strike walls."""
     x, y, land = site.x, site.y, floor(site.x, site.y)
-    slant = np.where(site.random.random(site.count) < 0.5, -_SLANT, _SLANT)
+    slant = _SLANTS[site.row.place] * site.random.choice((-1.0, 1.0), site.count)
     highest = max(float((top(x, y) - land).max()), 0.0) + 0.01
     z, is_solid, before = land.copy(), np.zeros(site.count, dtype=bool), highest
     for above in np.linspace(highest, 0.0, 11):
@@ -199,20 +201,20 @@ def by_house(row: Row) -> Plain:
     return earth(row, has_house=True)
 
 
-def wooded(row: Row) -> Plain:
+def wooded(row: Row, below: Callable[[Row], Plain] = earth) -> Plain:
     """Return earth below trees: at the second place without return numbers."""
-    plain = earth(row)
+    plain = below(row)
     scene, random = plain.scene, np.random.default_rng(zlib.crc32(row.name.encode()) + 1)
     x, y, z = scene.points
-    crown = (_patches(random, x, y, 5.0) < _CROWNS) & scene.ground
+    crown = (_patches(random, x, y, 5.0) < _CROWNS) & (scene.classes != HIGH_NOISE)
     kept, top = ~crown | (random.random(len(x)) < _THROUGH), np.flatnonzero(crown)
     leaves = Points(x[top], y[top], z[top] + random.uniform(5.0, 14.0, len(top)))
-    is_numbered = row.place == "a"
-    below, several = np.where(crown & is_numbered, 2, 1)[kept], kept[top] & is_numbered
+    is_numbered = row.place == "a" and below is earth
+    counted, several = np.where(crown & is_numbered, 2, 1)[kept], kept[top] & is_numbered
     columns = (
         np.append(scene.classes[kept], np.full(len(top), HIGH_VEGETATION)),
-        np.append(below, np.ones(len(top))),
-        np.append(below, np.where(several, 2, 1)),
+        np.append(counted, np.ones(len(top))),
+        np.append(counted, np.where(several, 2, 1)),
     )
     points = Points(*(np.append(axis[kept], more) for axis, more in zip(scene.points, leaves)))
     classes, number, count = (column.astype(np.uint8) for column in columns)
@@ -281,6 +283,11 @@ def numbered(row: Row) -> Plain:
     return plants(row, is_numbered=True)
 
 
+def understory(row: Row) -> Plain:
+    """Return plants below trees, without return numbers."""
+    return wooded(row, plants)
+
+
 def leafy(row: Row) -> Plain:
     """Return bushes and hedges, through which some pulses see the ground."""
     site = _Site(row, max(_LEAST, _extent(row.kind.shape, row.sizes) + 2 * _ROUND))
@@ -323,7 +330,7 @@ trench 2.5x1.5/0/8 3x3.5/0/8 4x3/10/8 6x4/0/4
 ditch 3x1/0/4 5x2/5/2 8x3/0/1
 hollow-way 4x1.5/10/8 6x3/20/4
 cutting 6x4/5/4 10x8/0/2
-crest 10x4/0/4 20x8/20/2 30x12/0/1
+crest 10x4/0/4 15x3/10/2 20x8/20/2 30x12/0/1 40x7/5/1
 crag 8x4/10/8 14x6/30/4
 rock 8x2/0/8 15x5/20/4 25x8/10/2
 dyke 2x1.5/0/4 3x3/0/2 5x6/5/4
@@ -350,13 +357,17 @@ ruin-under-trees=ruin 20x1/10/20
 terrace-by-house=scarp 0.3x1.5/0/8 0.3x2.5/5/4 0.3x3.5/0/8
 bank-by-house=scarp 4x3/0/4
 terraces-by-house=terraces 12x1.5/10/8
+court-by-house=plateau 24x1.5x8/0/8 30x3x20/3/4
 """),
     (solid, _GOES, 2.0, 0.3, """
-flat-roof=flat 10x8x3/0/8 20x12x4/5/4 40x25x3/0/2 60x40x3.2/0/2 80x50x3.2/0/2 100x60x3.2/0/4\
- 100x60x4/5/2 125x78x4/0/2 120x80x9/5/2 120x80x8/10/2 60x40x6/15/4 150x80x6/0/1 200x100x9/0/1.5
+flat-roof=flat 10x8x3/0/8 20x12x4/5/4 40x25x3/0/2 30x15x3/10/20
+hall=flat 60x40x3.2/0/2 60x60x3/2/8 80x50x3.2/0/2 80x60x4/5/4 100x60x3.2/0/4 100x60x4/5/2\
+ 100x70x3.2/0/2 125x60x3.2/0/2 125x78x2.5/0/2 125x78x4/0/2 125x78x5/2/1.5 120x80x9/5/2\
+ 120x80x8/10/2 60x40x6/15/4 150x80x6/0/1 150x100x10/3/2 200x100x9/0/1.5
+low-gable 60x30x3/0/2 100x50x3/2/2 120x60x4/5/2
 gable-roof=gable 10x8x3/0/8 16x10x3/10/4 40x15x3/5/2 80x20x4/0/2 12x9x4/15/1
 lean-to 30x20x3/0/4 80x40x3/2/2
-court 40x40x6/0/4 70x60x4/0/2 90x70x8/5/2
+court-roof=court 40x40x6/0/4 70x60x4/0/2 90x70x8/5/2
 angled 60x50x3/0/4 120x90x5/3/1.5
 stepped 100x50x4/0/2 60x30x3/5/4
 drum 12x6/0/4 30x10/3/2
@@ -365,7 +376,7 @@ drum 12x6/0/4 30x10/3/2
 a-frame 16x10x8/0/8 12x8x7/5/4 20x12x8/0/2 10x6x5/10/8
 """),
     (loose, _GOES, 5.0, 0.3, """
-polytunnels=vaults 40x8x3.2x1x4/0/8 60x8x3.5x1x8/3/4 50x6x2.5x1x5/0/8 60x9x4x1.5x3/5/2
+polytunnels=vaults 40x8x3.2x1x4/0/8 70x8x3.2x1x4/0/7 60x8x3.5x1x8/3/4 50x6x2.5x1x5/0/8 60x9x4x1.5x3/5/2
 glasshouses 60x6x4x0x8/0/4 60x8x4.5x1x5/2/8 40x10x3x3x4/0/2
 panels 40x4x0.8x0.4x4x6/0/8 50x4x2x0x1.5x6/5/4 60x2.2x0.6x0.2x2x10/10/8
 barges=boxes 50x9x2.5x2x3/0/2 40x8x3x1x4/0/2
@@ -386,11 +397,15 @@ thicket=flat 30x15x2/0/8
 grass= 0.3x40/0/20 0.5x60/5/8 0.8x60/0/20 1x70/0/10 1.2x80/0/50 0.6x50/0/400 0.8x30/0/5
 crop-rows 0.6x50x0.75/0/30 1.2x60x1.5/3/100
 """),
+    (understory, _GOES, 5.0, 0.15, """
+understory= 1x70/0/10 0.7x50/5/20
+"""),
     (numbered, _GOES, 5.0, 0.15, """
 numbered-grass= 0.5x60/5/8 0.8x80/0/20 1.2x70/0/10 0.4x50/0/100
 """),
     (outliers, _GOES, 5.0, 0.15, """
-low-clumps= 0.5x2x8/0/4 1x5x15/0/8 2x10x30/0/8 0.3x1x5/0/20 0.8x3x10/10/8 3x4x40/0/4
+low-clumps= 0.5x2x8/0/4 1x5x15/0/8 2x10x30/0/8 0.3x1x5/0/20 0.8x3x10/10/8 3x4x40/0/4\
+ 1.5x1.5x12/0/8
 """),
     (outliers, _GOES, 0.0, 0.15, """
 low-points= 0.1x1.5x1/0/4 0.1x8x1/10/2 0.1x4x1/0/20

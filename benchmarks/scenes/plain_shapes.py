@@ -153,6 +153,10 @@ def gable(u, v, length, width, eaves, pitch=0.5):
     return _within(u, v, length, width, eaves + pitch * (width / 2 - np.abs(v)))
 
 
+def low_gable(u, v, length, width, eaves):
+    return gable(u, v, length, width, eaves, 0.1)
+
+
 def lean_to(u, v, length, width, eaves, pitch=0.12):
     return _within(u, v, length, width, eaves + pitch * (width / 2 + v))
 
