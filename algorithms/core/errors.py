@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
+
+# An address, of which user, password and query may be secret.
+_ADDRESS = re.compile(
+    r"\b([a-z][a-z0-9+.-]+:/{1,2})(?:[^\s/?#@]*@)?([^\s?#]*)(?:[?#]\S*[\w=])?", re.IGNORECASE
+)
 
 
 class BareEarthError(Exception):
@@ -10,7 +16,7 @@ class BareEarthError(Exception):
 
     def __init__(self, text: object = "") -> None:
         # Names and contents of files can contain any character.
-        super().__init__(printable(str(text)))
+        super().__init__(_ADDRESS.sub(r"\1\2", printable(str(text))))
 
 
 class OutputInUse(BareEarthError):

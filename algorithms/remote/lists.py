@@ -92,9 +92,9 @@ def clouds_of(address: str, transfers: Transfers) -> list[Cloud]:
             " a virtual point cloud, a STAC item or collection with such files."
         )
     if reader.twice_count:
-        count = counted(reader.twice_count, "item")
         transfers.progress.warning(
-            f"{count} of {shown(address)} name the same points as COPC and as EPT: COPC is taken."
+            f"{shown(address)} has {counted(reader.twice_count, 'item')} both as COPC and as EPT:"
+            " COPC is taken."
         )
     return clouds
 

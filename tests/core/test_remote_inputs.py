@@ -490,3 +490,19 @@ def test_a_mistyped_address_keeps_its_secret(server, tmp_path, address):
         code, out, errors = said(*words, address, *target.get(words[0], (tmp_path / "a.laz",)))
         assert code and errors.count("\n") == 1 and "s3cr3t" not in out + errors, errors
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("height", "{cloud}", "o.laz", "--dtm", "{address}"),
+        ("classify", "{cloud}", "o.laz", "--boundary", "{address}"),
+        ("check", "{cloud}", "--checkpoints", "{address}"),
+        ("contours", "{address}", "o.gpkg"),
+    ],
+)
+def test_the_address_of_another_input_keeps_its_secret(tiles, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    address = "http://user:s3cr3t@127.0.0.1:9/a.tif?sig=s3cr3t"
+    code, out, errors = said(*(word.format(cloud=tiles[0], address=address) for word in words))
+    assert code == 1 and "127.0.0.1:9/a.tif" in errors and "s3cr3t" not in out + errors

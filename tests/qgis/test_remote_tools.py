@@ -115,7 +115,7 @@ def test_every_tool_reads_a_remote_point_cloud(name, address, server, tmp_path, 
         more["REFERENCE"] = address
     algorithm = registry.algorithmById(f"bareearth:{name}")
     assert run(name, GIVEN[name], tmp_path, log, **more)
-    assert "Downloads " in log.text and " requests" in log.text
+    assert "Downloads " in log.text and " request" in log.text
     for output in algorithm.destinationParameterDefinitions():
         if output.name() in GIVEN[name]:
             assert (tmp_path / GIVEN[name][output.name()]).exists()
