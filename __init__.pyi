@@ -261,7 +261,7 @@ def check(
 
     Compares the TIN of the ground points, and a terrain model, with checkpoints: RMSE and other
     figures, on land with and without vegetation, and the statement of the ASPRS Positional
-    Accuracy Standards, edition 2. With --hold-out, it needs no checkpoints.
+    Accuracy Standards, edition 2. If points are held out, it needs none.
 
     Parameters
     ----------
@@ -286,7 +286,7 @@ def check(
         Land covers with one of these words are vegetated, and no others (default: words such as
         forest, crops and brush in several languages).
     confidence : path, optional
-        The confidence of the terrain model, 0 to 1, as 'terrain `confidence`' makes it;
+        The confidence of the terrain model, 0 to 1, as the command terrain makes it;
         checkpoints where it is low are not counted.
     residuals : path, optional
         Write the checkpoints and their errors as points (.gpkg, .geojson, .shp, .fgb); all but
@@ -820,7 +820,8 @@ def classify(
     area_only : bool, default False
         Writes only the points inside the extent and the boundary, and makes the rasters from
         them. Files without such points are not written. If this is off, all files are written
-        with all their points, and points outside keep their class.
+        with all their points, and points outside keep their class. In QGIS, it is on for remote
+        points.
     height_above_ground : bool, default False
         Adds the extra dimension HeightAboveGround, the height of each point above the ground,
         in the vertical unit of the CRS.
@@ -1589,8 +1590,8 @@ def heights(
     """Add the height above ground of every point.
 
     Adds to every point its height above the TIN of the ground points, in the vertical unit of
-    the CRS. The input is a classified file, or many as one survey. With --dtm, heights are
-    above a raster.
+    the CRS. The input is a classified file, or many as one survey. Given a terrain model,
+    heights are above this raster.
 
     Parameters
     ----------

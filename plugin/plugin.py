@@ -12,6 +12,7 @@ from qgis.PyQt.QtGui import QDesktopServices
 from qgis.PyQt.QtWidgets import QPushButton
 
 from ..algorithms.core.errors import BareEarthError
+from ..algorithms.core.words import Keywords, use_names
 from ..algorithms.las.backends import install_hint, missing_packages
 from .compat import QAction
 from .help_pages import address_of
@@ -113,6 +114,7 @@ class BareEarthPlugin:
             registry.providerAdded.disconnect(self._provider.load_models)
             registry.removeProvider(self._provider)
             self._provider = None
+            use_names(Keywords())
         for action in self._actions:
             self._iface.removePluginMenu(_MENU, action)
         self._actions = []

@@ -8,8 +8,10 @@ from qgis.core import QgsProcessingProvider
 from qgis.PyQt.QtGui import QIcon
 
 from .. import __version__
+from ..algorithms.core.words import use_names
 from ..algorithms.survey.feature_files import FORMATS
 from .processing.compositions import CompositionAlgorithm
+from .processing.field_names import Fields
 from .processing.maps import map_algorithms
 from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
@@ -55,6 +57,7 @@ class BareEarthProvider(QgsProcessingProvider):
         own = [CompositionAlgorithm(), *map_algorithms(), *tool_algorithms()]
         for algorithm in [*own, *self._models]:
             self.addAlgorithm(algorithm)
+        use_names(Fields(own))
 
     def load_models(self, _: str = "") -> None:
         """Read the models again, whose outputs are known only when their steps are registered."""

@@ -9,6 +9,7 @@ import traceback
 from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay, UsageError
+from ..core.words import Flags, use_names
 from ..engine.memory import share_one_heap
 from ..tools import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
 from . import cache, odm
@@ -31,6 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _set_output_encoding()
     share_one_heap()
     signal.signal(signal.SIGTERM, _stop)
+    names = use_names(Flags())
     try:
         options = _parser(arguments).parse_args(arguments)
         return options.run(options)
@@ -52,6 +54,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Exception as error:
         text = f"Unexpected {type(error).__name__}: {error}. Run with --verbose and report it."
         return _say(text, FAILED, arguments, error)
+    finally:
+        use_names(names)
 
 
 def _stop(number: int, frame: object) -> None:

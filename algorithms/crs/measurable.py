@@ -8,7 +8,8 @@ import re
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
-from .stated import HOW
+from ..core.words import names_in_use
+from .stated import how_to_state
 from .system import Crs
 
 # Longitudes and latitudes in degrees are at most this large; some are counted from 0 to 360.
@@ -43,8 +44,8 @@ def require_measurable(subject: object, crs: Crs, box: Box | None = None) -> Non
     if wrong:
         raise BareEarthError(
             f"{subject} is in a Mercator projection ({crs.name}), in which {wrong}, so that nothing"
-            f" can be measured in it. {how_to_reproject()} If the file states the wrong CRS, give"
-            f" the right one: {HOW}."
+            f" can be measured in it. {how_to_reproject()} If this is the wrong CRS, give the right"
+            f" one: {how_to_state()}."
         )
 
 
@@ -84,13 +85,13 @@ def _not_projected(subject: object, crs: Crs, box: Box | None) -> BareEarthError
     """Return the error for degrees, and for what is wrongly said to be degrees."""
     if box is not None and not _is_geocentric(crs) and not _can_be_degrees(box):
         return BareEarthError(
-            f"{subject} is not in a projected CRS as far as its records say ({crs.name}), but its"
-            f" coordinates cannot be degrees (x from {box[0]:.10g}, y from {box[1]:.10g}), so the"
-            f" records are wrong. Give the right CRS: {HOW}."
+            f"{subject} is not in a projected CRS as far as its records or you say ({crs.name}),"
+            f" but its coordinates cannot be degrees (x from {box[0]:.10g}, y from {box[1]:.10g})."
+            f" Give the right CRS: {how_to_state()}."
         )
     return BareEarthError(
         f"{subject} is not in a projected CRS ({crs.name}), so that nothing can be measured in it."
-        f" {how_to_reproject()}"
+        f" {how_to_reproject()} If this is the wrong CRS, give the right one: {how_to_state()}."
     )
 
 
@@ -109,8 +110,4 @@ def _is_geocentric(crs: Crs) -> bool:
 
 def how_to_reproject() -> str:
     """Return what to do with points in which nothing can be measured."""
-    return (
-        "Reproject it first: in QGIS with 'Reproject' of the group Point cloud data management,"
-        " elsewhere with 'pdal translate INPUT OUTPUT reprojection"
-        " --filters.reprojection.out_srs=EPSG:...'."
-    )
+    return f"Reproject it first, {names_in_use().reproject}."

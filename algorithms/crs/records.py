@@ -9,7 +9,7 @@ from ..core.progress import Progress
 from .geokeys import GeoKeys
 from .matching import is_other_datum, named_with_heights
 from .provider import wkt_of_epsg
-from .stated import HOW
+from .stated import how_to_state
 from .system import Crs, crs_of_facts, same_unit, unit_name
 from .wkt import VerticalDatum, WktFacts, read_wkt
 
@@ -51,7 +51,7 @@ def _joined(used: _Statement, further: _Statement, progress: Progress) -> _State
         progress.warning(
             f"The records of the file contradict each other: its CRS is {_shown(used)} by the"
             f" {used.kind}, which is used, and {_shown(further)} by the {further.kind}. If the"
-            f" first is wrong, give the CRS: {HOW}."
+            f" first is wrong, give the CRS: {how_to_state()}."
         )
     has_text = used.wkt is not None or contradicts_map or further.wkt is None
     first, second = (used, further) if has_text else (further, used)

@@ -6,18 +6,19 @@ import functools
 import re
 
 from ..core.errors import BareEarthError
+from ..core.words import option
 from .provider import library, wkt_of_epsg, wkt_of_text
 from .wkt import read_wkt
 
-# How a user states the CRS, for the end of a sentence.
-HOW = (
-    "in QGIS as 'CRS of the points' (an advanced parameter), elsewhere with --crs, such as"
-    " --crs EPSG:25832"
-)
 _CODE = re.compile(r"(?:EPSG:{1,2})?([0-9]{1,9})", re.IGNORECASE)
 # A library would fetch such a text from another computer.
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 _LONGEST_SHOWN = 60
+
+
+def how_to_state() -> str:
+    """Return how a user states the CRS, for the end of a sentence."""
+    return f"with {option('crs')}, such as EPSG:25832"
 
 
 def stated_wkt(text: str | None) -> str | None:

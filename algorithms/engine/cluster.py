@@ -18,11 +18,12 @@ from ..core.files import write_errors_told
 from ..core.progress import Progress
 from ..core.temporary import make_temporary, remove_temporary
 from ..core.threads import SharedThreads
+from ..core.words import option
 from ..las.backends import require
 from .blockwise import JobProgress
 from .jobs import Job, JobResult, Share, attempt
 from .memory import Resources, free_memory
-from .workers import SCHEDULER_GONE, Running, Workers
+from .workers import Running, Workers, scheduler_gone
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -118,7 +119,7 @@ class Cluster(Workers):
         try:
             return client.sync(client.scheduler.ncores, callback_timeout=_ANSWERING)
         except (OSError, asyncio.TimeoutError) as error:
-            raise BareEarthError(SCHEDULER_GONE) from error
+            raise BareEarthError(scheduler_gone()) from error
 
     def _check(self, folder: Path) -> dict[str, _Facts]:
         """Return what the workers report about themselves; refuse workers that lack something."""
@@ -128,7 +129,7 @@ class Cluster(Workers):
         try:
             facts = self._client.run(_facts, str(self._mark), on_error="return")
         except OSError as error:
-            raise BareEarthError(SCHEDULER_GONE) from error
+            raise BareEarthError(scheduler_gone()) from error
         except Exception as error:
             raise BareEarthError(
                 f"The workers of {self._address} cannot load this package ({error}). {install}"
@@ -166,7 +167,7 @@ class Cluster(Workers):
             )
             self.at_once = self._room()
         except OSError as error:
-            raise BareEarthError(SCHEDULER_GONE) from error
+            raise BareEarthError(scheduler_gone()) from error
         return Running(future, JobProgress(threading.Event()))
 
     def check(self) -> None:
@@ -179,7 +180,7 @@ class Cluster(Workers):
         elif now - self._seen > self._patience:  # a worker that died may be started again
             raise BareEarthError(
                 f"All workers of {self._address} are gone. Start some with 'dask worker"
-                f" {self._address}', and continue with --resume."
+                f" {self._address}', and continue with {option('resume', True)}."
             )
         self._looked = time.monotonic()
 

@@ -16,7 +16,7 @@ from .blockwise import ended
 from .jobs import BlockJob, Job, JobResult, TileJob
 from .memory import GIGABYTE
 from .summary import JobCost
-from .workers import SCHEDULER_GONE, Running, Workers
+from .workers import Running, Workers, scheduler_gone
 
 # A point takes so many times as long in a block as for reading and writing.
 _BLOCK_WEIGHT = 2.0
@@ -133,7 +133,7 @@ class JobQueue:
             self._suspects.pop()
             outcome = JobResult(None, failure=_DIED)
         except CancelledError as error:
-            raise BareEarthError(SCHEDULER_GONE) from error
+            raise BareEarthError(scheduler_gone()) from error
         except Exception as error:
             # The cluster gave up the job.
             failure = f"It could not be done: {error or type(error).__name__}."

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from ..core.temporary import remove_leftovers
 from ..core.threads import Counter, SharedThreads
+from ..core.words import Keywords, names_in_use, option, use_names
 from .blockwise import JobProgress
 from .jobs import Job, JobResult, Share, attempt
 from .manifest import folders_of
@@ -22,7 +23,10 @@ from .memory import Resources, give_back, share_one_heap
 # When the user cancels, jobs have so many seconds to stop by themselves.
 _PATIENCE = 0.7
 
-SCHEDULER_GONE = "The scheduler is gone. Start it again, and continue with --resume."
+
+def scheduler_gone() -> str:
+    """Return the text of the error that the scheduler of a cluster is gone."""
+    return f"The scheduler is gone. Start it again, and continue with {option('resume', True)}."
 
 
 class Running(NamedTuple):
@@ -112,7 +116,7 @@ class Processes(Workers):
 
     def _open(self) -> None:
         free = self._context.Value("i", self.resources.thread_count)
-        values = self._stop, free, self.share.thread_count
+        values = self._stop, free, self.share.thread_count, names_in_use()
         self._pool = ProcessPoolExecutor(self.at_once, self._context, _begin, values)
 
     def submit(self, job: Job) -> Running:
@@ -179,11 +183,12 @@ class _OfProcess(NamedTuple):
 _common: _OfProcess | None = None
 
 
-def _begin(stop: threading.Event, free: Counter, threads: int) -> None:
+def _begin(stop: threading.Event, free: Counter, threads: int, names: Keywords) -> None:
     """Prepare a new process."""
     global _common
     _common = _OfProcess(stop, SharedThreads(free))
     share_one_heap()
+    use_names(names)
     # Ctrl-C reaches all processes of a terminal. Only the first one reacts, and stops the others.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # The threads that decompress.

@@ -10,7 +10,7 @@ from ..crs.geokeys import read_geokeys
 from ..crs.matching import described, has_same_units, is_same_crs
 from ..crs.provider import library
 from ..crs.records import crs_of_records
-from ..crs.stated import HOW
+from ..crs.stated import how_to_state
 from ..crs.system import Crs, crs_of_wkt
 from .lasfile import FIRST_EXTENDED_FORMAT, LasFile, text_of
 
@@ -62,7 +62,7 @@ def crs_among(
     if crs is None:
         progress.warning(
             f"{name} does not say its CRS: its coordinates are taken as metres. If they are not,"
-            f" give the CRS: {HOW}."
+            f" give the CRS: {how_to_state()}."
         )
     return crs or Crs()
 

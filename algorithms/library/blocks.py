@@ -16,7 +16,7 @@ from ..core.progress import Progress
 from ..core.threads import SharedThreads
 from ..crs.matching import described, is_same_crs
 from ..crs.measurable import require_measurable
-from ..crs.stated import HOW, stated_wkt
+from ..crs.stated import how_to_state, stated_wkt
 from ..crs.system import Crs
 from ..engine.block_grid import BlockGrid, BlockIndex, code, places_of
 from ..engine.jobs import PointJob
@@ -203,7 +203,7 @@ def _check_same(name: str, crs: Crs, other: Crs) -> None:
         raise BareEarthError(
             f"{shown(name)} is in another CRS ({described(crs)}) than others"
             f" ({described(other)}). Reproject them to one CRS. If they are in one CRS all the"
-            f" same, give it: {HOW}."
+            f" same, give it: {how_to_state()}."
         )
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ContextManager, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
+from ..core.words import option, tool
 from ..filters import METHODS
 from ..remote.addresses import is_address
 from ..tools.ground.method import TileMethod
@@ -53,9 +54,11 @@ def bring_points(
         makes_rasters = any(getattr(values, name, None) for name in (*RASTERS, "contours"))
         margin = margin_of(sets, hasattr(values, "explain") and not makes_rasters)
         area = Surroundings(area.box, area.polygons, margin, crs)
-    advice = "Choose a smaller area" if area else "Give an area (--extent or --boundary)"
+    advice = "Choose a smaller area"
+    if not area:
+        advice = f"Give an area with {option('extent')} or {option('boundary')}"
     if "extent" not in names:
-        advice = "Fetch a part of it first, by 'bare-earth fetch' with an area"
+        advice = f"Download a part of it first, with {tool('fetch')}"
     # A tool without parameters only describes the points.
     wanted = Wanted(area, most=most_bytes(values), crs=crs, is_measured=bool(sets))
     progress = progress_of(values.progress)

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 from typing import Any, Callable
 
 from ..core.errors import UsageError
+from ..core.words import option
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..survey.files import Inputs
@@ -148,9 +149,7 @@ def input_of(declared: Input, values: SimpleNamespace) -> Any:
     can_be_found = declared.found is not None or declared.kind == "constraints"
     is_found = can_be_found and is_automatic(values.water)
     if is_found and declared.found is None:
-        is_command = getattr(values, "in_processes", False)
-        how = "'bare-earth terrain --water automatic'"
-        how = how if is_command else 'terrain() and its water="automatic"'
+        how = option("water", "automatic", of="terrain")
         raise UsageError(f"Water is found in classified points: make the rasters with {how}.")
     if declared.kind in _READERS:
         given = _READERS[declared.kind](values)

@@ -9,8 +9,9 @@ from pathlib import Path
 from ..core.errors import BareEarthError
 from ..core.points import Box, Frame, box_in_words
 from ..core.progress import SILENT, Progress
+from ..core.words import option
 from ..crs.matching import described, is_same_map
-from ..crs.stated import HOW
+from ..crs.stated import how_to_state
 from ..crs.system import Crs, crs_of_wkt, unit_symbol
 from ..grids.cell_window import CellWindow
 from .content import NO_CELLS, Content, read_content
@@ -103,8 +104,8 @@ def no_points(box: Box, extent: Box) -> BareEarthError:
     """Return the error for rasters that would hold no points, given both extents."""
     return BareEarthError(
         f"No point lies in the rasters ({box_in_words(box)}): the points lie in"
-        f" {box_in_words(extent)}. Give a raster (--like, in QGIS 'Raster with the grid to use') or"
-        " an extent (--raster-extent, in QGIS 'Extent of the rasters') that meets them."
+        f" {box_in_words(extent)}. Give a raster with {option('like')}, or an"
+        f" extent with {option('raster_extent')}, that meets them."
     )
 
 
@@ -155,7 +156,7 @@ def _wkt_of(like: Path | str, wkt: str, crs: Crs, progress: Progress) -> str | N
         if stated.is_geographic or not math.isclose(stated.horizontal_unit, 1.0):
             raise BareEarthError(
                 f"The points do not say their CRS, and that of {like} is not in metres"
-                f" ({described(stated)}). Give the CRS of the points: {HOW}."
+                f" ({described(stated)}). Give the CRS of the points: {how_to_state()}."
             )
         progress.warning(f"The points are taken to be in the CRS of {like}, {stated.name}.")
         return wkt
@@ -163,7 +164,7 @@ def _wkt_of(like: Path | str, wkt: str, crs: Crs, progress: Progress) -> str | N
         raise BareEarthError(
             f"{like} is in another CRS ({described(stated)}) than the points ({described(crs)})."
             " Give a raster in the CRS of the points. If they are in that of the raster, say so:"
-            f" {HOW}."
+            f" {how_to_state()}."
         )
     return None
 

@@ -15,12 +15,13 @@ from ..core.files import describe_write_error
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..core.temporary import remove
+from ..core.words import option, tool
 from ..crs.measurable import require_measurable
 from ..crs.system import Crs
 from ..survey.files import Inputs
 from .addresses import checked, is_address, shown
 from .fetching import Part, Wanted, check_size, nothing_there
-from .kept import CLEAR, DIGITS, Kept, Surroundings, is_sound
+from .kept import DIGITS, Kept, Surroundings, is_sound
 from .lists import clouds_of, near
 from .transfers import Transfers
 
@@ -28,7 +29,10 @@ __all__ = ["Surroundings"]
 
 VARIABLE = "BARE_EARTH_CACHE"
 _OURS = re.compile(rf"[0-9a-f]{{{DIGITS}}}")  # names of folders
-_HOW = "fetch the points first, by 'bare-earth fetch' with --follow"
+
+
+def _how_to_follow() -> str:
+    return f"download the points first, with {option('follow', True, of='fetch')}"
 
 
 class Here(NamedTuple):
@@ -55,7 +59,7 @@ def bring_here(
     """Return files with what is wanted of addresses, fetched unless the cache has them; `advice`
     says what to do if that is too much.
     """
-    with Transfers(progress, _HOW) as transfers:
+    with Transfers(progress, _how_to_follow()) as transfers:
         progress, clouds, is_list = transfers.progress, [], False
         for address in map(checked, addresses):
             listed = clouds_of(address, transfers)
@@ -89,8 +93,7 @@ def _check_lengths(part: Part, crs: Crs) -> None:
         require_measurable(part.name, crs, part.box if part.area is None else part.area.bounds)
     except BareEarthError as error:
         raise BareEarthError(
-            f"{error} Or transform it while it is downloaded: 'bare-earth fetch' with --to-utm, in"
-            " QGIS 'Download part of a remote point cloud' with 'Transform Web Mercator to UTM'."
+            f"{error} Or transform it while it is downloaded: {option('to_utm', True, of='fetch')}."
         ) from error
 
 
@@ -128,7 +131,7 @@ def addresses_named(found: Mapping[Path, str]) -> Iterator[None]:
                 remove(path)
                 raise BareEarthError(
                     f"The copy of {address} in the cache was damaged, and is removed. Run it again."
-                    f" {CLEAR}."
+                    f" {tool('clear-cache')} removes all that is kept there."
                 ) from error
             error.args = (str(error).replace(str(path), address),)
         raise
@@ -147,7 +150,7 @@ def look(addresses: Sequence[str], cache: Path, progress: Progress = SILENT) -> 
     list states the extent.
     """
     found: list[Seen] = []
-    with Transfers(progress, _HOW) as transfers:
+    with Transfers(progress, _how_to_follow()) as transfers:
         clouds = [
             cloud for address in map(checked, addresses) for cloud in clouds_of(address, transfers)
         ]

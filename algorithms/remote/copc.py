@@ -17,6 +17,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
+from ..core.words import tool
 from ..crs.measurable import length_scale
 from ..crs.system import Crs
 from ..las import header as fields
@@ -85,7 +86,7 @@ class CopcPart:
         if not self.layout.is_copc or compression is None or compression.chunk_size:
             raise BareEarthError(
                 f"{file.name} is not COPC, so that no part of it can be found. Give it to the"
-                " command that is to use it, such as 'bare-earth classify', which reads all of it."
+                f" tool that is to use it, such as {tool('classify')}, which reads all of it."
             )
         self.crs, self.box = read_crs(self.layout), self.layout.box
         self.area = area_of(area, Place(file.name, self.crs, self.box), progress)

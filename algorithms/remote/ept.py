@@ -27,7 +27,7 @@ from ..core.files import temporary_folder
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..core.temporary import remove
-from ..core.words import counted
+from ..core.words import counted, option
 from ..crs.stated import stated_wkt
 from ..crs.system import Crs, crs_of_wkt
 from ..las import header as fields
@@ -252,7 +252,7 @@ class EptPart:
                 return None
             raise BareEarthError(
                 f"{error} If it is a tile that is missing in this data set, go on without it:"
-                " --skip-missing."
+                f" {option('skip_missing', True, of='fetch')}."
             ) from error
 
     def _keep(self, key: Key, data: bytes) -> None:

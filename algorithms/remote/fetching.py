@@ -11,7 +11,7 @@ from ..core.errors import BareEarthError
 from ..core.files import make_work_folder, temporary_folder, write_errors_told
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
-from ..core.words import counted
+from ..core.words import counted, option
 from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.system import Crs
 from ..survey.area import Area
@@ -27,11 +27,6 @@ from .utm import STATED, Utm, states_height_unit, utm_of
 
 _GIGABYTE = 1e9
 _ADVICE = "Choose a smaller area or a coarser resolution"
-_NO_HEIGHT_UNIT = (
-    " The unit of its heights is not stated, and can be metres or feet: look it up, and give it"
-    " with --height-unit."
-)
-_FOLLOW = "run it again with --follow"
 _UNSAFE = re.compile(r"[^\w.,+() -]")  # in names of files
 
 
@@ -98,11 +93,12 @@ def fetch(
     an error or a cancel.
     """
     address = checked(address) if is_address(address) else address
+    again = f"run it again with {option('follow', True)}"
     is_planned, was_begun = False, _size_of_parts(waiting) > 0
     with write_errors_told(waiting):
         make_work_folder(waiting)
     try:
-        with Transfers(progress, None if wanted.follows else _FOLLOW) as transfers:
+        with Transfers(progress, None if wanted.follows else again) as transfers:
             progress = transfers.progress
             parts = _found(address, transfers, waiting, wanted, progress.part(0.0, 0.1))
             if len(parts) > 1 and target.suffix:
@@ -171,10 +167,15 @@ def _zone_of(part: Part, wanted: Wanted, progress: Progress) -> Utm | None:
         )
         return zone
     if wrong := wrong_lengths(length_scale(part.crs, box)):
-        unit = "" if states_height_unit(part.crs) else _NO_HEIGHT_UNIT
+        how, unit = option("to_utm", True, of="fetch"), ""
+        if not states_height_unit(part.crs):
+            unit = (
+                " The unit of its heights is not stated, and can be metres or feet: look it up, and"
+                f" give it with {option('height_unit', of='fetch')}."
+            )
         progress.warning(
             f"{part.name} is in a Mercator projection ({part.crs.name}), in which {wrong}. Its"
-            f" points are kept as they are. Transform them to UTM: --to-utm.{unit}"
+            f" points are kept as they are. Transform them to UTM: {how}.{unit}"
         )
     return None
 
@@ -192,8 +193,8 @@ def check_size(parts: Sequence[Part], most: float, advice: str, progress: Progre
     if size > most:
         raise BareEarthError(
             f"This would download {about}{in_words(size)} ({counted(points, 'point')}), more than"
-            f" the limit of {in_words(most)}. {advice}, or raise the limit: --limit"
-            f" {size / _GIGABYTE + 0.1:.1f}."
+            f" the limit of {in_words(most)}. {advice}, or raise the limit:"
+            f" {option('limit', round(size / _GIGABYTE + 0.1, 1))}."
         )
     requests = sum(part.request_count for part in parts)
     progress.info(
@@ -253,8 +254,10 @@ def names_of(clouds: Iterable[str]) -> list[str]:
 
 def nothing_there(parts: Sequence[Part], address: str) -> Outside:
     """Return the error for an area without points."""
-    if len(parts) == 1 and parts[0].area is not None:
-        return outside("the area", parts[0].area.bounds, parts[0].name, parts[0].box)
+    area = parts[0].area if len(parts) == 1 else None
+    if area is not None:
+        bounds = getattr(area, "asked", area.bounds)  # if surroundings are fetched, too
+        return outside("the area", bounds, parts[0].name, parts[0].box)
     return Outside(
         f"No point cloud of {name_of(address) or shown(address)} has points in the area. Give the"
         " area in the CRS of their points."

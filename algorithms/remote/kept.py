@@ -10,8 +10,10 @@ from pathlib import Path
 
 from ..core.files import rename, replacing, temporary_folder, write_errors_told
 from ..core.locks import one_at_a_time
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..core.temporary import remove
+from ..core.words import tool
 from ..crs.system import Crs
 from ..survey.area import Area
 from ..survey.shapes import Place, Shapes
@@ -27,9 +29,13 @@ from .whole import WholePart
 
 # Of the names of folders; 16 of the 64 digits of a hash, since paths must be short for Windows.
 DIGITS = 16
-CLEAR = "'bare-earth clear-cache' removes all that is kept there"
 # Units of points whose CRS is not known may be feet: about so many are a metre.
 _UNITS_A_METRE = 3.3
+
+
+@dataclass(frozen=True, eq=False)
+class _Wider(Area):
+    asked: Box = (0.0, 0.0, 0.0, 0.0)  # the bounds of what the user gave
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +50,7 @@ class Surroundings(Area):
         crs = self.crs or place.crs
         area = super().located(place._replace(crs=crs), progress)
         metre = _UNITS_A_METRE if crs == Crs() else 1.0 / crs.horizontal_unit
-        return Area(area.buffered_box(self.margin * metre))
+        return _Wider(area.buffered_box(self.margin * metre), asked=area.bounds)
 
     @property
     def key(self) -> str:
@@ -92,7 +98,7 @@ class Kept:
             return True
         self._transfers.progress.warning(
             f"The copy of {shown(self.address)} in the cache is damaged, and is fetched anew."
-            f" {CLEAR}."
+            f" {tool('clear-cache')} removes all that is kept there."
         )
         remove(self.path)
         return False

@@ -15,6 +15,7 @@ import threading
 from typing import Callable
 from urllib.parse import urlsplit, urlunsplit
 
+from ..core.words import option
 from .addresses import host_of
 from .answers import Expired, Missing
 
@@ -51,8 +52,8 @@ class Signatures:
             raise error
         if not self._is_allowed:
             raise type(error)(
-                f"{error} If it belongs to the Planetary Computer, 'bare-earth fetch' with --follow"
-                " gets a signature for it."
+                f"{error} If it belongs to the Planetary Computer,"
+                f" {option('follow', True, of='fetch')} gets a signature for it."
             )
         # One thread asks, and the others use what it gets.
         with self._lock:

@@ -11,6 +11,7 @@ from ..core.errors import BareEarthError
 from ..core.files import temporary_folder
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
+from ..core.words import option
 from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.provider import library, to_wgs84, transformed
 from ..crs.stated import stated_wkt
@@ -103,7 +104,8 @@ def utm_of(name: str, crs: Crs, box: Box, height_unit: str) -> Utm | None:
     if height_unit == STATED and not states_height_unit(crs):
         raise BareEarthError(
             f"{name} does not state the unit of its heights. Look it up in the report of the"
-            " survey, and give it: --height-unit metre, foot or us-foot."
+            f" survey, and give it with {option('height_unit', of='fetch')}: metre, foot or"
+            " us-foot."
         )
     west, south, east, north = box
     degrees = to_wgs84(source, np.array([[(west + east) / 2.0, (south + north) / 2.0]]))

@@ -36,7 +36,7 @@ class Area(Geometry):
         if self.box is not None:
             west, south, east, north = self.box
             if not (np.isfinite(self.box).all() and west < east and south < north):
-                values = " ".join(f"{value:g}" for value in self.box)
+                values = " ".join(f"{value:.10g}" for value in self.box)
                 raise BareEarthError(
                     "The extent must be XMIN YMIN XMAX YMAX, XMIN below XMAX and YMIN below YMAX,"
                     f" not {values}."

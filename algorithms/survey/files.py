@@ -15,7 +15,7 @@ from ..core.errors import BareEarthError
 from ..core.points import Box, box_round
 from ..core.progress import SILENT, Notes, Progress
 from ..crs.matching import described, has_same_units, is_other_datum, is_same_crs, is_same_map
-from ..crs.stated import HOW, stated_wkt
+from ..crs.stated import how_to_state, stated_wkt
 from ..crs.system import Crs
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
@@ -276,14 +276,15 @@ def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> 
     lack = f"{_names(unstated)} {say} {their} CRS:"
     if not known:
         progress.warning(
-            f"{lack} {their} coordinates are taken as metres. If they are not, give the CRS: {HOW}."
+            f"{lack} {their} coordinates are taken as metres. If they are not, give the CRS:"
+            f" {how_to_state()}."
         )
         return Crs()
     if len(known) > 1 or (unstated and not has_same_units(known[0], Crs())):
-        what, hint = "The files are not in the same CRS", f"{HOW}."
+        what, hint = "The files are not in the same CRS", f"{how_to_state()}."
         if not unstated and all(is_same_map(known[0], crs) for crs in known[1:]):
             what = "The heights of the files are not in the same unit or above the same datum"
-            hint = f"{HOW}, or with heights --crs EPSG:25832+7837."
+            hint = f"{how_to_state()}, or with heights, such as EPSG:25832+7837."
         raise BareEarthError(
             f"{what}: "
             + "; ".join(f"{described(crs)}: {_names(some)}" for crs, some in groups.items())

@@ -7,7 +7,7 @@ from typing import Collection, Sequence
 import numpy as np
 
 from ..core.progress import Progress
-from ..core.words import counted
+from ..core.words import counted, option
 from ..las.class_names import named_class
 from ..las.cloud import PointCloud
 from .point_counts import PointCounts
@@ -45,8 +45,7 @@ def tell_of_kept(counts: PointCounts, others: Collection[int], progress: Progres
     if left:
         progress.info(
             f"{_counted(counts, left)} keep their class and do not take part. To classify them"
-            f' too, give "{ALL_CLASSES}" for the classes to classify (--from-classes'
-            f" {ALL_CLASSES})."
+            f" too, give {option('from_classes', ALL_CLASSES)}."
         )
 
 

@@ -268,8 +268,8 @@ TOOL = PointTool(
     ),
     command="height",
     command_about="Adds to every point its height above the TIN of the ground points, in the"
-    " vertical unit of the CRS. The input is a classified file, or many as one survey. With --dtm,"
-    " heights are above a raster.",
+    " vertical unit of the CRS. The input is a classified file, or many as one survey. Given a"
+    " terrain model, heights are above this raster.",
     identifier="heightaboveground",
     title="Height above ground",
     summary="Adds the height of every point above the ground points of a point cloud.",

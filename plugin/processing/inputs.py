@@ -220,7 +220,7 @@ def name_of(source: Path | Remote) -> str:
 
 
 def remember_origin(output: str, name: str) -> None:
-    """Remember the input of a run for its output if this is temporary, and named after its field."""
+    """Remember the input of a run for its temporary output, which is named after its field."""
     if Path(QgsProcessingUtils.tempFolder()) in Path(output).parents:
         _ORIGINS[Path(output)] = name
 

@@ -72,6 +72,11 @@ class ToolAlgorithm(BareEarthAlgorithm):
         self._outputs = [output for output in tool.all_outputs if output.label]
         self._given: dict[str, Given] = {}
 
+    @property
+    def command(self) -> str:
+        """The name of its command."""
+        return self._tool.command
+
     def createInstance(self) -> ToolAlgorithm:
         """Return another instance."""
         return type(self)(self._tool)

@@ -38,8 +38,8 @@ CLOUD, BELOW_TERRAIN = 6, 4
 _FIRST = 9
 
 
-# Coordinates in metres, of which nobody knows the place. QGIS transforms the coordinates of a project
-# to longitude and latitude, and shows an error if it cannot, as with a local CRS (LOCAL_CS).
+# Coordinates in metres, of which nobody knows the place. QGIS transforms those of a project to
+# longitude and latitude, and shows an error if it cannot, as with a local CRS (LOCAL_CS).
 _LOCAL = (
     'PROJCS["Local coordinates in metres",GEOGCS["unknown",DATUM["unknown",'
     'SPHEROID["sphere",6371000,0]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],'

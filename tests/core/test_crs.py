@@ -203,7 +203,7 @@ def test_no_crs_is_taken_as_metres_and_told(las):
     assert crs == Crs()
     (warning,) = progress.warnings
     assert warning.startswith("in.las does not say its CRS: its coordinates are taken as metres.")
-    assert "--crs" in warning and "in QGIS" in warning
+    assert "with 'crs', such as EPSG:25832" in warning
 
 
 @pytest.mark.parametrize(("encoding", "unit"), [(0x00, FOOT), (0x10, SURVEY)])
@@ -291,7 +291,7 @@ def test_records_that_contradict_each_other_are_told(las, values, told):
     assert crs.vertical_unit == pytest.approx(SURVEY) and crs.datum.epsg == 5103
     warnings = [text for text in progress.warnings if "contradict each other" in text]
     assert len(warnings) == (told is not None)
-    assert all(told in words and "--crs" in words for words in warnings)
+    assert all(told in words and "give the CRS: with 'crs'" in words for words in warnings)
 
 
 def test_the_old_code_of_an_ellipsoid_is_that_of_no_vertical_crs(las):

@@ -118,7 +118,7 @@ def test_water_stays_and_the_log_says_so(tmp_path, source, threads_for_processes
         assert (np.asarray(found.classification)[water] == 9).all() == stays
         line = "4,727 points of class 9 (water) keep their class and do not take part."
         assert (line in text + told) == stays
-        assert ("(--from-classes all)" in text + told) == stays
+        assert ("give --from-classes all." in text + told) == stays
 
 
 def test_overlap_that_is_left_out_is_in_no_raster(tmp_path):

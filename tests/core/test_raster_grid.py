@@ -151,9 +151,9 @@ def test_constraints_lie_where_they_are_on_any_grid(source, tmp_path):
         (dict(b=0.4, d=0.4), "are rotated"),
         (dict(e=-2.6), "not square"),
         (dict(e=1.3), "south up"),
-        (dict(crs="EPSG:25833"), "in another CRS .*--crs"),
+        (dict(crs="EPSG:25833"), "in another CRS .*'crs'"),
         (dict(crs="EPSG:4326"), "in another CRS"),
-        (dict(west=600_000.0), "No point lies in the rasters .*--like"),
+        (dict(west=600_000.0), "No point lies in the rasters .*'like'"),
     ],
 )
 def test_unsuitable_rasters_are_refused_in_one_sentence(source, tmp_path, how, words):
@@ -182,7 +182,7 @@ def test_points_without_crs_are_taken_to_be_in_that_of_the_raster(source, tmp_pa
     assert raster.crs == rasterio.CRS.from_string(CRS)
     feet = given(tmp_path / "feet.tif", crs="EPSG:2230")
     words = made(tmp_path / "feet", source, "--like", feet, names=["dtm"], fails=True)
-    assert "do not say their CRS" in words and "--crs" in words
+    assert "do not say their CRS" in words and "with 'crs'" in words
 
 
 def test_an_extent_cuts_the_usual_cells(source, usual, tmp_path):

@@ -184,7 +184,7 @@ def test_a_missing_tile_stops_or_is_counted(server, tmp_path):
     address = add_ept(server)[1]
     gone = server.files.pop("set/ept-data/2-1-1-0.laz")
     count = laspy.read(io.BytesIO(gone)).header.point_count
-    with pytest.raises(BareEarthError, match=r"does not exist.*--skip-missing"):
+    with pytest.raises(BareEarthError, match=r"does not exist.*skip_missing=True"):
         bare_earth.fetch(address, tmp_path / "part.laz")
     kept = [path.name for path in (tmp_path / "part.laz.parts" / "0").glob("[0-9]*.laz")]
     assert kept
@@ -256,7 +256,9 @@ def test_web_mercator_becomes_utm_and_heights_metres(server, tmp_path, ending):
     mercator = pyproj.CRS.from_epsg(3857)
     points, address = add_ept(server, srs={"wkt": mercator.to_wkt("WKT1_GDAL")})
     target = tmp_path / f"part.{ending}"
-    with pytest.raises(BareEarthError, match=r"set does not state the unit .* --height-unit metre"):
+    with pytest.raises(
+        BareEarthError, match=r"set does not state the unit .* 'height_unit'.*: metre"
+    ):
         bare_earth.fetch(address, target, extent=BOX, to_utm=True)
     assert not [path for path, *_ in server.asked if "ept-data" in path]
     done = bare_earth.fetch(address, target, extent=BOX, to_utm=True, height_unit="us-foot")
@@ -472,7 +474,7 @@ def test_clouds_outside_of_the_area_are_not_asked_for(server, copc, tmp_path):
 @pytest.mark.parametrize("href", ["s3://127.0.0.1/a.copc.laz", "http://127.0.0.1:9/a.copc.laz"])
 def test_another_port_or_scheme_is_another_server(server, tmp_path, href):
     address = server.add("all.vpc", text_of(item_of(href)))
-    with pytest.raises(BareEarthError, match=f"other servers: {href[:14]}.*--follow"):
+    with pytest.raises(BareEarthError, match=f"other servers: {href[:14]}.*follow=True"):
         bare_earth.fetch(address, tmp_path / "part.laz")
 
 
@@ -527,7 +529,7 @@ def test_other_servers_are_followed_only_if_the_user_says_so(server, copc, tmp_p
     local = tmp_path / "local.vpc"
     local.write_bytes(text_of(item_of(server.address("clouds/a.copc.laz"))))
     for given, host in ((address, "localhost"), (local, "127.0.0.1")):
-        with pytest.raises(BareEarthError, match=f"other servers: http://{host}:.*--follow"):
+        with pytest.raises(BareEarthError, match=f"other servers: http://{host}:.*follow=True"):
             bare_earth.fetch(given, tmp_path / "part.laz")
         assert {path for path, *_ in server.asked} <= {"all.vpc"}
     for given in (address, local):

@@ -144,9 +144,11 @@ def test_too_much_without_an_area_is_refused(server, tiles, tmp_path):
     address = add(server, tiles[0])
     code, _, errors = said("classify", address, tmp_path / "out.laz", "--limit", "0.00001")
     assert code == 1 and "more than the limit of 10.0 kB" in errors
-    assert "Give an area (--extent or --boundary), or raise the limit: --limit 0.1" in errors
+    assert "Give an area with --extent or --boundary, or raise the limit: --limit 0.1" in errors
     assert not cached(tmp_path) and not (tmp_path / "out.laz").exists()
-    with pytest.raises(BareEarthError, match="Fetch a part of it first"):
+    with pytest.raises(
+        BareEarthError, match=r"Download a part of it first, with bare_earth\.fetch"
+    ):
         bare_earth.info(address, limit=0.00001)
     assert said("key-points", address, tmp_path / "out.laz")[0] == 0
 
@@ -313,7 +315,7 @@ def test_a_plain_file_obeys_the_limit_and_the_area(server, tmp_path):
     far = "--extent", WEST + 9000, SOUTH, WEST + 9100, SOUTH + 100
     assert said("classify", address, tmp_path / "a.laz", *far)[0] == 1
     assert server.sent < plain.stat().st_size and not cached(tmp_path)
-    with pytest.raises(BareEarthError, match=r"Give it to the command .* 'bare-earth classify'"):
+    with pytest.raises(BareEarthError, match=r"Give it to the tool .* bare_earth.classify"):
         bare_earth.fetch(address, tmp_path / "a.laz")
 
 

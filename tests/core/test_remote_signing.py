@@ -126,7 +126,7 @@ def test_without_leave_nobody_is_asked(planet, content, tmp_path):
     for words in (("fetch",), ("classify",)):
         cache = ("--cache", tmp_path / "cache") if words == ("classify",) else ()
         code, _, errors = said(*words, address, tmp_path / "out.laz", *cache)
-        assert code == 1 and "'bare-earth fetch' with --follow gets a signature" in errors
+        assert code == 1 and "--follow of 'bare-earth fetch' gets a signature" in errors
     assert not planet.asked_for_tokens and not (tmp_path / "out.laz").exists()
 
 
@@ -136,7 +136,9 @@ def test_an_address_whose_own_signature_expires_is_renewed_or_told(
     monkeypatch.setattr(transfers, "_THREADS", 1)
     address = f"{planet.add('copc/a.copc.laz', content)}?{SECRETS[0]}"
     planet.lasts = 3
-    with pytest.raises(BareEarthError, match=r"has expired\. Get a new address.*--follow") as told:
+    with pytest.raises(
+        BareEarthError, match=r"has expired\. Get a new address.*follow=True"
+    ) as told:
         bare_earth.fetch(address, tmp_path / "all.laz")
     # What was there stays, under a name without the token.
     assert (tmp_path / "all.laz.parts").is_dir() and not (tmp_path / "all.laz").exists()

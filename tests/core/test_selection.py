@@ -54,8 +54,7 @@ def test_the_log_names_the_classes_that_stay_and_how_to_classify_them(las):
         "1 point of class 10 (rail), 2 of class 11 (road surface) keep their class. Where they lie"
         " on the ground, they support it.",
         "2 points of class 9 (water), 1 of class 17 (bridge deck), 1 of class 64 keep their class"
-        ' and do not take part. To classify them too, give "all" for the classes to classify'
-        " (--from-classes all).",
+        " and do not take part. To classify them too, give from_classes='all'.",
         "4 of 9 points take part.",
     ]
     heard = las.Heard()

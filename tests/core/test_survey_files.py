@@ -179,7 +179,7 @@ def test_heights_of_another_datum_or_unit_are_refused_and_a_crs_helps(las, other
         open_survey([las.folder])
     told = str(error.value)
     assert "site + NZVD2016 height in metre, height metre: b.las" in told and "c.las" in told
-    assert "--crs EPSG:25832+7837" in told
+    assert "such as EPSG:25832+7837" in told
     given = open_survey(Inputs([las.folder]).read_as(one))
     assert given.crs.datum.epsg == 1169
 

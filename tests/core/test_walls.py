@@ -2,6 +2,7 @@
 
 import ast
 import functools
+import re
 import subprocess
 import sys
 
@@ -139,6 +140,23 @@ def test_only_the_point_cloud_package_knows_the_file_format():
     for path in SHIPPED:
         if not {"las", "survey"} & set(path.parts):
             assert not _within(_imports(path), "laspy", "lazrs", "copclib"), path
+
+
+def test_only_the_command_names_flags():
+    # Messages name options by `option` of core/words.py, since QGIS and the library show them, too.
+    # These hold command lines, of other programs or of ours.
+    lines = {"core/words.py", "las/backends.py", "tools/compare_settings/settings.py"}
+    told, found = set(), {}
+    for path, node in nodes():
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            told.add(id(node.value))  # documentation
+        room, _, name = name_of(path).partition("/")
+        if room != "algorithms" or name.startswith("cli/") or name in lines:
+            continue
+        text = node.value if isinstance(node, ast.Constant) and id(node) not in told else None
+        if isinstance(text, str) and re.search(r"(?<![\w-])--[a-z]|'bare-earth ", text):
+            found.setdefault(name, []).append(text)
+    assert found == {}
 
 
 def test_imports_inside_the_package_are_relative():

@@ -139,7 +139,9 @@ def test_held_out_points_need_no_checkpoints(cloud, tmp_path):
 
     results = processing.run(ALGORITHM, {"INPUT": str(cloud), "HOLD_OUT": 0.05})
     assert results["HOLD_OUT_RMSE"] > 0 and "OUTPUT" not in results
-    with pytest.raises(QgsProcessingException, match="Give checkpoints"):
+    with pytest.raises(
+        QgsProcessingException, match="Give 'Checkpoints', or a share of points with 'Share of "
+    ):
         processing.run(ALGORITHM, {"INPUT": str(cloud)})
 
 

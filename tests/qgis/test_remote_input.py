@@ -76,7 +76,7 @@ def test_part_of_an_address_is_downloaded(address, corner, tmp_path, log):
     values = {"ADDRESS": address, "EXTENT": extent(box), "OUTPUT": target}
     results = processing.run(FETCH, values, feedback=log)
     assert results["POINT_COUNT"] == count == count_of(target)
-    assert "Downloads " in log.text and " requests" in log.text
+    assert "Downloads " in log.text and " request" in log.text
     assert "bare-earth fetch http://127.0.0.1" in log.text and "SECRET" not in log.text
 
 

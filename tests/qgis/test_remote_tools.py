@@ -152,7 +152,10 @@ def test_without_an_extent_nothing_is_asked_for(address, server, tmp_path):
 
 
 def test_more_than_the_limit_is_refused(address, tmp_path, cache):
-    with pytest.raises(QgsProcessingException, match=r"limit of 1\.0 kB\. Choose a smaller"):
+    with pytest.raises(
+        QgsProcessingException,
+        match=r"1\.0 kB\. Choose a smaller .* 'Limit of the download \[GB\]' \(0\.1\)",
+    ):
         run("tindensification", GIVEN["tindensification"], tmp_path, INPUT=address, EXTENT=EXTENT,
             LIMIT=1e-6)  # fmt: skip
     assert not list(cache.rglob("*.laz")) and not list(tmp_path.glob("out*"))
@@ -216,7 +219,7 @@ def test_web_mercator_is_refused_before_the_download(server, tmp_path):
     server.asked.clear()
     with pytest.raises(
         QgsProcessingException,
-        match=r"Mercator.* Reproject .*Download part of .* UTM",
+        match=r"Mercator.* Reproject .* 'Transform Web Mercator to UTM' of 'Download part of ",
     ):
         run("terrainmodel", {"DTM": "dtm.tif"}, tmp_path, INPUT=address,
             EXTENT="500020,500060,5600010,5600055")  # fmt: skip

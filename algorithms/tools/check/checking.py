@@ -15,6 +15,7 @@ import numpy as np
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
+from ...core.words import option
 from ...report.units import round_length
 from ...survey.feature_files import FORMATS as LAYERS
 from ...survey.feature_files import feature_writer
@@ -89,7 +90,7 @@ def check_points(
     """
     share = options.hold_out
     if checkpoints is None and share is None:
-        raise BareEarthError("Give checkpoints, or a share of the ground points to hold out.")
+        raise BareEarthError(_nothing_to_compare())
     if checkpoints is None and (table or residuals):
         raise BareEarthError(
             "Points that are held out have no table and no layer, only a page. Give checkpoints."
@@ -171,8 +172,12 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None)
 
 def _lacks(inputs: Mapping[str, Any], sets: Sequence[ParameterSet]) -> str:
     if inputs["checkpoints"] is None and CheckOptions.among(sets).hold_out is None:
-        return "Give --checkpoints, or a share of the ground points with --hold-out."
+        return _nothing_to_compare()
     return ""
+
+
+def _nothing_to_compare() -> str:
+    return f"Give {option('checkpoints')}, or a share of points with {option('hold_out')}."
 
 
 TOOL = FileTool(
@@ -214,7 +219,7 @@ TOOL = FileTool(
         Input(
             "confidence",
             "raster",
-            help="the confidence of the terrain model, 0 to 1, as 'terrain --confidence' makes it;"
+            help="the confidence of the terrain model, 0 to 1, as the command terrain makes it;"
             " checkpoints where it is low are not counted",
             label="Confidence",
             field_help="Confidence of the terrain model, 0 to 1. Checkpoints where it is low are"
@@ -262,7 +267,7 @@ TOOL = FileTool(
     command="check",
     command_about="Compares the TIN of the ground points, and a terrain model, with checkpoints:"
     " RMSE and other figures, on land with and without vegetation, and the statement of the ASPRS"
-    " Positional Accuracy Standards, edition 2. With --hold-out, it needs no checkpoints.",
+    " Positional Accuracy Standards, edition 2. If points are held out, it needs none.",
     identifier="check",
     title="Check against checkpoints",
     section="Quality",

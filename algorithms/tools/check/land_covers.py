@@ -12,6 +12,7 @@ from collections import Counter
 from typing import NamedTuple, Sequence
 
 from ...core.progress import Progress
+from ...core.words import option
 from .checkpoints import Checkpoints
 from .columns import VOCABULARY, parts_of
 
@@ -139,8 +140,8 @@ def kinds_of(
         more = len(unknown) - len(names)
         progress.warning(
             f"Land covers that are not known, which count as not vegetated: {', '.join(names)}"
-            f"{f' and {more:,} more' if more else ''}. If some are, say which: --vegetated, in QGIS"
-            " 'Vegetated land covers'."
+            f"{f' and {more:,} more' if more else ''}. If some are, say which with"
+            f" {option('vegetated')}."
         )
     return [kind or NVA for kind in found], dict(unknown.most_common())
 

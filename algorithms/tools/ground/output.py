@@ -25,8 +25,8 @@ class Output(ParameterSet):
         advanced=True,
         help="Writes only the points inside the extent and the boundary, and makes the rasters"
         " from them. Files without such points are not written. If this is off, all files are"
-        " written with all their points, and points outside keep their class. Of remote points, QGIS"
-        " writes those of the area in any case.",
+        " written with all their points, and points outside keep their class. In QGIS, it is on for"
+        " remote points.",
     )
     height_above_ground: bool = parameter(
         False,

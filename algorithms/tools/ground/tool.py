@@ -170,7 +170,7 @@ def _check(
 _ABOUT = (
     " Many files, folders and virtual point clouds are one survey: each point gets the class that"
     " it would get if all were one file, so there are no seams. A file that cannot be classified"
-    " is reported at the end. To see the parameters of a method, give --method before --help."
+    " is reported at the end. To see the parameters of a method, name it before you ask for help."
 )
 _TARGET = Input("raster_target", "target", is_last=True)
 _CONSTRAINTS = Input("constraints", "constraints", is_last=True)

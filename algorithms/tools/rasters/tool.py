@@ -112,7 +112,7 @@ TOOL = MapTool(
     dialog_outputs=_in_dialog,
     command="terrain",
     command_about="Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Give at"
-    " least one of --contours and of --dtm, --dsm and the other options with GeoTIFF files.",
+    " least one output: contour lines, a terrain model, or another raster.",
     function_about="Make rasters of the terrain and of what stands on it, and contour lines, of"
     " classified points; all files together are one survey.",
     identifier="terrainmodel",
