@@ -964,8 +964,8 @@
         <translation>Größte Geländeneigung</translation>
     </message>
     <message>
-        <source>Mean difference [m]</source>
-        <translation>Mittlere Abweichung [m]</translation>
+        <source>Shift that would remove the mean difference [m]</source>
+        <translation>Verschiebung, die die mittlere Abweichung aufheben würde [m]</translation>
     </message>
     <message>
         <source>Measures densities, voids and strips, and compares them with a specification.</source>

@@ -964,8 +964,8 @@
         <translation>Pente maximale du terrain</translation>
     </message>
     <message>
-        <source>Mean difference [m]</source>
-        <translation>Écart moyen [m]</translation>
+        <source>Shift that would remove the mean difference [m]</source>
+        <translation>Décalage qui annulerait l’écart moyen [m]</translation>
     </message>
     <message>
         <source>Measures densities, voids and strips, and compares them with a specification.</source>

@@ -139,7 +139,7 @@ def test_checkpoints_that_are_off_by_known_amounts(survey):
     assert done.nva.rmse == pytest.approx(np.sqrt((errors[known] ** 2).mean()), abs=0.001)
     assert done.nva.total_rmse == pytest.approx(np.hypot(done.nva.rmse, 0.02), abs=1e-5)
     assert done.vva.mean == pytest.approx(0.3, abs=0.001)
-    assert done.shift == done.nva.mean and done.meets_class is True
+    assert done.shift == -done.nva.mean and done.meets_class is True
     forest = {name for name, cover in zip(names, covers) if cover == "Forest"}
     assert {value["name"] for value in done.largest[: len(forest)]} == forest
     assert "a shift of -0.0" in "\n".join(done.lines())

@@ -400,7 +400,7 @@ def test_checkpoints_are_compared_with_points_and_terrain_model(scene, tmp_path)
     places = np.column_stack((x.ravel(), y.ravel(), ground_at(x, y).ravel() - 0.1))
     known = places + np.array((EAST, NORTH, 0.0))
     summary = deliver(scene[1], tmp_path / "out", delivery="drone-site", checkpoints=known)
-    assert summary.check.counted == 9 and summary.check.shift == pytest.approx(0.1, abs=0.03)
+    assert summary.check.counted == 9 and summary.check.shift == pytest.approx(-0.1, abs=0.03)
     assert {"checkpoints.csv", "checkpoints.gpkg"} <= files_of(tmp_path / "out")
     with pytest.raises(BareEarthError, match="checkpoints"):
         deliver(scene[1], tmp_path / "far", checkpoints=places)

@@ -77,7 +77,7 @@ def test_run_with_a_table(registry, cloud, table, rows, tmp_path, context, log):
     assert results["NVA_RMSE"] == pytest.approx(0.05, abs=0.01)
     assert results["VVA_RMSE"] == pytest.approx(0.05, abs=0.01)
     assert results["MEETS_CLASS"] == 1 and "meet the class of 0.1 m" in results["VERDICT"]
-    assert results["SHIFT"] == pytest.approx(0.05, abs=0.01) and "HOLD_OUT_RMSE" not in results
+    assert results["SHIFT"] == pytest.approx(-0.05, abs=0.01) and "HOLD_OUT_RMSE" not in results
     layer = QgsVectorLayer(results["OUTPUT"], "errors")
     assert layer.isValid() and layer.featureCount() == len(rows)
     assert layer.crs().authid() == "EPSG:25832"

@@ -160,7 +160,7 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None)
             for number in order[:_LARGEST].tolist()
             if counted[number]
         ],
-        shift=None if nva is None or doubt else nva.mean,
+        shift=None if nva is None or doubt else -nva.mean,
         accuracy_class=goal,
         meets_class=None if goal is None or nva is None or doubt else nva.total_rmse <= goal,
         scale=round_length(2.0 * max(most, 0.001)),
@@ -259,7 +259,7 @@ TOOL = FileTool(
     numbers=(
         ("CHECKPOINT_COUNT", "Checkpoints"), ("COUNTED", "Counted checkpoints"),
         ("NVA_RMSE", "RMSE without vegetation [m]"), ("VVA_RMSE", "RMSE with vegetation [m]"),
-        ("SHIFT", "Mean difference [m]"), ("HOLD_OUT_RMSE", "RMSE of held-out points [m]"),
+        ("SHIFT", "Shift that would remove the mean difference [m]"), ("HOLD_OUT_RMSE", "RMSE of held-out points [m]"),
         ("MEETS_CLASS", "Meets the accuracy class (1 or 0)"),
     ),
     texts=(("VERDICT", "Verdict"),),

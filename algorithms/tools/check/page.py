@@ -53,7 +53,7 @@ def _summary(check: Check) -> list[Html]:
         "Terrain model, with vegetation (VVA)": check.dtm_vva,
     }
     count = 0 if check.nva is None else check.nva.count
-    shift = "" if check.shift is None else f"{-check.shift:+.3f} m"
+    shift = "" if check.shift is None else f"{check.shift:+.3f} m"
     return [
         paragraph(check.doubt, kind="doubt"),
         paragraph(

@@ -43,7 +43,7 @@ class Check:
     doubt: str = ""  # why no accuracy can be stated, such as another vertical datum; or empty
     # names and errors of those counted with the largest errors of the TIN
     largest: list[dict[str, Any]] | None = None
-    # mean error without vegetation, None in doubt; nothing is shifted by it
+    # metres that would remove the mean error without vegetation, None in doubt; nothing is shifted
     shift: float | None = None
     needed: int = NEEDED  # fewest checkpoints without vegetation for a test by the standard
     accuracy_class: float | None = None  # to meet
@@ -121,7 +121,7 @@ class Check:
             rows.append(f"largest errors    {worst}")
         if self.shift is not None:
             rows.append(
-                f"mean difference   would be removed by a shift of {-self.shift:+.3f} m; nothing is"
+                f"mean difference   would be removed by a shift of {self.shift:+.3f} m; nothing is"
                 " shifted"
             )
         return [*rows, *self.statements]
