@@ -11,7 +11,19 @@ from ..core.parameters import ParameterSet, shown_value
 from ..core.words import counted
 from ..filters import method_of
 from ..las.class_names import named_class
-from ..report.page import Html, element, link, listed, map_of, maps, page, paragraph, section, table
+from ..report.page import (
+    DOUBT,
+    Html,
+    element,
+    link,
+    listed,
+    map_of,
+    maps,
+    page,
+    paragraph,
+    section,
+    table,
+)
 from ..report.units import Units
 from ..survey.selection import Selection
 from ..tools.above_ground.classes import ThenAboveGround
@@ -31,10 +43,10 @@ from .pictures import picture_of
 from .summary import DeliverySummary
 
 _MOST_ROWS = 200
-_STYLE = """
-.maps { grid-template-columns: repeat(auto-fill, minmax(380px, 1fr)); }
-.maps figure:first-child { grid-column: 1 / -1; }
-"""
+_STYLE = f"""
+.maps {{ grid-template-columns: repeat(auto-fill, minmax(380px, 1fr)); }}
+.maps figure:first-child {{ grid-column: 1 / -1; }}
+{DOUBT}"""
 _ABOUT = {
     WITH_BUILDINGS: "The terrain with the buildings on it: the highest point of ground or buildings"
     " in each cell.",
@@ -59,6 +71,8 @@ def delivery_html(job: DeliveryJob, root: Path) -> str:
     crs = survey.crs.name or "not stated"
     figures = [("CRS", crs), *_figures(summary), *_accuracy(summary, void_distance)]
     parts = [
+        # Whoever reads that bridges are removed must know by then what that leaves.
+        paragraph(summary.water.doubt if summary.water else "", kind="doubt"),
         paragraph(content.about),
         section("In figures", table(figures, is_named=True)),
         *_comparison(summary),

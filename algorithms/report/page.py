@@ -30,6 +30,8 @@ img { width: 100%; image-rendering: pixelated; border: 1px solid #bbb; box-sizin
 """
 # Of pages with drawings.
 DRAWN = "svg { width: 100%; max-width: 860px; height: auto; }\n"
+# Of pages that say what may be wrong before all else.
+DOUBT = ".doubt { padding: .4em 1em; border-left: 4px solid #b2182b; background: #fdecea; }\n"
 # Sizes of drawings in pixels.
 _WIDTH, _HEIGHT, _BELOW, _LEFT = 800, 180, 40, 46
 _TALLEST, _RADIUS = 900, 7

@@ -1,9 +1,13 @@
 """Water below bridges, on land where it is known."""
 
+import json
+
 import numpy as np
 import pytest
 from test_checkpoints import write
 from test_water import LEVEL, Scene, contains, lake, overlap, river, run
+
+import bare_earth
 
 LONG, HIGH, MIDDLE = 500.0, 300.0, 250.0
 
@@ -202,6 +206,22 @@ def test_bridges_without_water_below_them_are_told(tmp_path, capsys):
         told.append(capsys.readouterr().err)
     assert "1 bridge has no water below it that was found" in told[0]
     assert "bridge has no water" not in told[1]
+
+
+def test_the_page_of_a_flood_model_begins_with_bridges_that_may_dam_a_stream(tmp_path):
+    scene = Scene(LONG, HIGH, density=1.0)
+    scene.basin(river, level)
+    build(scene, river, 8.0)
+    scene.keep(np.hypot(scene.x - MIDDLE, scene.y - 150.0) < 60.0)
+    columns = (np.round(axis, 3) for axis in (scene.x, scene.y, scene.z))
+    write(tmp_path / "dry.laz", *columns, scene.classes)
+    folder = tmp_path / "out"
+    how = {"delivery": "flood", "method": "slope", "bridges": "keep", "hold_out_share": None}
+    bare_earth.deliver(tmp_path / "dry.laz", folder, **how)
+    words = (folder / "index.html").read_text("utf-8").split("</h1>")[1]
+    assert words.index("1 bridge has no water below it") < words.index("bridges are removed")
+    record = json.loads((folder / "delivery.json").read_text("utf-8"))
+    assert record["water"]["dry_bridges"] == 1
 
 
 def test_a_short_reach_that_falls_is_a_river():

@@ -259,7 +259,8 @@ TOOL = FileTool(
     numbers=(
         ("CHECKPOINT_COUNT", "Checkpoints"), ("COUNTED", "Counted checkpoints"),
         ("NVA_RMSE", "RMSE without vegetation [m]"), ("VVA_RMSE", "RMSE with vegetation [m]"),
-        ("SHIFT", "Shift that would remove the mean difference [m]"), ("HOLD_OUT_RMSE", "RMSE of held-out points [m]"),
+        ("SHIFT", "Shift that would remove the mean difference [m]"),
+        ("HOLD_OUT_RMSE", "RMSE of held-out points [m]"),
         ("MEETS_CLASS", "Meets the accuracy class (1 or 0)"),
     ),
     texts=(("VERDICT", "Verdict"),),

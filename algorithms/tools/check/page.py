@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...report.page import (
+    DOUBT,
     DRAWN,
     Html,
     Mark,
@@ -28,8 +29,7 @@ _MOST_ROWS = 1000
 _STYLE = f"""
 {DRAWN}blockquote {{ margin: 1em 0; padding: .4em 1em; border-left: 4px solid #888;
   background: #f6f6f6; }}
-.doubt {{ padding: .4em 1em; border-left: 4px solid #b2182b; background: #fdecea; }}
-"""
+{DOUBT}"""
 
 
 def checkpoint_html(check: Check, found: Residuals | None, survey: Survey) -> str:

@@ -49,6 +49,19 @@ class WaterSummary:
     cell: float  # metres: side of the cells in which points were counted
     min_area: float  # square metres
     min_width: float  # metres, of a river
+    dry_bridges: int = 0  # decks of bridges with no water below them that was found
+
+    @property
+    def doubt(self) -> str:
+        """What the terrain below bridges may be, or nothing."""
+        if not self.dry_bridges:
+            return ""
+        words = "bridge has no water below it", "bridges have no water below them"
+        return (
+            f"{counted(self.dry_bridges, *words)} that was found: there the terrain follows from"
+            " the ground beside the deck, and can dam a stream. Where one flows, give its water as"
+            " a polygon."
+        )
 
     @property
     def text(self) -> str:
@@ -157,19 +170,14 @@ def water_of(
     survey.check()
     bodies = find_water(grid, how, progress.part(0.9, 1.0))
     outlines = tuple(tuple(ring[:, :2] for ring in body.rings) for body in bodies)
-    dry = decks_without_water(grid, outlines)
-    if dry:
-        words = "bridge has no water below it", "bridges have no water below them"
-        progress.warning(
-            f"{counted(dry, *words)} that was found: there the terrain follows from the ground"
-            " beside the deck, and can dam a stream. Where one flows, give its water as a polygon."
-        )
     kinds, grades = [body.kind for body in bodies], [body.grade for body in bodies]
     summary = WaterSummary(
         kinds.count("lake"), kinds.count("river"), sum(body.area for body in bodies),
         {name: grades.count(name) for name in GRADES if name in grades}, cell, how.min_area,
-        how.min_width,
+        how.min_width, decks_without_water(grid, outlines),
     )  # fmt: skip
+    if summary.doubt:
+        progress.warning(summary.doubt)
     in_crs = [tuple(ring / unit for ring in outline) for outline in outlines]
     return SurveyWater(survey.survey.crs, bodies, in_crs), summary
 
