@@ -35,7 +35,7 @@ def above_ground(
     output: _Path,
     *,
     extent: Sequence[float] | None = None,
-    boundary: _Path | Sequence[Any] | None = None,
+    boundary: Any | None = None,
     above_ground: Literal["asprs", "ign", "own"] = 'asprs',
     medium_height: float = 0.5,
     high_height: float = 2.0,
@@ -54,7 +54,7 @@ def above_ground(
     overview: bool = False,
     threads: int | None = None,
     memory: float | None = None,
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     scheduler: str | None = None,
@@ -140,7 +140,7 @@ def above_ground(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.
@@ -178,7 +178,7 @@ def assess(
     ground_classes: Sequence[int] = (2,),
     ignored_classes: Sequence[int] | None = None,
     map_cell_size: float = 1.0,
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
@@ -208,7 +208,7 @@ def assess(
     map_cell_size : float, default 1.0 m
         Side of a cell of the error map. The map in the report has its own cell size. From 0.01
         to 1000 m.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
     cache : path, optional
@@ -236,12 +236,12 @@ def assess(
 def check(
     sources: _Path | Iterable[_Path],
     *,
-    checkpoints: _Path | Sequence[Any] | None = None,
+    checkpoints: Any | None = None,
     columns: str | None = None,
-    checkpoints_crs: str | None = None,
-    dtm: _Path | None = None,
+    checkpoints_crs: Any | None = None,
+    dtm: Any | None = None,
     vegetated: Sequence[str] | None = None,
-    confidence: _Path | None = None,
+    confidence: Any | None = None,
     residuals: _Path | None = None,
     report: _Path | None = None,
     table: _Path | None = None,
@@ -252,7 +252,7 @@ def check(
     hold_out: float | None = None,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
@@ -269,7 +269,7 @@ def check(
         Classified files, folders, virtual point clouds (.vpc), lists of files (.txt), or
         addresses (https, s3, gs, az) of remote point clouds; all of them together are one
         survey.
-    checkpoints : path or array of shape (n, 3), optional
+    checkpoints : path, points or array of shape (n, 3), optional
         Points that were surveyed on the ground (CSV and other tables in the CRS of the points,
         GeoJSON, or with pyogrio GeoPackage, shapefile and others, whose CRS is transformed to
         that of the points), or their x, y and z in the CRS of the points.
@@ -277,15 +277,15 @@ def check(
         The columns or attributes of the checkpoints, by name or by number from 1 on, such as
         x=E,y=N,z=H,cover=Class,type=Use,name=ID; those that are not given are recognised by
         their names.
-    checkpoints_crs : str, optional
+    checkpoints_crs : str, int or pyproj.CRS, optional
         The CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file
         states, or the CRS of the points.
-    dtm : path, optional
+    dtm : path, Raster or xarray.DataArray, optional
         Check this terrain model as well, in the CRS of the points.
     vegetated : sequence of str, optional
         Land covers with one of these words are vegetated, and no others (default: words such as
         forest, crops and brush in several languages).
-    confidence : path, optional
+    confidence : path, Raster or xarray.DataArray, optional
         The confidence of the terrain model, 0 to 1, as the command terrain makes it;
         checkpoints where it is low are not counted.
     residuals : path, optional
@@ -321,7 +321,7 @@ def check(
         Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in
         older files. If strips do not fit together, leave them out of ground and surface. "use":
         Use as others. "leave-out": Leave out.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
     cache : path, optional
@@ -365,15 +365,15 @@ def classify(
     vat: _Path | None = None,
     red_relief: _Path | None = None,
     contours: _Path | None = None,
-    like: _Path | None = None,
+    like: Any | None = None,
     raster_extent: Sequence[float] | None = None,
-    breaklines: _Path | Sequence[Any] | None = None,
-    water: _Path | Sequence[Any] | None = None,
-    rivers: _Path | Sequence[Any] | None = None,
-    no_ground: _Path | Sequence[Any] | None = None,
+    breaklines: Any | None = None,
+    water: Any | None = None,
+    rivers: Any | None = None,
+    no_ground: Any | None = None,
     extent: Sequence[float] | None = None,
-    boundary: _Path | Sequence[Any] | None = None,
-    corrections: _Path | Sequence[Any] | None = None,
+    boundary: Any | None = None,
+    corrections: Any | None = None,
     explain: _Path | None = None,
     method: Literal["tin-densification", "grid-minimum", "slope"] = 'tin-densification',
     preset: Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "lidar360"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "paper"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "whitebox"] | None = None,
@@ -448,7 +448,7 @@ def classify(
     raster_per_file: bool = False,
     threads: int | None = None,
     memory: float | None = None,
-    crs: str | None = None,
+    crs: Any | None = None,
     vpc: _Path | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
@@ -505,7 +505,7 @@ def classify(
     contours : path, optional
         Contour lines of the terrain model (.gpkg, .geojson, .shp, .fgb); the field ELEV has the
         height, INDEX is 1 for every fifth line. All but .geojson need pyogrio.
-    like : path, optional
+    like : path, Raster or xarray.DataArray, optional
         A raster in the CRS of the points, such as dem.tif: all rasters get its CRS, cell size,
         position of the cells, and extent; it replaces the cell size.
     raster_extent : four floats, optional
@@ -848,7 +848,7 @@ def classify(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.
@@ -889,7 +889,7 @@ def compare_settings(
     profile: Sequence[float] | None = None,
     threads: int | None = None,
     memory: float | None = None,
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
@@ -945,7 +945,7 @@ def compare_settings(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
     cache : path, optional
@@ -971,7 +971,7 @@ def compare_settings(
     """
 
 def contours(
-    source: _Path,
+    source: Any,
     output: _Path,
     *,
     contour_interval: float | None = None,
@@ -986,7 +986,7 @@ def contours(
 
     Parameters
     ----------
-    source : path
+    source : path, Raster or xarray.DataArray
         A raster that GDAL reads.
     output : path
         The lines to write (.gpkg, .geojson, .shp, .fgb); all but .geojson need pyogrio.
@@ -1025,17 +1025,17 @@ def deliver(
     output: _Path,
     *,
     delivery: Literal["survey", "archaeology", "forestry", "flood", "drone-site"] = 'survey',
-    checkpoints: _Path | Sequence[Any] | None = None,
+    checkpoints: Any | None = None,
     columns: str | None = None,
-    checkpoints_crs: str | None = None,
-    corrections: _Path | Sequence[Any] | None = None,
+    checkpoints_crs: Any | None = None,
+    corrections: Any | None = None,
     extent: Sequence[float] | None = None,
-    boundary: _Path | Sequence[Any] | None = None,
-    breaklines: _Path | Sequence[Any] | None = None,
-    water: _Path | Sequence[Any] | None = None,
-    rivers: _Path | Sequence[Any] | None = None,
-    no_ground: _Path | Sequence[Any] | None = None,
-    like: _Path | None = None,
+    boundary: Any | None = None,
+    breaklines: Any | None = None,
+    water: Any | None = None,
+    rivers: Any | None = None,
+    no_ground: Any | None = None,
+    like: Any | None = None,
     raster_extent: Sequence[float] | None = None,
     method: Literal["tin-densification", "grid-minimum", "slope"] = 'tin-densification',
     preset: Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "lidar360"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "paper"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "whitebox"] | None = None,
@@ -1104,7 +1104,7 @@ def deliver(
     overview: bool = False,
     threads: int | None = None,
     memory: float | None = None,
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     scheduler: str | None = None,
@@ -1131,7 +1131,7 @@ def deliver(
         breaklines, and buildings have a class. drone-site: A site from a drone: stockpiles and
         slopes are terrain, machines are not, in small cells, with contour lines and a measure
         of accuracy.
-    checkpoints : path or array of shape (n, 3), optional
+    checkpoints : path, points or array of shape (n, 3), optional
         Points that were surveyed on the ground (CSV and other tables in the CRS of the points,
         GeoJSON, or with pyogrio GeoPackage, shapefile and others, whose CRS is transformed to
         that of the points), or their x, y and z in the CRS of the points.
@@ -1139,7 +1139,7 @@ def deliver(
         The columns or attributes of the checkpoints, by name or by number from 1 on, such as
         x=E,y=N,z=H,cover=Class,type=Use,name=ID; those that are not given are recognised by
         their names.
-    checkpoints_crs : str, optional
+    checkpoints_crs : str, int or pyproj.CRS, optional
         The CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file
         states, or the CRS of the points.
     corrections : path or polygons, optional
@@ -1169,7 +1169,7 @@ def deliver(
         Polygons in which the terrain uses no ground points, such as bridges and roofs (GeoJSON,
         WKT, or with pyogrio GeoPackage, shapefile and others; if the file states its CRS, it is
         transformed to that of the points).
-    like : path, optional
+    like : path, Raster or xarray.DataArray, optional
         A raster in the CRS of the points, such as dem.tif: all rasters get its CRS, cell size,
         position of the cells, and extent; it replaces the cell size.
     raster_extent : four floats, optional
@@ -1464,7 +1464,7 @@ def deliver(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.
@@ -1498,7 +1498,7 @@ def fetch(
     output: _Path,
     *,
     extent: Sequence[float] | None = None,
-    boundary: _Path | Sequence[Any] | None = None,
+    boundary: Any | None = None,
     resolution: float | None = None,
     limit: float = 2.0,
     skip_missing: bool = False,
@@ -1571,7 +1571,7 @@ def heights(
     sources: _Path | Iterable[_Path],
     output: _Path,
     *,
-    dtm: _Path | None = None,
+    dtm: Any | None = None,
     output_as: Literal["dimension", "z"] = 'dimension',
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
@@ -1581,7 +1581,7 @@ def heights(
     overview: bool = False,
     threads: int | None = None,
     memory: float | None = None,
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     scheduler: str | None = None,
@@ -1601,7 +1601,7 @@ def heights(
         survey.
     output : path
         The file to write (.las, .laz or .copc.laz), or a folder if there are many inputs.
-    dtm : path, optional
+    dtm : path, Raster or xarray.DataArray, optional
         Measure the heights above this raster, in the CRS of the points, and not above the
         ground points; the points need no classes.
     output_as : {"dimension", "z"}, default "dimension"
@@ -1635,7 +1635,7 @@ def heights(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.
@@ -1667,7 +1667,7 @@ def heights(
 def info(
     source: _Path,
     *,
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
@@ -1680,7 +1680,7 @@ def info(
     ----------
     source : path or address
         A .las, .laz or .copc.laz file.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
     cache : path, optional
@@ -1722,7 +1722,7 @@ def key_points(
     overview: bool = False,
     threads: int | None = None,
     memory: float | None = None,
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     scheduler: str | None = None,
@@ -1785,7 +1785,7 @@ def key_points(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.
@@ -1824,7 +1824,7 @@ def quality(
     void_distance: float = 3.0,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
@@ -1864,7 +1864,7 @@ def quality(
         Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in
         older files. If strips do not fit together, leave them out of ground and surface. "use":
         Use as others. "leave-out": Leave out.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
     cache : path, optional
@@ -1890,7 +1890,7 @@ def quality(
     """
 
 def relief(
-    source: _Path,
+    source: Any,
     output: _Path,
     *,
     kinds: Sequence[Literal["hillshade", "local-relief", "multi-scale-relief", "slope", "sky-view", "openness", "negative-openness", "local-dominance", "vat", "red-relief"]] = ('local-relief',),
@@ -1910,7 +1910,7 @@ def relief(
 
     Parameters
     ----------
-    source : path
+    source : path, Raster or xarray.DataArray
         A raster that GDAL reads.
     output : path
         A GeoTIFF (.tif) to write, or a folder if there are several kinds.
@@ -1952,7 +1952,7 @@ def relief(
     """
 
 def remove_off_terrain_objects(
-    source: _Path,
+    source: Any,
     output: _Path,
     *,
     max_object_size: float = 40.0,
@@ -1967,7 +1967,7 @@ def remove_off_terrain_objects(
 
     Parameters
     ----------
-    source : path
+    source : path, Raster or xarray.DataArray
         A raster that GDAL reads.
     output : path
         A GeoTIFF (.tif) to write.
@@ -2014,14 +2014,14 @@ def terrain(
     vat: _Path | None = None,
     red_relief: _Path | None = None,
     contours: _Path | None = None,
-    like: _Path | None = None,
+    like: Any | None = None,
     raster_extent: Sequence[float] | None = None,
     extent: Sequence[float] | None = None,
-    boundary: _Path | Sequence[Any] | None = None,
-    breaklines: _Path | Sequence[Any] | None = None,
-    water: _Path | Sequence[Any] | None = None,
-    rivers: _Path | Sequence[Any] | None = None,
-    no_ground: _Path | Sequence[Any] | None = None,
+    boundary: Any | None = None,
+    breaklines: Any | None = None,
+    water: Any | None = None,
+    rivers: Any | None = None,
+    no_ground: Any | None = None,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     dtm_cell_size: float = 1.0,
@@ -2043,7 +2043,7 @@ def terrain(
     raster_per_file: bool = False,
     threads: int | None = None,
     memory: float | None = None,
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     scheduler: str | None = None,
@@ -2098,7 +2098,7 @@ def terrain(
     contours : path, optional
         Contour lines of the terrain model (.gpkg, .geojson, .shp, .fgb); the field ELEV has the
         height, INDEX is 1 for every fifth line. All but .geojson need pyogrio.
-    like : path, optional
+    like : path, Raster or xarray.DataArray, optional
         A raster in the CRS of the points, such as dem.tif: all rasters get its CRS, cell size,
         position of the cells, and extent; it replaces the cell size.
     raster_extent : four floats, optional
@@ -2204,7 +2204,7 @@ def terrain(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
     cache : path, optional
@@ -2242,7 +2242,7 @@ def water(
     water_cell: float | None = None,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
@@ -2283,7 +2283,7 @@ def water(
         Points in the overlap of flight strips, by their flag in LAS 1.4, or by class 12 in
         older files. If strips do not fit together, leave them out of ground and surface. "use":
         Use as others. "leave-out": Leave out.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
     cache : path, optional
@@ -2312,7 +2312,7 @@ def water_classes(
     sources: _Path | Iterable[_Path],
     output: _Path,
     *,
-    water: _Path | Sequence[Any],
+    water: Any,
     shore_distance: float = 0.7,
     water_class: int = 9,
     ignored_class: int = 20,
@@ -2324,7 +2324,7 @@ def water_classes(
     overview: bool = False,
     threads: int | None = None,
     memory: float | None = None,
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     scheduler: str | None = None,
@@ -2385,7 +2385,7 @@ def water_classes(
         points wait in a temporary file in the output folder. With many files, fewer are worked
         on at the same time. The result does not depend on it. None: half of the free memory.
         From 0.001 to 100000 GB.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state;
         written point clouds keep the records that the files have.

@@ -28,7 +28,7 @@ def above_ground(
     withheld: ArrayLike | None = None,
     in_overlap: ArrayLike | None = None,
     extent: Sequence[float] | None = None,
-    boundary: _Path | Sequence[Any] | None = None,
+    boundary: Any | None = None,
     above_ground: Literal["asprs", "ign", "own"] = 'asprs',
     medium_height: float = 0.5,
     high_height: float = 2.0,
@@ -42,7 +42,6 @@ def above_ground(
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     threads: int | None = None,
-    memory: float | None = None,
     crs: Any | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> NDArray[uint8]:
@@ -54,10 +53,11 @@ def above_ground(
     ----------
     points : array, laspy.LasData or table
         X of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a
-        laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,
-        ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL
-        has, a dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points
-        with z, whose CRS counts; of terrain() also blocks().
+        laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and,
+        where they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a
+        structured array, such as PDAL has, a dict of arrays, a table of pandas, polars or
+        pyarrow, or a GeoDataFrame of points with z, whose CRS counts; of terrain() also
+        blocks().
     y : array of float, shape (n,), optional
         Y of the points, if `points` is x.
     z : array of float, shape (n,), optional
@@ -124,11 +124,6 @@ def above_ground(
     threads : int, optional
         How many threads compute at the same time. The result does not depend on it. None: as
         many as there are processors. From 1 to 1024.
-    memory : float, optional
-        About how much memory a run may use. A file that needs more is read twice, and its
-        points wait in a temporary file in the output folder. With many files, fewer are worked
-        on at the same time. The result does not depend on it. None: half of the free memory.
-        From 0.001 to 100000 GB.
     crs : str, int or pyproj.CRS, optional
         The CRS: an EPSG code, such as 25832 or EPSG:2230+6360 (with heights), or WKT; it
         replaces that of a laspy.LasData, and without both coordinates are metres.
@@ -154,7 +149,7 @@ def blocks(
     *,
     classified: bool = False,
     extent: Sequence[float] | None = None,
-    corrections: _Path | Sequence[Any] | None = None,
+    corrections: Any | None = None,
     method: Literal["tin-densification", "grid-minimum", "slope"] = 'tin-densification',
     preset: Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "lidar360"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "paper"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "whitebox"] | None = None,
     max_building_size: float | None = None,
@@ -192,9 +187,8 @@ def blocks(
     high_noise_height: float = 10.0,
     bridges: Literal["automatic", "find", "keep"] = 'automatic',
     bridge_class: int | None = None,
-    remember_classes: bool = False,
     recursive: bool = False,
-    crs: str | None = None,
+    crs: Any | None = None,
     cache: _Path | None = None,
     limit: float | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
@@ -400,13 +394,9 @@ def blocks(
     bridge_class : int, optional
         The class of bridge decks that are not ground. In the LAS specification it is 17, and
         every point format can hold it. None: the class of other points. From 0 to 255.
-    remember_classes : bool, default False
-        Adds the extra dimension BareEarthClass with the class that this run gives to each
-        point. A later run on the output finds the classes that were changed by hand since, and
-        keeps them, whatever its settings. It then remembers the classes again.
     recursive : bool, default False
         Searches each folder with all its subfolders.
-    crs : str, optional
+    crs : str, int or pyproj.CRS, optional
         The CRS of the points, for files that state none or a wrong one: an EPSG code, such as
         EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state.
     cache : path, optional
@@ -442,9 +432,9 @@ def check(
     number_of_returns: ArrayLike | None = None,
     withheld: ArrayLike | None = None,
     in_overlap: ArrayLike | None = None,
-    checkpoints: _Path | Sequence[Any] | None = None,
+    checkpoints: Any | None = None,
     columns: str | None = None,
-    checkpoints_crs: str | None = None,
+    checkpoints_crs: Any | None = None,
     vegetated: Sequence[str] | None = None,
     accuracy_class: float | None = None,
     survey_error: float = 0.0,
@@ -464,10 +454,11 @@ def check(
     ----------
     points : array, laspy.LasData or table
         X of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a
-        laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,
-        ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL
-        has, a dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points
-        with z, whose CRS counts; of terrain() also blocks().
+        laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and,
+        where they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a
+        structured array, such as PDAL has, a dict of arrays, a table of pandas, polars or
+        pyarrow, or a GeoDataFrame of points with z, whose CRS counts; of terrain() also
+        blocks().
     y : array of float, shape (n,), optional
         Y of the points, if `points` is x.
     z : array of float, shape (n,), optional
@@ -484,7 +475,7 @@ def check(
         Which points are left out of everything.
     in_overlap : array of bool, shape (n,), optional
         Which points lie in the overlap of flight strips.
-    checkpoints : path or array of shape (n, 3), optional
+    checkpoints : path, points or array of shape (n, 3), optional
         Points that were surveyed on the ground (CSV and other tables in the CRS of the points,
         GeoJSON, or with pyogrio GeoPackage, shapefile and others, whose CRS is transformed to
         that of the points), or their x, y and z in the CRS of the points.
@@ -492,7 +483,7 @@ def check(
         The columns or attributes of the checkpoints, by name or by number from 1 on, such as
         x=E,y=N,z=H,cover=Class,type=Use,name=ID; those that are not given are recognised by
         their names.
-    checkpoints_crs : str, optional
+    checkpoints_crs : str, int or pyproj.CRS, optional
         The CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file
         states, or the CRS of the points.
     vegetated : sequence of str, optional
@@ -554,8 +545,8 @@ def classify(
     withheld: ArrayLike | None = None,
     in_overlap: ArrayLike | None = None,
     extent: Sequence[float] | None = None,
-    boundary: _Path | Sequence[Any] | None = None,
-    corrections: _Path | Sequence[Any] | None = None,
+    boundary: Any | None = None,
+    corrections: Any | None = None,
     method: Literal["tin-densification", "grid-minimum", "slope"] = 'tin-densification',
     preset: Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "lidar360"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "paper"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "whitebox"] | None = None,
     max_building_size: float | None = None,
@@ -593,9 +584,7 @@ def classify(
     high_noise_height: float = 10.0,
     bridges: Literal["automatic", "find", "keep"] = 'automatic',
     bridge_class: int | None = None,
-    remember_classes: bool = False,
     threads: int | None = None,
-    memory: float | None = None,
     crs: Any | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> NDArray[uint8]:
@@ -607,10 +596,11 @@ def classify(
     ----------
     points : array, laspy.LasData or table
         X of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a
-        laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,
-        ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL
-        has, a dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points
-        with z, whose CRS counts; of terrain() also blocks().
+        laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and,
+        where they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a
+        structured array, such as PDAL has, a dict of arrays, a table of pandas, polars or
+        pyarrow, or a GeoDataFrame of points with z, whose CRS counts; of terrain() also
+        blocks().
     y : array of float, shape (n,), optional
         Y of the points, if `points` is x.
     z : array of float, shape (n,), optional
@@ -817,18 +807,9 @@ def classify(
     bridge_class : int, optional
         The class of bridge decks that are not ground. In the LAS specification it is 17, and
         every point format can hold it. None: the class of other points. From 0 to 255.
-    remember_classes : bool, default False
-        Adds the extra dimension BareEarthClass with the class that this run gives to each
-        point. A later run on the output finds the classes that were changed by hand since, and
-        keeps them, whatever its settings. It then remembers the classes again.
     threads : int, optional
         How many threads compute at the same time. The result does not depend on it. None: as
         many as there are processors. From 1 to 1024.
-    memory : float, optional
-        About how much memory a run may use. A file that needs more is read twice, and its
-        points wait in a temporary file in the output folder. With many files, fewer are worked
-        on at the same time. The result does not depend on it. None: half of the free memory.
-        From 0.001 to 100000 GB.
     crs : str, int or pyproj.CRS, optional
         The CRS: an EPSG code, such as 25832 or EPSG:2230+6360 (with heights), or WKT; it
         replaces that of a laspy.LasData, and without both coordinates are metres.
@@ -860,15 +841,14 @@ def confidence(
     number_of_returns: ArrayLike | None = None,
     withheld: ArrayLike | None = None,
     in_overlap: ArrayLike | None = None,
-    like: _Path | None = None,
+    like: Any | None = None,
     raster_extent: Sequence[float] | None = None,
     extent: Sequence[float] | None = None,
-    boundary: _Path | Sequence[Any] | None = None,
+    boundary: Any | None = None,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     dtm_cell_size: float = 1.0,
     threads: int | None = None,
-    memory: float | None = None,
     crs: Any | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> Raster:
@@ -880,10 +860,11 @@ def confidence(
     ----------
     points : array, laspy.LasData or table
         X of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a
-        laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,
-        ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL
-        has, a dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points
-        with z, whose CRS counts; of terrain() also blocks().
+        laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and,
+        where they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a
+        structured array, such as PDAL has, a dict of arrays, a table of pandas, polars or
+        pyarrow, or a GeoDataFrame of points with z, whose CRS counts; of terrain() also
+        blocks().
     y : array of float, shape (n,), optional
         Y of the points, if `points` is x.
     z : array of float, shape (n,), optional
@@ -900,7 +881,7 @@ def confidence(
         Which points are left out of everything.
     in_overlap : array of bool, shape (n,), optional
         Which points lie in the overlap of flight strips.
-    like : path, optional
+    like : path, Raster or xarray.DataArray, optional
         A raster in the CRS of the points, such as dem.tif: all rasters get its CRS, cell size,
         position of the cells, and extent; it replaces the cell size.
     raster_extent : four floats, optional
@@ -927,11 +908,6 @@ def confidence(
     threads : int, optional
         How many threads compute at the same time. The result does not depend on it. None: as
         many as there are processors. From 1 to 1024.
-    memory : float, optional
-        About how much memory a run may use. A file that needs more is read twice, and its
-        points wait in a temporary file in the output folder. With many files, fewer are worked
-        on at the same time. The result does not depend on it. None: half of the free memory.
-        From 0.001 to 100000 GB.
     crs : str, int or pyproj.CRS, optional
         The CRS: an EPSG code, such as 25832 or EPSG:2230+6360 (with heights), or WKT; it
         replaces that of a laspy.LasData, and without both coordinates are metres.
@@ -953,7 +929,7 @@ def confidence(
     """
 
 def contours(
-    raster: Raster,
+    raster: Any,
     *,
     contour_interval: float | None = None,
     interval: float | None = None,
@@ -967,8 +943,9 @@ def contours(
 
     Parameters
     ----------
-    raster : Raster
-        A raster of heights, such as terrain(points)["dtm"].
+    raster : path, Raster or xarray.DataArray
+        A raster of heights, such as terrain(points)["dtm"], an xarray.DataArray with x and y,
+        or a file.
     contour_interval : float, optional
         The height between contour lines, in the vertical unit of the CRS: metres, or feet if
         the heights are feet. None: 1, 2 or 5 times a power of ten, so that there are about 20
@@ -1010,8 +987,8 @@ def ground(
     withheld: ArrayLike | None = None,
     in_overlap: ArrayLike | None = None,
     extent: Sequence[float] | None = None,
-    boundary: _Path | Sequence[Any] | None = None,
-    corrections: _Path | Sequence[Any] | None = None,
+    boundary: Any | None = None,
+    corrections: Any | None = None,
     method: Literal["tin-densification", "grid-minimum", "slope"] = 'tin-densification',
     preset: Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "lidar360"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "paper"] | Literal["automatic", "flat", "hilly", "steep", "town", "city", "site", "whitebox"] | None = None,
     max_building_size: float | None = None,
@@ -1049,9 +1026,7 @@ def ground(
     high_noise_height: float = 10.0,
     bridges: Literal["automatic", "find", "keep"] = 'automatic',
     bridge_class: int | None = None,
-    remember_classes: bool = False,
     threads: int | None = None,
-    memory: float | None = None,
     crs: Any | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> NDArray[bool_]:
@@ -1063,10 +1038,11 @@ def ground(
     ----------
     points : array, laspy.LasData or table
         X of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a
-        laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,
-        ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL
-        has, a dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points
-        with z, whose CRS counts; of terrain() also blocks().
+        laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and,
+        where they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a
+        structured array, such as PDAL has, a dict of arrays, a table of pandas, polars or
+        pyarrow, or a GeoDataFrame of points with z, whose CRS counts; of terrain() also
+        blocks().
     y : array of float, shape (n,), optional
         Y of the points, if `points` is x.
     z : array of float, shape (n,), optional
@@ -1273,18 +1249,9 @@ def ground(
     bridge_class : int, optional
         The class of bridge decks that are not ground. In the LAS specification it is 17, and
         every point format can hold it. None: the class of other points. From 0 to 255.
-    remember_classes : bool, default False
-        Adds the extra dimension BareEarthClass with the class that this run gives to each
-        point. A later run on the output finds the classes that were changed by hand since, and
-        keeps them, whatever its settings. It then remembers the classes again.
     threads : int, optional
         How many threads compute at the same time. The result does not depend on it. None: as
         many as there are processors. From 1 to 1024.
-    memory : float, optional
-        About how much memory a run may use. A file that needs more is read twice, and its
-        points wait in a temporary file in the output folder. With many files, fewer are worked
-        on at the same time. The result does not depend on it. None: half of the free memory.
-        From 0.001 to 100000 GB.
     crs : str, int or pyproj.CRS, optional
         The CRS: an EPSG code, such as 25832 or EPSG:2230+6360 (with heights), or WKT; it
         replaces that of a laspy.LasData, and without both coordinates are metres.
@@ -1316,11 +1283,10 @@ def heights(
     number_of_returns: ArrayLike | None = None,
     withheld: ArrayLike | None = None,
     in_overlap: ArrayLike | None = None,
-    dtm: _Path | None = None,
+    dtm: Any | None = None,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     threads: int | None = None,
-    memory: float | None = None,
     crs: Any | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> NDArray[float64]:
@@ -1330,10 +1296,11 @@ def heights(
     ----------
     points : array, laspy.LasData or table
         X of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a
-        laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,
-        ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL
-        has, a dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points
-        with z, whose CRS counts; of terrain() also blocks().
+        laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and,
+        where they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a
+        structured array, such as PDAL has, a dict of arrays, a table of pandas, polars or
+        pyarrow, or a GeoDataFrame of points with z, whose CRS counts; of terrain() also
+        blocks().
     y : array of float, shape (n,), optional
         Y of the points, if `points` is x.
     z : array of float, shape (n,), optional
@@ -1350,7 +1317,7 @@ def heights(
         Which points are left out of everything.
     in_overlap : array of bool, shape (n,), optional
         Which points lie in the overlap of flight strips.
-    dtm : path, optional
+    dtm : path, Raster or xarray.DataArray, optional
         Measure the heights above this raster, in the CRS of the points, and not above the
         ground points; the points need no classes.
     ground_classes : sequence of int, default (2,)
@@ -1364,11 +1331,6 @@ def heights(
     threads : int, optional
         How many threads compute at the same time. The result does not depend on it. None: as
         many as there are processors. From 1 to 1024.
-    memory : float, optional
-        About how much memory a run may use. A file that needs more is read twice, and its
-        points wait in a temporary file in the output folder. With many files, fewer are worked
-        on at the same time. The result does not depend on it. None: half of the free memory.
-        From 0.001 to 100000 GB.
     crs : str, int or pyproj.CRS, optional
         The CRS: an EPSG code, such as 25832 or EPSG:2230+6360 (with heights), or WKT; it
         replaces that of a laspy.LasData, and without both coordinates are metres.
@@ -1406,7 +1368,6 @@ def key_points(
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     threads: int | None = None,
-    memory: float | None = None,
     crs: Any | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> NDArray[bool_]:
@@ -1416,10 +1377,11 @@ def key_points(
     ----------
     points : array, laspy.LasData or table
         X of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a
-        laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,
-        ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL
-        has, a dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points
-        with z, whose CRS counts; of terrain() also blocks().
+        laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and,
+        where they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a
+        structured array, such as PDAL has, a dict of arrays, a table of pandas, polars or
+        pyarrow, or a GeoDataFrame of points with z, whose CRS counts; of terrain() also
+        blocks().
     y : array of float, shape (n,), optional
         Y of the points, if `points` is x.
     z : array of float, shape (n,), optional
@@ -1455,11 +1417,6 @@ def key_points(
     threads : int, optional
         How many threads compute at the same time. The result does not depend on it. None: as
         many as there are processors. From 1 to 1024.
-    memory : float, optional
-        About how much memory a run may use. A file that needs more is read twice, and its
-        points wait in a temporary file in the output folder. With many files, fewer are worked
-        on at the same time. The result does not depend on it. None: half of the free memory.
-        From 0.001 to 100000 GB.
     crs : str, int or pyproj.CRS, optional
         The CRS: an EPSG code, such as 25832 or EPSG:2230+6360 (with heights), or WKT; it
         replaces that of a laspy.LasData, and without both coordinates are metres.
@@ -1480,6 +1437,113 @@ def key_points(
         If `progress` asked to stop; no output is incomplete.
     """
 
+def relief(
+    raster: Any,
+    *,
+    kinds: Sequence[Literal["hillshade", "local-relief", "multi-scale-relief", "slope", "sky-view", "openness", "negative-openness", "local-dominance", "vat", "red-relief"]] = ('local-relief',),
+    kind: Literal["hillshade", "local-relief", "multi-scale-relief", "slope", "sky-view", "openness", "negative-openness", "local-dominance", "vat", "red-relief"] | None = None,
+    relief_radius: float = 10.0,
+    relief_smoothing: Literal["automatic", "none"] = 'automatic',
+    hillshade_light: Literal["one", "multidirectional"] = 'multidirectional',
+    hillshade_azimuth: float = 315.0,
+    hillshade_altitude: float = 45.0,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
+) -> dict[str, Raster]:
+    """Show mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.
+
+    The cells are those that relief() writes for a file with the same cells; cells without data
+    are NaN, or 0 in pictures.
+
+    Parameters
+    ----------
+    raster : path, Raster or xarray.DataArray
+        A raster of heights, such as terrain(points)["dtm"], an xarray.DataArray with x and y,
+        or a file.
+    kinds : sequence of {"hillshade", "local-relief", "multi-scale-relief", "slope", "sky-view", "openness", "negative-openness", "local-dominance", "vat", "red-relief"}, default ('local-relief',)
+        What to make, a raster for each. Archaeological topography (VAT) shows the most in one
+        picture. "hillshade": Hillshade. "local-relief": Local relief. "multi-scale-relief":
+        Multi-scale relief. "slope": Slope. "sky-view": Sky-view factor. "openness": Positive
+        openness. "negative-openness": Negative openness. "local-dominance": Local dominance.
+        "vat": Archaeological topography (VAT). "red-relief": Red relief image map.
+    kind : optional
+        The same as `kinds`, of one value.
+    relief_radius : float, default 10.0 m
+        Local relief, openness, sky view and the like compare a place with its surroundings up
+        to this distance. Choose about the width of the features that you want to see; larger
+        landforms disappear. From 0.1 to 1000 m.
+    relief_smoothing : {"automatic", "none"}, default "automatic"
+        Automatic: for the pictures, heights are smoothed as much as they are noisy, so that low
+        plants in a forest do not speckle them. Banks, ditches and walls stay sharp, and so does
+        open ground. The terrain model does not change. "automatic": Automatic. "none": None.
+    hillshade_light : {"one", "multidirectional"}, default "multidirectional"
+        One light shows best the landforms that lie across it, but slopes that face away are
+        dark. Four lights show landforms of any direction. "one": One light. "multidirectional":
+        Four lights, from southwest to north.
+    hillshade_azimuth : float, default 315.0 deg
+        Direction from which the light comes, clockwise from north. Four lights have their own
+        directions. From 0 to 360 deg.
+    hillshade_altitude : float, default 45.0 deg
+        Angle of the light above the horizon. From 0 to 90 deg.
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
+
+    Returns
+    -------
+    dict[str, Raster]
+        The rasters by their kinds.
+
+    Raises
+    ------
+    BareEarthError
+        If an input cannot be read, a value is not allowed, or an output cannot be written.
+    Cancelled
+        If `progress` asked to stop; no output is incomplete.
+    """
+
+def remove_off_terrain_objects(
+    raster: Any,
+    *,
+    max_object_size: float = 40.0,
+    slope_threshold: float = 15.0,
+    band: int = 1,
+    progress: Progress | Bar | Callable[[float], object] | None = None,
+) -> Raster:
+    """Remove buildings and trees from an elevation raster.
+
+    The cells are those that remove_off_terrain_objects() writes for a file with the same cells;
+    cells without data are NaN.
+
+    Parameters
+    ----------
+    raster : path, Raster or xarray.DataArray
+        A raster of heights, such as terrain(points)["dtm"], an xarray.DataArray with x and y,
+        or a file.
+    max_object_size : float, default 40.0 m
+        Shorter side of the largest building. A larger value takes longer, and may remove steep
+        hilltops as objects. From 0.1 to 1000 m.
+    slope_threshold : float, default 15.0 deg
+        Objects have edges steeper than this on all sides. What rises more gently on some side
+        is a hill. The slopes of the terrain below do not count. From 0.1 to 88 deg.
+    band : int, default 1
+        Number of the raster's band that holds the heights. From 1 to 65535.
+    progress : Progress, bar of tqdm, or callable that takes a float, optional
+        Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a
+        `Progress` receives messages, too.
+
+    Returns
+    -------
+    Raster
+        The heights on the same grid.
+
+    Raises
+    ------
+    BareEarthError
+        If an input cannot be read, a value is not allowed, or an output cannot be written.
+    Cancelled
+        If `progress` asked to stop; no output is incomplete.
+    """
+
 def residuals(
     points: Any,
     y: ArrayLike | None = None,
@@ -1491,9 +1555,9 @@ def residuals(
     number_of_returns: ArrayLike | None = None,
     withheld: ArrayLike | None = None,
     in_overlap: ArrayLike | None = None,
-    checkpoints: _Path | Sequence[Any] | None = None,
+    checkpoints: Any | None = None,
     columns: str | None = None,
-    checkpoints_crs: str | None = None,
+    checkpoints_crs: Any | None = None,
     vegetated: Sequence[str] | None = None,
     max_edge: float = 20.0,
     min_confidence: float = 0.5,
@@ -1511,10 +1575,11 @@ def residuals(
     ----------
     points : array, laspy.LasData or table
         X of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a
-        laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,
-        ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL
-        has, a dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points
-        with z, whose CRS counts; of terrain() also blocks().
+        laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and,
+        where they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a
+        structured array, such as PDAL has, a dict of arrays, a table of pandas, polars or
+        pyarrow, or a GeoDataFrame of points with z, whose CRS counts; of terrain() also
+        blocks().
     y : array of float, shape (n,), optional
         Y of the points, if `points` is x.
     z : array of float, shape (n,), optional
@@ -1531,7 +1596,7 @@ def residuals(
         Which points are left out of everything.
     in_overlap : array of bool, shape (n,), optional
         Which points lie in the overlap of flight strips.
-    checkpoints : path or array of shape (n, 3), optional
+    checkpoints : path, points or array of shape (n, 3), optional
         Points that were surveyed on the ground (CSV and other tables in the CRS of the points,
         GeoJSON, or with pyogrio GeoPackage, shapefile and others, whose CRS is transformed to
         that of the points), or their x, y and z in the CRS of the points.
@@ -1539,7 +1604,7 @@ def residuals(
         The columns or attributes of the checkpoints, by name or by number from 1 on, such as
         x=E,y=N,z=H,cover=Class,type=Use,name=ID; those that are not given are recognised by
         their names.
-    checkpoints_crs : str, optional
+    checkpoints_crs : str, int or pyproj.CRS, optional
         The CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file
         states, or the CRS of the points.
     vegetated : sequence of str, optional
@@ -1594,14 +1659,14 @@ def terrain(
     number_of_returns: ArrayLike | None = None,
     withheld: ArrayLike | None = None,
     in_overlap: ArrayLike | None = None,
-    like: _Path | None = None,
+    like: Any | None = None,
     raster_extent: Sequence[float] | None = None,
     extent: Sequence[float] | None = None,
-    boundary: _Path | Sequence[Any] | None = None,
-    breaklines: _Path | Sequence[Any] | None = None,
-    water: _Path | Sequence[Any] | None = None,
-    rivers: _Path | Sequence[Any] | None = None,
-    no_ground: _Path | Sequence[Any] | None = None,
+    boundary: Any | None = None,
+    breaklines: Any | None = None,
+    water: Any | None = None,
+    rivers: Any | None = None,
+    no_ground: Any | None = None,
     ground_classes: Sequence[int] = (2,),
     overlap: Literal["use", "leave-out"] = 'use',
     dtm_cell_size: float = 1.0,
@@ -1617,7 +1682,6 @@ def terrain(
     max_edge: float | None = None,
     pit_free: bool = False,
     threads: int | None = None,
-    memory: float | None = None,
     crs: Any | None = None,
     progress: Progress | Bar | Callable[[float], object] | None = None,
 ) -> dict[str, Raster]:
@@ -1630,10 +1694,11 @@ def terrain(
     ----------
     points : array, laspy.LasData or table
         X of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a
-        laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,
-        ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL
-        has, a dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points
-        with z, whose CRS counts; of terrain() also blocks().
+        laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and,
+        where they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a
+        structured array, such as PDAL has, a dict of arrays, a table of pandas, polars or
+        pyarrow, or a GeoDataFrame of points with z, whose CRS counts; of terrain() also
+        blocks().
     y : array of float, shape (n,), optional
         Y of the points, if `points` is x.
     z : array of float, shape (n,), optional
@@ -1668,7 +1733,7 @@ def terrain(
         Which points are left out of everything.
     in_overlap : array of bool, shape (n,), optional
         Which points lie in the overlap of flight strips.
-    like : path, optional
+    like : path, Raster or xarray.DataArray, optional
         A raster in the CRS of the points, such as dem.tif: all rasters get its CRS, cell size,
         position of the cells, and extent; it replaces the cell size.
     raster_extent : four floats, optional
@@ -1752,11 +1817,6 @@ def terrain(
     threads : int, optional
         How many threads compute at the same time. The result does not depend on it. None: as
         many as there are processors. From 1 to 1024.
-    memory : float, optional
-        About how much memory a run may use. A file that needs more is read twice, and its
-        points wait in a temporary file in the output folder. With many files, fewer are worked
-        on at the same time. The result does not depend on it. None: half of the free memory.
-        From 0.001 to 100000 GB.
     crs : str, int or pyproj.CRS, optional
         The CRS: an EPSG code, such as 25832 or EPSG:2230+6360 (with heights), or WKT; it
         replaces that of a laspy.LasData, and without both coordinates are metres.
@@ -1804,10 +1864,11 @@ def water(
     ----------
     points : array, laspy.LasData or table
         X of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a
-        laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,
-        ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL
-        has, a dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points
-        with z, whose CRS counts; of terrain() also blocks().
+        laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and,
+        where they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a
+        structured array, such as PDAL has, a dict of arrays, a table of pandas, polars or
+        pyarrow, or a GeoDataFrame of points with z, whose CRS counts; of terrain() also
+        blocks().
     y : array of float, shape (n,), optional
         Y of the points, if `points` is x.
     z : array of float, shape (n,), optional

@@ -87,7 +87,7 @@ def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
         parser.add_argument(name, metavar="INPUT", nargs="+", help=text)
     elif argument.kind == KINDS["number"]:
         parser.add_argument(_option(name), type=float, metavar=metavar, help=text)
-    elif is_needed and argument.kind in (KINDS["path"], KINDS["text"], KINDS["cloud"]):
+    elif is_needed and argument.kind in map(KINDS.get, ("path", "text", "cloud", "raster")):
         parser.add_argument(name, metavar=_METAVARS.get(name, name.upper()), help=text)
     elif argument.kind == KINDS["extent"]:
         text = text.replace("xmin, ymin, xmax, ymax: ", "")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import functools
 import re
+from numbers import Integral
+from typing import Any
 
 from ..core.errors import BareEarthError
 from ..core.words import option
@@ -19,6 +21,17 @@ _LONGEST_SHOWN = 60
 def how_to_state() -> str:
     """Return how a user states the CRS, for the end of a sentence."""
     return f"with {option('crs')}, such as EPSG:25832"
+
+
+def crs_text(given: Any) -> str | None:
+    """Return a CRS as text, given as text, as an EPSG code, or as an object of pyproj."""
+    if given is None or isinstance(given, str):
+        return given
+    if hasattr(given, "to_wkt"):
+        return str(given.to_wkt())
+    if isinstance(given, Integral) and not isinstance(given, bool):
+        return f"EPSG:{given}"
+    raise BareEarthError(f"crs must be an EPSG code or well-known text (WKT), not {given!r}.")
 
 
 def stated_wkt(text: str | None) -> str | None:

@@ -26,5 +26,6 @@ def array_names() -> list[str]:
     """Return the names of all functions on arrays, likewise."""
     return [
         "above_ground", "blocks", "check", "classify", "confidence", "contours", "ground",
-        "heights", "key_points", "residuals", "terrain", "water",
+        "heights", "key_points", "relief", "remove_off_terrain_objects", "residuals", "terrain",
+        "water",
     ]  # fmt: skip

@@ -26,9 +26,11 @@ KINDS = {
     "cloud": Kind(_PATH, "path or address"),
     "path": Kind(_PATH, "path"),
     "number": Kind("float", "float"),
-    "polygons": Kind(f"{_PATH} | Sequence[Any]", "path or polygons"),
-    "lines": Kind(f"{_PATH} | Sequence[Any]", "path or lines"),
-    "points": Kind(f"{_PATH} | Sequence[Any]", "path or array of shape (n, 3)"),
+    "raster": Kind("Any", "path, Raster or xarray.DataArray"),
+    "polygons": Kind("Any", "path or polygons"),
+    "lines": Kind("Any", "path or lines"),
+    "points": Kind("Any", "path, points or array of shape (n, 3)"),
+    "crs": Kind("Any", "str, int or pyproj.CRS"),
     "extent": Kind("Sequence[float]", "four floats"),
     "text": Kind("str", "str"),
     "words": Kind("Sequence[str]", "sequence of str"),
@@ -81,7 +83,7 @@ OUTPUT = path(
 )
 CRS = Argument.of(
     "crs",
-    "text",
+    "crs",
     "the CRS of the points, for files that state none or a wrong one: an EPSG code, such as"
     " EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state",
 )
@@ -120,9 +122,7 @@ def of_group(kind: str) -> tuple[Argument, ...]:
     """Return the arguments for an input that has several."""
     formats = {"formats": FORMATS, "point_formats": POINT_FORMATS}
     return tuple(
-        Argument.of(
-            part.name, "path" if part.kind == "raster" else part.kind, part.help.format(**formats)
-        )
+        Argument.of(part.name, part.kind, part.help.format(**formats))
         for part in GROUPS[kind]
         if part.help
     )

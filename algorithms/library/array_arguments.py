@@ -7,7 +7,7 @@ from .arguments import REQUIRED, Argument, Kind
 
 _TABLE = (
     "x of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a"
-    " laspy.LasData; or a table with the columns X, Y, Z and, where they are, Classification,"
+    " laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and, where they are, Classification,"
     " ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL has, a"
     " dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points with z,"
     " whose CRS counts; of terrain() also blocks()"
@@ -36,9 +36,9 @@ GROUND = _array(
     "which points are ground, as ground() returns them, in place of their classes",
     _FLAGS,
 )
-_CRS = Argument(
+_CRS = Argument.of(
     "crs",
-    Kind("Any", "str, int or pyproj.CRS"),
+    "crs",
     "the CRS: an EPSG code, such as 25832 or EPSG:2230+6360 (with heights), or WKT; it replaces"
     " that of a laspy.LasData, and without both coordinates are metres",
 )

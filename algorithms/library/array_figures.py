@@ -10,26 +10,22 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..core.threads import available_cpus, may_use
-from ..crs.system import Crs, crs_of_wkt
-from ..las.cloud import PointCloud, survey_frame
-from ..rasters import geotiff
+from ..las.cloud import PointCloud
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..tools.check.accuracy import Accuracy
 from ..tools.check.checking import CheckOptions, check_points
 from ..tools.check.residuals import layer_of, residuals_of
 from ..tools.check.results import Check
 from ..tools.check.survey_ground import SurveyGround
-from ..tools.contours import Contours, contours_of
 from ..tools.water.finding import Water
 from ..tools.water.tool import water_of
 from . import arguments
-from .arguments import REQUIRED, Argument, Kind
+from .arguments import Argument, Kind
 from .array_arguments import ATTRIBUTES, GROUND, LAST, POINTS
 from .features import Features
 from .functions import Function
 from .given import checkpoints_of, progress_of
 from .points import cloud_with_ground
-from .rasters import Raster
 
 
 class _CloudGround(SurveyGround):
@@ -147,48 +143,4 @@ def of_water() -> Function:
             "dict[str, Features]",
             '"water", polygons, and "breaklines", lines with heights: shores, islands, rivers.',
         ),
-    )
-
-
-class _InMemory(geotiff.Raster):
-    """A raster whose cells are in memory."""
-
-    def rows(self, start: int, end: int) -> np.ndarray:
-        """Return rows, those that it has."""
-        return self.heights[max(start, 0) : end]
-
-
-def _read(raster: Any) -> _InMemory:
-    """Return a raster of heights in memory as one that was read from a file."""
-    if not isinstance(raster, Raster) or raster.values.ndim != 2 or raster.values.dtype.kind != "f":
-        raise BareEarthError('Give a raster of heights, such as terrain(points)["dtm"].')
-    heights = np.asarray(raster.values)  # of dask arrays as well
-    if not np.isnan(raster.nodata):
-        heights = np.where(heights == np.float32(raster.nodata), np.float32(np.nan), heights)
-    size, _, west, _, height, north = raster.transform
-    crs = (crs_of_wkt(raster.crs) if raster.crs else None) or Crs()
-    place = west, size, 0.0, north, 0.0, height
-    return _InMemory(heights, place, survey_frame(crs), whole=heights.shape)
-
-
-def _contours(values: SimpleNamespace, sets: list[Any]) -> Features:
-    """Return the contour lines of a raster."""
-    contours, progress = Contours.among(sets), progress_of(values.progress)
-    _, layer, features = contours_of(_read(values.raster), contours, progress)
-    return Features.of(layer, features)
-
-
-def of_contours() -> Function:
-    """Return the function `contours`."""
-    raster = 'a raster of heights, such as terrain(points)["dtm"]'
-    return Function(
-        "contours",
-        "Draw contour lines of a terrain model, of its heights smoothed for the lines only.\nThe"
-        " lines are those that contours() writes for a file with the same cells.",
-        (Argument("raster", Kind("Raster", "Raster"), raster, REQUIRED),),
-        (arguments.PROGRESS,),
-        (Contours,),
-        _contours,
-        flags={"contour_interval": "interval"},
-        gives=Kind("Features", "The lines: ELEV is the height, INDEX 1 for every fifth line."),
     )

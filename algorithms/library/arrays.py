@@ -38,7 +38,8 @@ from ..tools.rasters.step import MakeRasters
 from . import arguments, tool_commands
 from .arguments import Argument, Kind
 from .array_arguments import ATTRIBUTES, GROUND, LAST, POINTS
-from .array_figures import of_check, of_contours, of_residuals, of_water
+from .array_figures import of_check, of_residuals, of_water
+from .array_rasters import of_contours, of_relief, of_removal
 from .blocks import are_blocks, blocks_of
 from .functions import PACKAGE, Function
 from .given import (
@@ -264,6 +265,8 @@ def _of_blocks() -> Function:
     )  # fmt: skip
 
 
+# Parameters that mean nothing for points in memory.
+_OF_FILES = ("memory", "remember_classes")
 _CLASSES_KIND = Kind("NDArray[uint8]", "The class of each point, shape (n,).")
 _MASK_KIND = partial(Kind, "NDArray[bool_]")
 FUNCTIONS: dict[str, Callable[[], Function]] = {
@@ -303,6 +306,8 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
         lambda result: np.asarray(result.edits().key_points) == 1,
         KeyPointMark("flag"),
     ),
+    "relief": of_relief,
+    "remove_off_terrain_objects": of_removal,
     "residuals": of_residuals,
     "terrain": _of_terrain,
     "water": of_water,
@@ -312,7 +317,7 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
 @cache
 def declared(name: str) -> Function:
     """Return what is declared of a function."""
-    return FUNCTIONS[name]()
+    return replace(FUNCTIONS[name](), without=_OF_FILES)
 
 
 @cache

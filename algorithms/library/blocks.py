@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.points import Box, box_round
-from ..core.progress import Progress
+from ..core.progress import SILENT, Progress
 from ..core.threads import SharedThreads
 from ..crs.matching import described, is_same_crs
 from ..crs.measurable import require_measurable
@@ -42,6 +42,11 @@ ONE_THREAD = Resources(threads=1)
 _COLUMNS = {
     "Classification": "classification", "ReturnNumber": "return_number",
     "NumberOfReturns": "number_of_returns", "Withheld": "withheld", "Overlap": "overlap",
+}  # fmt: skip
+# The columns of a block.
+_KINDS: dict[str, type] = {
+    **dict.fromkeys("XYZ", np.float64), **dict.fromkeys(_COLUMNS, np.uint8),
+    "Withheld": np.bool_, "Overlap": np.bool_, "Source": np.int32, "Index": np.int64,
 }  # fmt: skip
 
 
@@ -111,27 +116,47 @@ class Block:
         -------
         dict of numpy.ndarray
             X, Y, Z, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap, each of
-            shape (n,), where n can be 0. All blocks together have the points of all files.
+            shape (n,), where n can be 0. All blocks together have the points of all files. Source
+            is the place of the file of each point in `sources` and `paths()`, Index that of the
+            point in the file, from 0 on.
 
         Raises
         ------
         BareEarthError
             If a file cannot be read.
         """
-        clouds = points_of(self, progress_of(progress))
-        table: dict[str, list[np.ndarray]] = {name: [] for name in (*"XYZ", *_COLUMNS)}
-        for cloud in clouds:
+        clouds = points_of(self, progress_of(progress), numbers=True)
+        table: dict[str, list[np.ndarray]] = {name: [] for name in _KINDS}
+        for source, cloud in clouds:
             x, y = cloud.coordinates()
             for name, axis in zip("XYZ", (x, y, cloud.z * cloud.scale[2] + cloud.offset[2])):
                 table[name].append(axis)
             for name, field in _COLUMNS.items():
                 values = getattr(cloud, field)
                 table[name].append(np.zeros(cloud.count, bool) if values is None else values)
-        kinds = {**dict.fromkeys("XYZ", np.float64), "Withheld": np.bool_, "Overlap": np.bool_}
+            table["Source"].append(np.full(cloud.count, source))
+            table["Index"].append(np.asarray(cloud.number))
         return {
-            name: np.concatenate([np.zeros(0, kinds.get(name, np.uint8)), *parts])
-            for name, parts in table.items()
+            name: np.concatenate([np.zeros(0, kind), *table[name]]).astype(kind, copy=False)
+            for name, kind in _KINDS.items()
         }
+
+    def paths(self) -> list[Path | None]:
+        """Return the files on this computer that hold the points of the window.
+
+        Returns
+        -------
+        list of pathlib.Path or None
+            One for each of `sources`: the same file, or that of the cache, which holds a part of an
+            address and is fetched if it is not there. None for an address without such points.
+
+        Raises
+        ------
+        BareEarthError
+            If points cannot be fetched.
+        """
+        files = _files_of(self, SILENT)
+        return [files.get(number) for number in range(len(self.sources))]
 
 
 def are_blocks(points: Any) -> bool:
@@ -232,13 +257,20 @@ def shared_by(box: Box, other: Box) -> Box:
     return west, south, min(box[2], other[2]), min(box[3], other[3])
 
 
-def points_of(block: Block, progress: Progress) -> list[PointCloud]:
-    """Return the points in a block with their classes, those of each file as one cloud."""
+def points_of(
+    block: Block, progress: Progress, numbers: bool = False
+) -> list[tuple[int, PointCloud]]:
+    """Return the points in a block with their classes, those of each file as one cloud, with the
+    place of the file among the sources of the block.
+    """
     work, kept = block.work, []
     grid, number = work.grid, code(work.place)
-    clouds = _read(block, progress.part(0.0, 1.0 if work.is_classified else 0.3))
+    read = progress.part(0.0, 1.0 if work.is_classified else 0.3)
+    sources: list[int] = []
+    clouds = _read(block, read, sources, numbers)
     if work.is_classified:
-        return [cloud.take(np.flatnonzero(grid.codes(cloud) == number)) for cloud in clouds]
+        inner = (cloud.take(np.flatnonzero(grid.codes(cloud) == number)) for cloud in clouds)
+        return [(sources[which], cloud) for which, cloud in enumerate(inner)]
     job = PointJob((), None, BlockFiles(grid, {work.place: Path()}), (), 0.0)
     store = MemoryStore(grid.frame, grid.blocks, grid.step.kind)
     with SharedThreads(1).used():
@@ -252,28 +284,42 @@ def points_of(block: Block, progress: Progress) -> list[PointCloud]:
         inside = np.flatnonzero(blocks)
         values = store.values(which)[inside]
         values = np.zeros_like(values) if failure else values
-        found.append(grid.step.applied(cloud.take(inside), values))
+        found.append((sources[which], grid.step.applied(cloud.take(inside), values)))
     return found
 
 
-def _read(block: Block, progress: Progress) -> Iterator[PointCloud]:
-    """Yield the points of each file in the window of a block."""
-    work, paths = block.work, [Path(name) for name in block.work.sources if not is_remote(name)]
-    remote, fetched = [name for name in work.sources if is_remote(name)], {}
+def _files_of(block: Block, progress: Progress) -> dict[int, Path]:
+    """Return the files of a block by the places of its sources; what is remote is fetched."""
+    work, found = block.work, {}
+    remote: dict[str, int] = {}
+    for number, name in enumerate(work.sources):
+        if is_remote(name):
+            remote[name] = number
+        else:
+            found[number] = Path(name)
     if remote:
         wanted = Wanted(Surroundings(block.window), most=work.most)
         advice = "Allow more, by the argument limit"
         with contextlib.suppress(Outside):
-            here = bring_here(remote, wanted, cache_of(work.cache), advice, progress.quiet())
-            fetched = here.paths
-    paths += fetched
-    for path, part in zip(paths, progress.shares(*[1.0] * len(paths))):
+            here = bring_here([*remote], wanted, cache_of(work.cache), advice, progress)
+            numbers = {shown(name): number for name, number in remote.items()}
+            found.update((numbers[name], path) for path, name in here.paths.items())
+    return found
+
+
+def _read(
+    block: Block, progress: Progress, sources: list[int], numbers: bool
+) -> Iterator[PointCloud]:
+    """Yield the points of each file in the window of a block; `sources` gets the place of each."""
+    work, files = block.work, _files_of(block, progress.quiet())
+    for (number, path), part in zip(files.items(), progress.shares(*[1.0] * len(files))):
         las = open_las(path, work.grid.stated)
         if not may_touch(las, block.window):
             continue
-        cloud = read_window(las, block.window, part, trust_header=True)
-        if path in fetched:
+        cloud = read_window(las, block.window, part, trust_header=True, numbers=numbers)
+        if is_remote(work.sources[number]):
             # A list can say what is not true.
-            _check_same(fetched[path], cloud.crs, work.crs)
+            _check_same(block.sources[number], cloud.crs, work.crs)
         if cloud.count:
+            sources.append(number)
             yield cloud

@@ -11,9 +11,10 @@ from types import SimpleNamespace
 from typing import Any, Callable, Collection, Iterable, Mapping
 
 from ..core.parameters import Declaration, ParameterSet
+from ..crs.stated import crs_text
 from ..filters import METHODS
 from ..tools.ground.method import TileMethod
-from .arguments import REQUIRED, Argument, Kind
+from .arguments import KINDS, REQUIRED, Argument, Kind
 from .remote_points import bring_points
 
 PACKAGE = __name__.partition(".algorithms.")[0]
@@ -65,6 +66,7 @@ class Function:
     has_method: bool = False  # whether it takes the parameters of a ground filter
     # Further names of parameters, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
+    without: tuple[str, ...] = ()  # parameters of the sets that mean nothing here
 
     @property
     def parameters(self) -> list[Described]:
@@ -76,6 +78,8 @@ class Function:
         if self.has_method:
             found += [_of_declaration(TileMethod.declarations()[0]), *_of_methods()]
         for declared in (parameter for group in self.sets for parameter in group.declarations()):
+            if declared.name in self.without:
+                continue
             found.append(_of_declaration(declared))
             if declared.name in self.flags:
                 found.append(_of_flag(declared, self.flags[declared.name]))
@@ -128,7 +132,11 @@ class Function:
                     )
             found.append(chosen(**{key: values[key] for key in names if values[key] is not None}))
         for declared in self.sets:
-            given = {one.name: values[one.name] for one in declared.declarations()}
+            given = {
+                one.name: values[one.name]
+                for one in declared.declarations()
+                if one.name not in self.without
+            }
             for name, flag in self.flags.items():
                 if name in given and values[flag] is not None:
                     given[name] = values[flag]
@@ -155,6 +163,9 @@ class Function:
                 raise TypeError(f"{name}(): {error}.") from None
             bound.apply_defaults()
             values = bound.arguments
+            for argument in (*self.positional, *self.keywords):
+                if argument.kind == KINDS["crs"]:
+                    values[argument.name] = crs_text(values[argument.name])
             return self.work(SimpleNamespace(**values), self.sets_of(values, named))
 
         function.__name__ = function.__qualname__ = name

@@ -69,19 +69,17 @@ def path_of(given: Any) -> Path | None:
 
 
 def polygons_of(given: Any) -> Any:
-    """Return polygons, given as such, as a file or as a GeoDataFrame."""
-    from ..survey.vector_files import is_frame, read_boundary
+    """Return polygons, given as a file, as geometries in memory, or as arrays of corners."""
+    from ..survey.vector_files import shapes_of
 
-    is_read = isinstance(given, (str, Path)) or is_frame(given)
-    return read_boundary(given) if is_read else tuple(given or ())
+    return shapes_of(given, "Polygon")
 
 
 def lines_of(given: Any) -> Any:
     """Return lines, likewise."""
-    from ..survey.vector_files import is_frame, read_lines
+    from ..survey.vector_files import shapes_of
 
-    is_read = isinstance(given, (str, Path)) or is_frame(given)
-    return read_lines(given) if is_read else tuple(given or ())
+    return shapes_of(given, "LineString")
 
 
 def area_of(values: SimpleNamespace) -> Area | None:
@@ -97,12 +95,12 @@ def area_of(values: SimpleNamespace) -> Area | None:
 
 def corrections_of(values: SimpleNamespace) -> Corrections:
     """Return the polygons whose class is known."""
-    from ..survey.vector_files import is_frame, read_corrections
+    from ..survey.vector_files import read_corrections
 
     given = values.corrections
-    if isinstance(given, (str, Path)) or is_frame(given):
-        return read_corrections(given)
-    return given or NO_CORRECTIONS
+    if given is None or isinstance(given, Corrections):
+        return given or NO_CORRECTIONS
+    return read_corrections(given)
 
 
 def is_automatic(given: Any) -> bool:
@@ -125,19 +123,21 @@ def constraints_of(values: SimpleNamespace) -> Constraints:
 def target_of(values: SimpleNamespace) -> RasterTarget:
     """Return the grid and the extent of the rasters."""
     from ..rasters.cell_grid import RasterTarget
+    from .raster_inputs import raster_of
 
-    extent = values.raster_extent
-    return RasterTarget(values.like, None if extent is None else tuple(extent))
+    extent, like = values.raster_extent, values.like
+    like = None if like is None else raster_of(like, with_cells=False)
+    return RasterTarget(like, None if extent is None else tuple(extent))
 
 
 def checkpoints_of(values: SimpleNamespace) -> Checkpoints | None:
     """Return the checkpoints of a file, or of x, y and z in the CRS of the points; or None."""
-    from ..survey.vector_files import is_frame
+    from ..survey.vector_files import is_source
     from ..tools.check.checkpoints import Checkpoints
     from ..tools.check.reading import read_checkpoints
 
     given = values.checkpoints
-    if isinstance(given, (str, Path)) or is_frame(given):
+    if is_source(given):
         return read_checkpoints(given, values.columns, values.checkpoints_crs)
     return None if given is None else Checkpoints.of(given)
 

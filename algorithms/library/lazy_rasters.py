@@ -112,11 +112,11 @@ def _shape(name: str, window: CellWindow) -> tuple[int, ...]:
 
 
 def _layers_of(
-    grid: BlockGrid, index: BlockIndex, points: Sequence[Sequence[PointCloud]]
+    grid: BlockGrid, index: BlockIndex, points: Sequence[Sequence[tuple[int, PointCloud]]]
 ) -> list[BlockRasters]:
     """Return the layers of a block, or of its parts, given the points of blocks round it."""
     area = Area(grid.window([index]))
-    near = (cloud.take(np.flatnonzero(area.of(cloud))) for cloud in chain(*points))
+    near = (cloud.take(np.flatnonzero(area.of(cloud))) for _, cloud in chain(*points))
     job = SinkJob((), None, BlockFiles(grid, {index: Path()}), (), 0.0)
     store = MemoryStore(grid.frame, grid.blocks, grid.step.kind)
     with SharedThreads(1).used():

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Iterable, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads, parts_of
 from ..crs.measurable import require_measurable
-from ..crs.stated import stated_wkt
+from ..crs.stated import crs_text, stated_wkt
 from ..crs.system import Crs, crs_of_wkt
 from ..las.cloud import PointCloud
 from ..las.crs_records import crs_among
@@ -22,18 +22,12 @@ from ..las.lasfile import FIRST_EXTENDED_FORMAT
 from ..las.reading import COLUMNS
 from ..las.return_numbers import count_from_one
 from ..survey.ground_classes import GroundClasses
-from ..survey.vector_files import FRAME, is_frame
+from ..survey.vector_files import is_frame
 from .blocks import are_blocks
+from .columns import COORDINATES, array_of, columns_of, is_record, refuse_beside
 
 # How errors name the points.
 _CLOUD = Path("the cloud")
-# Columns of tables, without case and underscores, and the fields of a cloud that they are.
-_NAMES = {
-    "x": "x", "y": "y", "z": "z", "classification": "classification",
-    "returnnumber": "return_number", "numberofreturns": "number_of_returns",
-    "withheld": "withheld", "overlap": "overlap",
-}  # fmt: skip
-_COORDINATES = ("x", "y", "z")
 _NUMBERS = ("classification", "return_number", "number_of_returns")
 # Arguments for further columns, and the fields that they are.
 _ATTRIBUTES = {**{name: name for name in (*_NUMBERS, "withheld")}, "in_overlap": "overlap"}
@@ -60,23 +54,23 @@ def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud
             "Of the functions on arrays only terrain() takes blocks. Call each block, and give what"
             " it returns."
         )
-    if hasattr(points, "header") and hasattr(points, "point_format"):
-        _refuse_beside(values, "a laspy.LasData has", _COORDINATES[1:])
-        cloud = _of_las(points, stated_wkt(_crs_text(values.crs)), progress)
+    if is_record(points):
+        refuse_beside(values, "The points of laspy have", COORDINATES[1:])
+        cloud = _of_las(points, stated_wkt(values.crs), progress)
     else:
-        columns = _columns_of(values)
-        x, y, z = (_coordinates(name, columns.get(name)) for name in _COORDINATES)
+        columns = columns_of(values)
+        x, y, z = (_coordinates(name, columns.get(name)) for name in COORDINATES)
         if not len(x) == len(y) == len(z):
             raise BareEarthError(
                 f"x, y and z have {len(x):,}, {len(y):,} and {len(z):,} values. Give as many of"
                 " each."
             )
-        axes = [_axis(name, axis) for name, axis in zip(_COORDINATES, (x, y, z))]
+        axes = [_axis(name, axis) for name, axis in zip(COORDINATES, (x, y, z))]
         integers, scales, offsets = zip(*axes)
-        arrays = dict(zip(_COORDINATES, integers))
+        arrays = dict(zip(COORDINATES, integers))
         arrays.update((name, np.zeros(len(x), dtype=np.uint8)) for name in _NUMBERS)
         arrays["withheld"] = np.zeros(len(x), dtype=bool)
-        crs = _crs_of(values.crs or getattr(values.points, "crs", None), progress)
+        crs = _crs_of(values.crs or (crs_text(points.crs) if is_frame(points) else None), progress)
         cloud = _made(arrays, scales, offsets, _POINT_FORMAT, crs)
         for name in _ATTRIBUTES.values():
             if name in columns:
@@ -104,87 +98,9 @@ def cloud_with_ground(
     return replace(cloud, classification=np.where(mask, classes[0], others).astype(np.uint8))
 
 
-def _refuse_beside(values: SimpleNamespace, what: str, names: Iterable[str]) -> None:
-    """Refuse columns that are given twice."""
-    for name in names:
-        if getattr(values, name) is not None:
-            raise BareEarthError(f"{what} its own {name}: leave the argument {name} out.")
-
-
-def _columns_of(values: SimpleNamespace) -> dict[str, Any]:
-    """Return the columns of arrays or of a table, by the fields of a cloud."""
-    points = values.points
-    if is_frame(points):
-        return _of_frame(values)
-    names = getattr(getattr(points, "dtype", None), "names", None)
-    for kind in ("column_names", "columns"):  # of pyarrow; of pandas and polars
-        names = names or getattr(points, kind, None)
-    if names is None and hasattr(points, "keys"):
-        names = points.keys()
-    if names is None:
-        return _separate(values)
-    _refuse_beside(values, "The table of points has", _COORDINATES[1:])
-    columns = _known(points, names)
-    missing = [name.upper() for name in _COORDINATES if name not in columns]
-    if missing:
-        raise BareEarthError(
-            f"The table of points has no column {' and no column '.join(missing)}, only"
-            f" {', '.join(map(str, names))}."
-        )
-    return columns
-
-
-def _known(points: Any, names: Iterable[Any]) -> dict[str, Any]:
-    """Return the columns of a table that are used, by the fields of a cloud."""
-    known = {str(name).lower().replace("_", ""): name for name in names}
-    return {field: points[known[name]] for name, field in _NAMES.items() if name in known}
-
-
-def _of_frame(values: SimpleNamespace) -> dict[str, Any]:
-    """Return the same of a GeoDataFrame or a GeoSeries, whose geometry counts before columns."""
-    points, shapes = values.points, values.points.geometry
-    _refuse_beside(values, f"{FRAME} has", _COORDINATES[1:])
-    if not (shapes.geom_type == "Point").all():
-        raise BareEarthError(f"{FRAME} must hold a point in each row, and no other geometry.")
-    columns = _known(points, getattr(points, "columns", ()))
-    columns.update(x=shapes.x, y=shapes.y)
-    if "z" not in columns or shapes.has_z.all():
-        columns["z"] = shapes.z
-    return columns
-
-
-def _separate(values: SimpleNamespace) -> dict[str, Any]:
-    """Return x, y and z, given as three arrays or as one."""
-    if values.y is None and values.z is None:
-        xyz = _array("points", values.points, (None, 3))
-        return dict(zip(_COORDINATES, xyz.T))
-    missing = next((name for name in ("y", "z") if getattr(values, name) is None), None)
-    if missing:
-        raise BareEarthError(f"{missing} is missing. Give x, y and z, or all as one array (n, 3).")
-    return {"x": values.points, "y": values.y, "z": values.z}
-
-
-def _array(name: str, given: Any, shape: tuple[int | None, ...]) -> np.ndarray:
-    """Return an argument as an array of numbers; None in a shape is any number."""
-    if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
-        raise BareEarthError(f"{name} has masked values. Leave these points out.")
-    array = np.asarray(given)
-    if array.ndim != len(shape) or any(
-        wanted not in (None, length) for wanted, length in zip(shape, array.shape)
-    ):
-        words = ", ".join("n" if length is None else f"{length:,}" for length in shape)
-        raise BareEarthError(
-            f"{name} must be an array of shape ({words}{',' * (len(shape) == 1)}), not"
-            f" {array.shape}."
-        )
-    if array.dtype.kind not in "biuf":
-        raise BareEarthError(f"{name} must be numbers, not {array.dtype}.")
-    return array
-
-
 def _coordinates(name: str, given: Any) -> np.ndarray:
     """Return one coordinate of all points, with finite numbers."""
-    array = _array(name, given, (None,))
+    array = array_of(name, given, (None,))
     if not len(array):
         return array
     if array.dtype.kind != "f":
@@ -268,7 +184,7 @@ def _of_parts(array: np.ndarray, function: Any) -> list[Any]:
 
 def _attribute(name: str, given: Any, count: int) -> np.ndarray:
     """Return a further column of the points, or a mask, as a new array."""
-    array = _array(name, given, (count,))
+    array = array_of(name, given, (count,))
     if name not in _NUMBERS:
         if array.dtype.kind == "f" or (
             array.dtype.kind != "b" and not np.isin(array, (0, 1)).all()
@@ -283,24 +199,27 @@ def _attribute(name: str, given: Any, count: int) -> np.ndarray:
 
 
 def _of_las(las: Any, stated: str | None, progress: Progress) -> PointCloud:
-    """Return the points of a `laspy.LasData`."""
-    header, columns = las.header, dict(COLUMNS)
+    """Return the points of a `laspy.LasData`, or of a record, which has no CRS."""
+    header, columns = getattr(las, "header", None), dict(COLUMNS)
     point_format = int(las.point_format.id)
     if point_format < FIRST_EXTENDED_FORMAT:
         del columns["scanner_channel"], columns["overlap"]
     names = {*las.point_format.dimension_names}
     arrays = {
-        field: np.asarray(las[name]) if field in _COORDINATES else np.array(las[name], dtype=kind)
+        field: np.asarray(las[name]) if field in COORDINATES else np.array(las[name], dtype=kind)
         for field, (name, kind) in columns.items()
         if name in names
     }
     records = [
         _Record((record.user_id, record.record_id), record.record_data_bytes())
-        for record in (*header.vlrs, *(header.evlrs or ()))
+        for record in ((*header.vlrs, *(header.evlrs or ())) if header else ())
     ]
-    prefers_text = header.global_encoding.wkt or point_format >= FIRST_EXTENDED_FORMAT
+    prefers_text = point_format >= FIRST_EXTENDED_FORMAT or bool(
+        header and header.global_encoding.wkt
+    )
     crs = crs_among(records, prefers_text, stated, "The cloud", progress)
-    return _made(arrays, header.scales, header.offsets, point_format, crs)
+    scaled = header or las
+    return _made(arrays, scaled.scales, scaled.offsets, point_format, crs)
 
 
 def _made(arrays: Any, scales: Any, offsets: Any, point_format: int, crs: Crs) -> PointCloud:
@@ -318,18 +237,7 @@ class _Record(NamedTuple):
     data: bytes
 
 
-def _crs_text(given: Any) -> str | None:
-    """Return a CRS as text, given as text, as an EPSG code, or as an object of pyproj."""
-    if given is None or isinstance(given, str):
-        return given
-    if hasattr(given, "to_wkt"):
-        return str(given.to_wkt())
-    if isinstance(given, (int, np.integer)):
-        return f"EPSG:{given}"
-    raise BareEarthError(f"crs must be an EPSG code or well-known text (WKT), not {given!r}.")
-
-
-def _crs_of(given: Any, progress: Progress) -> Crs:
+def _crs_of(given: str | None, progress: Progress) -> Crs:
     """Return the CRS of arrays; metres if none is given."""
-    text = stated_wkt(_crs_text(given))
+    text = stated_wkt(given)
     return (crs_of_wkt(text, progress) if text else None) or Crs()

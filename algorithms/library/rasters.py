@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,8 +11,11 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
+from ..crs.stated import crs_text
+from ..rasters.geotiff import Raster as FileRaster
 from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import Band, Rows
+from .transform import transform_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,9 +27,10 @@ class Raster:
     values : numpy.ndarray
         The cells, float32 or uint8, of shape (rows, columns) from north to south, or of shape
         (3, rows, columns) for red, green and blue.
-    transform : tuple of float
-        Place of the cells, as `affine.Affine` and rasterio have it: the size of a cell, 0, x of the
-        western edge, 0, minus the size of a cell, y of the northern edge, in units of the CRS.
+    transform : affine.Affine
+        Place of the cells, as rasterio has it: the size of a cell, 0, x of the western edge, 0,
+        minus the size of a cell, y of the northern edge, in units of the CRS. Six numbers are taken
+        as well. Without affine, which comes with rasterio, a tuple like it with a to f, `~`, `*`.
     crs : str or None
         The CRS as well-known text (WKT), None if it is not known.
     nodata : float
@@ -37,11 +42,63 @@ class Raster:
     """
 
     values: np.ndarray
-    transform: tuple[float, float, float, float, float, float]
-    crs: str | None
-    nodata: float
-    name: str
-    shows: str
+    transform: Any
+    crs: str | None = None
+    nodata: float = math.nan
+    name: str = "raster"
+    shows: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "transform", transform_of(self.transform))
+        object.__setattr__(self, "crs", crs_text(self.crs))
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
+        """Return the values; those of Dask are computed."""
+        values = np.asarray(self.values, dtype)
+        if copy is False and values is not self.values:
+            raise ValueError("The values cannot be had in this way without a copy of them.")
+        return values.copy() if copy and values is self.values else values
+
+    def plot(self, ax: Any = None, **options: Any) -> Any:
+        """Draw the raster as a map.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; without it, on new axes.
+        **options
+            Options of `imshow` of matplotlib, such as cmap="terrain".
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes, in units of the CRS.
+
+        Raises
+        ------
+        BareEarthError
+            If matplotlib is not installed.
+        """
+        try:
+            from matplotlib import pyplot
+        except ImportError:
+            raise BareEarthError("This needs matplotlib: pip install matplotlib.") from None
+        if ax is None:
+            ax = pyplot.subplots()[1]
+        values = np.asarray(self)
+        rows, columns = values.shape[-2:]
+        west, north = self.transform[2], self.transform[5]
+        east, south = west + self.transform[0] * columns, north + self.transform[4] * rows
+        is_picture = values.ndim == 3
+        empty = np.isnan(values) if math.isnan(self.nodata) else values == self.nodata
+        cells = np.moveaxis(values, 0, -1) if is_picture else np.ma.masked_where(empty, values)
+        if values.dtype == np.uint8:
+            options = {"cmap": "gray", "vmin": 0, "vmax": 255, **options}
+        image = ax.imshow(cells, **{"extent": (west, east, south, north), **options})
+        if values.dtype != np.uint8:
+            ax.figure.colorbar(image, ax=ax, label=self.shows)
+        ax.set_title(self.name)
+        return ax
 
     def to_xarray(self) -> Any:
         """Return the raster as `xarray.DataArray` by the conventions of rioxarray.
@@ -61,7 +118,7 @@ class Raster:
             import xarray
         except ImportError:
             raise BareEarthError("This needs xarray: pip install xarray.") from None
-        size, _, west, _, height, north = self.transform
+        size, _, west, _, height, north = self.transform[:6]
         rows, columns = self.values.shape[-2:]
         reference = {"GeoTransform": f"{west!r} {size!r} 0.0 {north!r} 0.0 {height!r}"}
         if self.crs is not None:
@@ -93,15 +150,16 @@ class Collected:
     def add(
         self,
         path: Path,
-        rows: Rows,
-        grid: RasterGrid,
+        values: np.ndarray | Rows,
+        grid: RasterGrid | FileRaster,
         nodata: float,
         progress: Progress,
         shows: str,
     ) -> None:
         """Add a raster; its name is that of the path."""
-        values = np.concatenate([*rows.strips], axis=-2)
-        size, about = grid.cell_size, Band.of(grid, nodata, shows, rows.bands).description
-        transform = (size, 0.0, grid.west, 0.0, -size, grid.north)
-        name = path.name
-        self.rasters[name] = Raster(values, transform, grid.frame.wkt, nodata, name, about)
+        rows = values if isinstance(values, Rows) else Rows(values.shape, "", [values])
+        cells = np.concatenate([*rows.strips], axis=-2)
+        about = Band.of(grid, nodata, shows, rows.bands).description
+        west, a, b, north, d, e = grid.geotransform
+        transform, name = (a, b, west, d, e, north), path.name
+        self.rasters[name] = Raster(cells, transform, grid.frame.wkt, nodata, name, about)

@@ -29,7 +29,7 @@ from ..tools import (
 from ..tools.declaration import FileTool, Input, Output, ToFind, Tool
 from ..tools.input_groups import GROUPS
 from . import arguments, tool_commands
-from .arguments import REQUIRED, Argument
+from .arguments import KINDS, REQUIRED, Argument
 from .functions import Function
 from .given import (
     area_of,
@@ -44,6 +44,7 @@ from .given import (
     target_of,
     workers_of,
 )
+from .raster_inputs import heights_of
 
 CLASSIFIED = replace(arguments.SOURCES, help=f"classified {arguments.SOURCES.help}")
 _REACHES = (*arguments.REMOTE, arguments.SCHEDULER, arguments.PROGRESS)
@@ -137,7 +138,7 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
         return (CLASSIFIED if declared.help else arguments.SOURCES,)
     help = declared.help.format(formats=FORMATS)
     kind = "text" if declared.kind == "address" else declared.kind
-    kind = kind if kind in ("cloud", "extent", "polygons", "text", "words") else "path"
+    kind = kind if kind in KINDS else "path"
     if kind == "extent":
         help = f"xmin, ymin, xmax, ymax: {help}, in the CRS of the points{declared.more}"
     is_required = not declared.optional and kind not in ("extent", "words")
@@ -165,6 +166,8 @@ def input_of(declared: Input, values: SimpleNamespace) -> Any:
         return value
     if declared.kind == "extent":
         return tuple(map(float, value))
+    if declared.kind == "raster":
+        return declared.of(heights_of(value))
     return Path(value) if declared.kind == "cloud" else declared.of(str(value))
 
 

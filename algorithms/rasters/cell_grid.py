@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from ..core.errors import BareEarthError
 from ..core.points import Box, Frame, box_in_words
@@ -14,7 +13,7 @@ from ..crs.matching import described, is_same_map
 from ..crs.stated import how_to_state
 from ..crs.system import Crs, crs_of_wkt, unit_symbol
 from ..grids.cell_window import CellWindow
-from .content import NO_CELLS, Content, read_content
+from .content import NO_CELLS, Content, Source, read_content
 from .geotiff import RasterGrid
 
 MOST_CELLS = 4_000_000_000
@@ -30,7 +29,7 @@ class RasterTarget:
 
     # A raster whose grid they get: CRS, size and position of the cells, extent. It replaces the
     # cell size.
-    like: Path | str | None = None
+    like: Source | None = None
     # Smallest x and y, largest x and y in units of the CRS: the rasters cover this rectangle, wider
     # by up to a cell on each side, as their cells stay where they are. It replaces the extent of
     # `like`.
@@ -109,7 +108,7 @@ def no_points(box: Box, extent: Box) -> BareEarthError:
     )
 
 
-def _cells_of(source: Path | str, content: Content, unit: float) -> CellGrid:
+def _cells_of(source: Source, content: Content, unit: float) -> CellGrid:
     """Return the cells of a raster file; refuse those that are not square with north up."""
     (rows, columns), (west, width, tilt, north, lean, height) = content.shape, content.geotransform
     if height > 0.0 and width > 0.0 and not tilt and not lean:
@@ -146,7 +145,7 @@ def _counted(place: float, size: float) -> tuple[int, float]:
     return number, rest if abs(rest) > _ROUNDING * size else 0.0
 
 
-def _wkt_of(like: Path | str, wkt: str, crs: Crs, progress: Progress) -> str | None:
+def _wkt_of(like: Source, wkt: str, crs: Crs, progress: Progress) -> str | None:
     """Check the CRS of a given raster; return it if the points state none."""
     stated = crs_of_wkt(wkt) if wkt else None
     if stated is None:

@@ -101,8 +101,10 @@ def read_content(source: Source, band: int = 1, window: Window | None = None) ->
 
 def tell_of_undeclared(source: Source, band: int, progress: Progress) -> None:
     """Warn of values that were met in a raster, and are no terrain."""
-    is_file = not isinstance(source, MemoryRaster)
-    found = _FOUND.get(_key(source, band)) if is_file else source.undeclared
+    if isinstance(source, MemoryRaster):
+        found: Undeclared | None = source.undeclared
+    else:
+        found = _FOUND.get(_key(source, band))
     if found and found.counts:
         progress.warning(found.text(source))
 

@@ -28,11 +28,19 @@ _STATE_IT = (
 )
 
 
+def _stamp_of(source: Source) -> tuple[int, ...]:
+    """Return size and time of the last change of a file; nothing of what is none."""
+    if isinstance(source, MemoryRaster) or not Path(source).exists():
+        return ()
+    state = Path(source).stat()
+    return state.st_size, state.st_mtime_ns
+
+
 @dataclass(frozen=True)
 class HeightRaster:
     """A raster of heights, such as a terrain model, that need not fit into memory."""
 
-    path: str | MemoryRaster  # the file, or a part of one as GDAL names it
+    path: Source  # the file, or a part of one as GDAL names it
     # Size and time of the last change of the file, so that a changed file is noticed
     state: tuple[int, ...]
     shape: tuple[int, int]  # rows and columns
@@ -47,12 +55,9 @@ class HeightRaster:
     def of(cls, source: Source, progress: Progress = SILENT) -> HeightRaster:
         """Return a raster, of which only one cell is read."""
         first = read_raster(source, progress=progress, window=(0, 0, 1, 1))
-        wkt, name, stamp = first.frame.wkt, source, ()
+        wkt, name, stamp = first.frame.wkt, source, _stamp_of(source)
         if not isinstance(source, MemoryRaster):
-            path = Path(source)
-            state = path.stat() if path.exists() else None
-            stamp = () if state is None else (state.st_size, state.st_mtime_ns)
-            name = str(path.absolute()) if path.exists() else str(source)
+            name = str(Path(source).absolute() if stamp else source)
         crs = crs_of_wkt(wkt) if wkt else None
         unit = first.frame.vertical_unit if first.states_unit or crs else None
         return cls(name, stamp, first.whole, first.geotransform, crs, unit, first.states_unit)

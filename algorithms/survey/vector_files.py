@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import json
 import re
+from os import PathLike
 from pathlib import Path
 from typing import Any, Callable, Iterator
 
@@ -36,8 +37,10 @@ _CRS_NAME = re.compile(r"(EPSG|ESRI|IGNF|OGC|CRS)[:/](?:[\w.]*[:/])?(\w+)$", re.
 _SRID = re.compile(r"\s*SRID\s*=\s*(\d+)\s*;", re.IGNORECASE)
 # Levels of lists: a line is a list of corners, a polygon a list of rings.
 _DEPTHS = {"LineString": 1, "Polygon": 2}
-# How messages name a table of geopandas.
-FRAME = "The GeoDataFrame"
+# How messages name a table of geopandas, and GeoJSON and objects that know it.
+FRAME, _GEOMETRY = "The GeoDataFrame", "The geometry"
+# The attribute of objects that know their GeoJSON.
+_KNOWS = "__geo_interface__"
 _WORDS = {"LineString": "line", "Polygon": "polygon", "Point": "point"}
 
 
@@ -46,52 +49,107 @@ def is_frame(given: Any) -> bool:
     return hasattr(given, "geometry") and hasattr(given, "to_crs")
 
 
-def read_boundary(path: Any) -> tuple[Polygon, ...]:
-    """Read the polygons of a file, or of a GeoDataFrame, and nothing else."""
-    return _shapes(path, "Polygon", lambda rings, _: _polygon(rings))
+def is_source(given: Any) -> bool:
+    """Return whether a user gives a file, GeoJSON, or objects of a library as geometries."""
+    return isinstance(given, (str, PathLike)) or is_frame(given) or _geojson_of(given) is not None
 
 
-def read_corrections(path: Any) -> Corrections:
-    """Read the polygons of a file, or of a GeoDataFrame, with their classes, and nothing else."""
-    if not is_frame(path) and Path(path).suffix.lower() == ".wkt":
-        raise BareEarthError(f"{path} holds no classes. Give the corrections as GeoJSON.")
-    found = _shapes(path, "Polygon", _polygon_with_class)
+def read_boundary(source: Any) -> tuple[Polygon, ...]:
+    """Read the polygons of a file, of a GeoDataFrame, of GeoJSON or objects that can become it, or
+    of arrays of rings, and nothing else.
+    """
+    return _shapes(source, "Polygon", lambda rings, _: _polygon(rings))
+
+
+def read_corrections(source: Any) -> Corrections:
+    """Read the polygons of the same with their classes, and nothing else."""
+    if isinstance(source, (str, PathLike)) and Path(source).suffix.lower() == ".wkt":
+        raise BareEarthError(f"{source} holds no classes. Give the corrections as GeoJSON.")
+    found = _shapes(source, "Polygon", _polygon_with_class)
     polygons, classes = zip(*found)
     return Corrections(Shapes(polygons, found.crs, found.source), classes)
 
 
-def read_lines(path: Any) -> tuple[np.ndarray, ...]:
-    """Read the lines of a file, or of a GeoDataFrame, and nothing else."""
-    return _shapes(path, "LineString", lambda corners, _: _line(corners))
+def read_lines(source: Any) -> tuple[np.ndarray, ...]:
+    """Read the lines of the same, and nothing else."""
+    return _shapes(source, "LineString", lambda corners, _: _line(corners))
 
 
-def read_points(path: Any) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
-    """Read x, y and z of the points of a file, as of `read_boundary` but no .wkt, float64 (3,), NaN
-    for z where there is none, and all of their attributes.
+def read_points(source: Any) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
+    """Read x, y and z of the points of the same, but no .wkt, float64 (3,), NaN for z where there
+    is none, and all of their attributes.
     """
-    return _shapes(path, "Point", lambda place, attributes: (_line([place])[0], attributes))
+    return _shapes(source, "Point", lambda place, attributes: (_line([place])[0], attributes))
 
 
-def _shapes(path: Any, kind: str, shape_of: Callable[[Any, dict], Any]) -> Shapes:
+def _shapes(source: Any, kind: str, shape_of: Callable[[Any, dict], Any]) -> Shapes:
     """Return what `shape_of` returns for coordinates and attributes of each geometry of a kind."""
-    what, name = _WORDS[kind], None
-    if is_frame(path):
-        found, crs = _of_frame(path, kind)
-        path = FRAME
-    elif (name := _TEXTS.get(Path(path).suffix.lower())) is None:
-        found, crs = read_features(path, kind, None if kind == "Point" else CLASS_FIELD)
-    else:
-        text = _text_of(path)
+    what, name, crs = _WORDS[kind], "", None
     try:
-        if name is not None:
-            found, crs = (_of_wkt if name == "WKT" else _of_geojson)(text, kind)
+        if is_frame(source):
+            label, (found, crs) = FRAME, _of_frame(source, kind)
+        elif isinstance(source, (str, PathLike)):
+            label, name = str(source), _TEXTS.get(Path(source).suffix.lower(), "")
+            if name:
+                text = _text_of(source)
+                read = _of_wkt if name == "WKT" else _of_geojson
+                found, crs = read(text if name == "WKT" else json.loads(text), kind)
+            else:
+                found, crs = read_features(source, kind, None if kind == "Point" else CLASS_FIELD)
+        elif (content := _geojson_of(source)) is not None:
+            label, (found, crs) = _GEOMETRY, _of_geojson(content, kind)
+        else:
+            label, found = f"The {what}", _of_arrays(source, kind)
         shapes = tuple(shape_of(*feature) for feature in found)
     except _INVALID as error:
         as_what = f" {name}" if name else ""
-        raise BareEarthError(f"{path} is not valid{as_what}: {_one_line(error)}.") from error
+        raise BareEarthError(f"{label} is not valid{as_what}: {_one_line(error)}.") from error
     if not any(map(len, shapes)):
-        raise BareEarthError(f"{path} holds no {what}. Give one that does.")
-    return Shapes(shapes, crs, str(path))
+        raise BareEarthError(f"{label} holds no {what}. Give one that does.")
+    return Shapes(shapes, crs, label)
+
+
+def shapes_of(given: Any, kind: str) -> tuple[Any, ...]:
+    """Return polygons or lines, given as a source or as arrays of corners; perhaps none."""
+    if given is None or isinstance(given, Shapes):
+        return given or ()
+    if hasattr(given, "__next__"):
+        given = [*given]
+    read = {"Polygon": read_boundary, "LineString": read_lines}[kind]
+    if is_source(given):
+        return read(given)
+    # Corners in arrays are in the CRS of the points.
+    return () if isinstance(given, (list, tuple)) and not given else tuple(read(given))
+
+
+def _geojson_of(given: Any) -> Any:
+    """Return geometries in memory as GeoJSON: a dict of it, or an object with `__geo_interface__`
+    as shapely has, one or several; None for anything else.
+    """
+    if isinstance(given, dict):
+        return given
+    if hasattr(given, _KNOWS):
+        return given.__geo_interface__
+    if isinstance(given, (str, PathLike)) or not hasattr(given, "__len__"):
+        return None
+    some = [_geojson_of(one) for one in given if isinstance(one, dict) or hasattr(one, _KNOWS)]
+    if not some:
+        return None
+    if len(some) < len(given):
+        raise BareEarthError(
+            "A list of geometries must hold nothing but GeoJSON and geometries as shapely has."
+        )
+    return {"type": "GeometryCollection", "geometries": some}
+
+
+def _of_arrays(given: Any, kind: str) -> Iterator[tuple[Any, dict]]:
+    """Yield corners, or rings of corners, of lists or of one alone; no attributes."""
+    depth, first = 0, given
+    while isinstance(first, (list, tuple, np.ndarray)) and len(first):
+        depth, first = depth + 1, first[0]
+    for _ in range(depth, _DEPTHS[kind] + 2):
+        given = [given]
+    yield from ((one, {}) for one in given)
 
 
 def _of_frame(frame: Any, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:
@@ -147,9 +205,8 @@ def _finite(corners: np.ndarray) -> np.ndarray:
     return corners
 
 
-def _of_geojson(text: str, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:
+def _of_geojson(content: Any, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:
     """Return coordinates and attributes of each geometry of a kind, and the CRS that is stated."""
-    content = json.loads(text)
     crs = content.get("crs")
     if crs is None:
         return _nodes_of(content, kind), None

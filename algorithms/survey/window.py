@@ -11,7 +11,14 @@ import numpy as np
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud, joined
-from ..las.copc_nodes import OctreeError, find_nodes, read_hierarchy, read_nodes
+from ..las.copc_nodes import (
+    Hierarchy,
+    OctreeError,
+    find_nodes,
+    read_hierarchy,
+    read_nodes,
+    read_pages,
+)
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
@@ -30,6 +37,7 @@ def read_window(
     trust_header: bool = False,  # skip LAS and LAZ whose stated extent does not touch the box
     times: bool = False,
     change: Change | None = None,  # gets indices in the file and all points in file order
+    numbers: bool = False,  # whether the points come with their places in the file
 ) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file in a rectangle, which includes its border, in file
     order, perhaps none.
@@ -40,13 +48,13 @@ def read_window(
     require_packages(layout)
     if layout.is_copc and layout.unpacked is None and change is None:
         try:
-            parts = _in_nodes(layout, area, progress, times)
+            parts = _in_nodes(layout, area, progress, times, numbers)
             return _joined(layout, _chosen(layout, area, parts), progress.quiet())
         except OctreeError as error:
             progress.warning(f"{error} The whole file is read instead, which takes longer.")
     parts = iter(())
     if not trust_header or may_touch(layout, box):
-        parts = _in_file(layout, progress, times, change)
+        parts = _in_file(layout, progress, times, change, numbers)
     return _joined(layout, _chosen(layout, area, parts), progress)
 
 
@@ -58,29 +66,50 @@ def parts_in_window(
         yield replace(part, scanner_channel=None)
 
 
-def _in_nodes(layout: LasFile, area: Area, progress: Progress, times: bool) -> Iterator[PointCloud]:
+def _in_nodes(
+    layout: LasFile, area: Area, progress: Progress, times: bool, numbers: bool
+) -> Iterator[PointCloud]:
     """Yield the points of the nodes of a COPC file that touch an area."""
     hierarchy, crs = read_hierarchy(layout), read_crs(layout, progress)
     nodes, names = find_nodes(hierarchy, area.bounds), columns_of(layout)
     if times:
         names["gps_time"] = "gps_time", np.float64
     done, total = 0, int(nodes["count"].sum(dtype=np.int64))
+    places = _places_of(hierarchy, nodes) if numbers else None
     for chunk in read_nodes(hierarchy, nodes, times=times):
         columns: dict[str, np.ndarray] = {
             name: np.asarray(chunk[source]).astype(kind) for name, (source, kind) in names.items()
         }
+        if places is not None:
+            columns["number"] = places[done : done + len(chunk)]
         yield count_from_one(cloud_of(layout, crs, **columns))
         done += len(chunk)
         progress(done / total)
 
 
+def _places_of(hierarchy: Hierarchy, nodes: np.ndarray) -> np.ndarray:
+    """Return the places in a COPC file of the points of some nodes."""
+    entries = np.concatenate([*read_pages(hierarchy).values()])
+    entries = np.sort(entries[entries["count"] > 0], order="start")
+    before = np.cumsum(entries["count"], dtype=np.int64) - entries["count"]
+    first, counts = before[np.searchsorted(entries["start"], nodes["start"])], nodes["count"]
+    ends = np.cumsum(counts, dtype=np.int64)
+    return np.repeat(first - ends + counts, counts) + np.arange(ends[-1] if len(ends) else 0)
+
+
 def _in_file(
-    layout: LasFile, progress: Progress, times: bool, change: Change | None
+    layout: LasFile,
+    progress: Progress,
+    times: bool,
+    change: Change | None,
+    numbers: bool = False,
 ) -> Iterator[PointCloud]:
     """Yield all points of a file part by part; warn if some lie outside the extent it states."""
     start, is_outside = 0, False
     for part in read_parts(layout, progress, times=times):
         where = slice(start, start + part.count)
+        if numbers:
+            part.number = np.arange(where.start, where.stop)
         yield part if change is None else change(where, part)
         start = where.stop
         is_outside |= _leaves_header(layout, part)

@@ -16,7 +16,7 @@ from ..crs.wkt import read_wkt
 from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
 from ..grids.morphology import within_square
-from ..rasters.content import NO_CELLS
+from ..rasters.content import NO_CELLS, Source
 from ..rasters.geotiff import Raster, read_raster
 from ..survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from .declaration import FileTool, Input, Output
@@ -112,7 +112,7 @@ class Interval:
 
 
 def draw_contours(
-    source: str | Path, output: Path, contours: Contours = Contours(), progress: Progress = SILENT
+    source: Source, output: Path, contours: Contours = Contours(), progress: Progress = SILENT
 ) -> Interval:
     """Write the contour lines of a raster, each with its height in the field ELEV."""
     raster = read_raster(source, window=NO_CELLS)

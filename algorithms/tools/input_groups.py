@@ -88,7 +88,7 @@ _CHECKPOINTS = (
     ),
     Input(
         "checkpoints_crs",
-        "text",
+        "crs",
         help="the CRS of x and y of the checkpoints, such as EPSG:4326; without it, what the file"
         " states, or the CRS of the points",
     ),

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Callable
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.inpaint import inpaint
 from ..grids.morphology import opening
+from ..rasters.content import Source
 from ..rasters.geotiff import NODATA, read_raster
 from ..rasters.writing import write_geotiff
 from .declaration import RASTER, TERRAIN, FileTool, Input, Output
@@ -75,10 +77,12 @@ class Removal:
 
 
 def remove_objects_file(
-    source: str | Path,
+    source: Source,
     output: Path,
     parameters: OffTerrain = OffTerrain(),
     progress: Progress = SILENT,
+    write: Callable[..., None] = write_geotiff,
+    no_data: float = NODATA,
 ) -> Removal:
     """Write the raster of a surface, one that GDAL can read, without the objects on it, as a
     GeoTIFF of float32 with the same grid, CRS and unit.
@@ -96,8 +100,8 @@ def remove_objects_file(
     )
     # Other heights are written as they were, not converted back and forth.
     heights = np.where(removed, heights / unit, raster.heights)
-    values = np.where(known, heights, NODATA).astype(np.float32)
-    write_geotiff(output, values, raster, NODATA, progress, "Height, {unit}")
+    values = np.where(known, heights, no_data).astype(np.float32)
+    write(output, values, raster, no_data, progress, "Height, {unit}")
     return Removal(int(np.count_nonzero(known)), int(np.count_nonzero(removed)))
 
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterator, Mapping, Sequence
+from typing import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.progress import SILENT, Progress
 from ..core.threads import available_cpus, may_use
-from ..rasters.content import NO_CELLS
+from ..rasters.content import NO_CELLS, Source
 from ..rasters.geotiff import NODATA, Raster, read_raster
 from ..rasters.writing import Rows, write_geotiff
 from .declaration import RASTER, TERRAIN, FileTool, Input, Output
@@ -69,20 +69,22 @@ class ReliefPictures(ParameterSet):
 
 
 def draw_reliefs(
-    source: str,
+    source: Source,
     output: Mapping[str, Path],
     parameters: ReliefPictures = ReliefPictures(),
     progress: Progress = SILENT,
+    write: Callable[..., None] = write_geotiff,
+    no_data: float = NODATA,
 ) -> None:
     """Write pictures of the relief of a terrain model into new files, by the rasters."""
     raster = read_raster(source, progress=progress, window=NO_CELLS)
     for (name, path), part in zip(output.items(), progress.shares(*[1.0] * len(output))):
         row = RASTERS[name]
-        nodata = row.nodata(NODATA)
+        nodata = row.nodata(no_data)
         strips = _strips(raster, row, parameters.terrain, nodata, part)
         rows = Rows(raster.whole, row.kind, strips, row.bands)
         with may_use(available_cpus()):
-            write_geotiff(path, rows, raster, nodata, part, row.shows)
+            write(path, rows, raster, nodata, part, row.shows)
     raster.tell(progress)
 
 

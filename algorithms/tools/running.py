@@ -15,6 +15,7 @@ from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..engine.run import Run
 from ..engine.workers import Workers
+from ..rasters.content import MemoryRaster
 from ..rasters.virtual import virtual_of
 from ..remote.addresses import is_address
 from ..survey.files import Inputs
@@ -152,6 +153,8 @@ def _sources(tool: FileTool, inputs: Mapping[str, Any]) -> list[Path]:
         value = inputs.get(declared.name)
         if declared.kind == "clouds":
             sources += value or ()
+        elif isinstance(value, MemoryRaster):
+            continue
         elif value and declared.kind in _FILES and not is_address(str(value)):
             sources.append(Path(value))
     return sources

@@ -84,7 +84,7 @@ def test_rasters_are_lazy_and_equal_to_those_of_the_survey(survey, small_blocks,
         with rasterio.open(path) as file:
             wanted = file.read().reshape(cells.shape)
             assert np.array_equal(cells, wanted, equal_nan=cells.dtype.kind == "f")
-            assert rasters[name].transform == tuple(file.transform)[:6]
+            assert tuple(rasters[name].transform) == tuple(file.transform)
             assert rasters[name].shows == file.descriptions[0]
     part = (ORIGIN[0] + 90, ORIGIN[1] + 20, ORIGIN[0] + 250, ORIGIN[1] + 70)
     piece = arrays.terrain(blocks, extent=part, max_edge=5.0)["dtm"]
@@ -145,6 +145,44 @@ def test_blocks_of_addresses_fetch_their_own_points(survey, small_blocks, tmp_pa
     inside = (wanted[:, 0] >= west) & (wanted[:, 0] < east)
     inside &= (wanted[:, 1] >= south) & (wanted[:, 1] < north)
     assert np.array_equal(rows(*tables), wanted[inside]) and inside.sum() > 5_000
+
+
+def joined_to_files(blocks):
+    """Join points to the records of their files, by Source and Index; return which were met."""
+    met = {}
+    for block in blocks:
+        table = block()
+        assert {*np.unique(table["Source"])} <= {*range(len(block.sources))}
+        for number, path in enumerate(block.paths()):
+            mine = table["Source"] == number
+            if mine.any():
+                las, index = laspy.read(str(path)), table["Index"][mine]
+                for name, axis in zip("XYZ", "xyz"):
+                    assert np.array_equal(np.asarray(las[axis])[index], table[name][mine])
+                met.setdefault(block.sources[number], []).append(index)
+    return {source: np.sort(np.concatenate(indices)) for source, indices in met.items()}
+
+
+@pytest.mark.parametrize("classified", [False, True])
+def test_points_of_blocks_know_their_file_and_their_place_in_it(survey, small_blocks, classified):
+    folder = survey / ("done" if classified else "raw")
+    met = joined_to_files(arrays.blocks(folder, classified=classified, **NEAR))
+    assert sorted(met) == [str(folder / "a.laz"), str(folder / "b.laz")]
+    for source, indices in met.items():
+        assert np.array_equal(indices, np.arange(laspy.read(source).header.point_count))
+
+
+def test_so_do_those_of_copc_files_here_and_elsewhere(survey, small_blocks, tmp_path, monkeypatch):
+    monkeypatch.setenv("BARE_EARTH_CACHE", str(tmp_path / "cache"))
+    plain, copc = write(tmp_path / "a.las", strip(60_000, 600.0)), tmp_path / "a.copc.laz"
+    write_classified(plain, copc, np.ones(60_000, np.uint8))
+    blocks = arrays.blocks(copc, **NEAR)
+    assert len(blocks) > 5
+    assert np.array_equal(joined_to_files(blocks)[str(copc)], np.arange(60_000))
+    with serving() as server:
+        address = server.add(copc.name, copc.read_bytes())
+        met = joined_to_files(arrays.blocks(address, **NEAR)[:2])
+    assert list(met) == [address]
 
 
 def test_errors_are_sentences(survey, small_blocks, tmp_path):

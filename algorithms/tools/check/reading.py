@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from os import PathLike
 from pathlib import Path
 from typing import Any, Mapping, NamedTuple, Sequence
 
@@ -12,7 +13,7 @@ import numpy as np
 from ...core.errors import BareEarthError
 from ...crs.stated import stated_wkt
 from ...survey.shapes import Shapes
-from ...survey.vector_files import is_frame, read_points
+from ...survey.vector_files import read_points
 from .checkpoints import Checkpoints, OtherHeights
 from .columns import ColumnName, answer_in, columns_in, columns_of, parts_of
 from .tables import SUFFIXES, number_of, places_without_names, read_table
@@ -38,9 +39,9 @@ class Record(NamedTuple):
 
 
 def read_checkpoints(path: Any, columns: str | None = None, crs: str | None = None) -> Checkpoints:
-    """Read checkpoints from a table, a vector file or a GeoDataFrame."""
+    """Read checkpoints from a table, a vector file, a GeoDataFrame, or GeoJSON in memory."""
     chosen, suffix = columns_in(columns), ""
-    if not is_frame(path):
+    if isinstance(path, (str, PathLike)):
         path = Path(path)
         suffix = path.suffix.lower()
     if suffix == ".wkt":

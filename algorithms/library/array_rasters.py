@@ -1,0 +1,106 @@
+"""Functions on rasters in memory: contour lines, relief, a surface without objects."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+from ..rasters.content import NO_CELLS
+from ..rasters.geotiff import read_raster
+from ..tools import FILE_TOOLS
+from ..tools.contours import Contours, contours_of
+from ..tools.off_terrain import OffTerrain, remove_objects_file
+from ..tools.relief import KINDS, ReliefKinds, ReliefPictures, draw_reliefs
+from . import arguments
+from .arguments import REQUIRED, Argument, Kind
+from .features import Features
+from .functions import Function
+from .given import progress_of
+from .raster_inputs import heights_of
+from .rasters import Collected, Raster
+
+_RASTER = (
+    Argument.of(
+        "raster",
+        "raster",
+        'a raster of heights, such as terrain(points)["dtm"], an xarray.DataArray with x and y, or'
+        " a file",
+        REQUIRED,
+    ),
+)
+
+
+def _contours(values: SimpleNamespace, sets: list[Any]) -> Features:
+    """Return the contour lines of a raster."""
+    raster = read_raster(heights_of(values.raster), window=NO_CELLS)
+    _, layer, features = contours_of(raster, Contours.among(sets), progress_of(values.progress))
+    return Features.of(layer, features)
+
+
+def of_contours() -> Function:
+    """Return the function `contours`."""
+    return Function(
+        "contours",
+        "Draw contour lines of a terrain model, of its heights smoothed for the lines only.\nThe"
+        " lines are those that contours() writes for a file with the same cells.",
+        _RASTER,
+        (arguments.PROGRESS,),
+        (Contours,),
+        _contours,
+        flags={"contour_interval": "interval"},
+        gives=Kind("Features", "The lines: ELEV is the height, INDEX 1 for every fifth line."),
+    )
+
+
+def _relief(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
+    """Return pictures of the relief by their kinds."""
+    names, made = {kind: KINDS[kind] for kind in ReliefKinds.among(sets).kinds}, Collected()
+    paths = {name: Path(name) for name in names.values()}
+    draw_reliefs(
+        heights_of(values.raster), paths, ReliefPictures.among(sets), progress_of(values.progress),
+        made.add, math.nan,
+    )  # fmt: skip
+    return {kind: made.rasters[name] for kind, name in names.items()}
+
+
+def of_relief() -> Function:
+    """Return the function `relief`."""
+    return Function(
+        "relief",
+        "Show mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.\nThe"
+        " cells are those that relief() writes for a file with the same cells; cells without data"
+        " are NaN, or 0 in pictures.",
+        _RASTER,
+        (arguments.PROGRESS,),
+        (ReliefKinds, ReliefPictures),
+        _relief,
+        flags={"kinds": "kind"},
+        gives=Kind("dict[str, Raster]", "The rasters by their kinds."),
+    )
+
+
+def _bare(values: SimpleNamespace, sets: list[Any]) -> Raster:
+    """Return a surface without objects."""
+    made, name = Collected(), Path("without_objects")
+    remove_objects_file(
+        heights_of(values.raster), name, OffTerrain.among(sets), progress_of(values.progress),
+        made.add, math.nan,
+    )  # fmt: skip
+    return made.rasters[name.name]
+
+
+def of_removal() -> Function:
+    """Return the function `remove_off_terrain_objects`."""
+    about = FILE_TOOLS["remove-off-terrain-objects"].help
+    return Function(
+        "remove_off_terrain_objects",
+        f"{about[0].upper()}{about[1:]}.\nThe cells are those that remove_off_terrain_objects()"
+        " writes for a file with the same cells; cells without data are NaN.",
+        _RASTER,
+        (arguments.PROGRESS,),
+        (OffTerrain,),
+        _bare,
+        gives=Kind("Raster", "The heights on the same grid."),
+    )
