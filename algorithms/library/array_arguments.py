@@ -7,10 +7,10 @@ from .arguments import REQUIRED, Argument, Kind
 
 _TABLE = (
     "x of the points in units of the CRS; or x, y and z as one array of shape (n, 3); or a"
-    " laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and, where they are, Classification,"
-    " ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured array, such as PDAL has, a"
-    " dict of arrays, a table of pandas, polars or pyarrow, or a GeoDataFrame of points with z,"
-    " whose CRS counts; of terrain() also blocks()"
+    " laspy.LasData, its points or a chunk of them; or a table with the columns X, Y, Z and, where"
+    " they are, Classification, ReturnNumber, NumberOfReturns, Withheld and Overlap: a structured"
+    " array, such as PDAL has, a dict of arrays, a table of pandas, polars or pyarrow, or a"
+    " GeoDataFrame of points with z, whose CRS counts; of terrain() also blocks()"
 )
 _NUMBERS, _FLAGS = "array of int, shape (n,)", "array of bool, shape (n,)"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from os import PathLike
 from types import SimpleNamespace
 from typing import Any, Iterable
 
@@ -56,7 +57,7 @@ def columns_of(values: SimpleNamespace) -> dict[str, Any]:
         if not isinstance(columns[axis], (list, tuple))
     }
     are_integers = kinds and all(kind.kind in "iu" for kind in kinds)
-    if kinds == {_STORED} or (are_integers and not _RAW.isdisjoint(columns)):
+    if _STORED in kinds or (are_integers and not _RAW.isdisjoint(columns)):
         raise BareEarthError(
             "x, y and z are integers as files store them, without scale and offset. Give the"
             " laspy.LasData, its points (las.points), or las.x, las.y and las.z; or if they are"
@@ -68,6 +69,11 @@ def columns_of(values: SimpleNamespace) -> dict[str, Any]:
 def _columns_of(values: SimpleNamespace) -> dict[str, Any]:
     """Return the same of any arrays."""
     points = values.points
+    if isinstance(points, (str, PathLike)) or hasattr(points, "chunk_iterator"):
+        raise BareEarthError(
+            "points must be arrays, not a file. Read it first, such as by laspy.read(), or take the"
+            " function of this name in bare_earth."
+        )
     if is_frame(points):
         return _of_frame(values)
     if hasattr(points, "point_format"):  # of laspy, but without scales

@@ -15,6 +15,7 @@ from ..crs.stated import crs_text
 from ..filters import METHODS
 from ..tools.ground.method import TileMethod
 from .arguments import KINDS, REQUIRED, Argument, Kind
+from .given import extent_of
 from .remote_points import bring_points
 
 PACKAGE = __name__.partition(".algorithms.")[0]
@@ -23,6 +24,8 @@ _OPTION = re.compile(r"--([a-z-]+)")  # in texts of the command line
 # Arguments that stand behind the parameters.
 _LAST = ("crs", "vpc", "cache", "limit", "scheduler", "progress")
 _TYPES = {"number": "float", "integer": "int", "boolean": "bool"}
+# What takes values of some kinds in all forms that users give them.
+_TAKEN = {KINDS["crs"]: crs_text, KINDS["extent"]: extent_of}
 _RAISES = """
 Raises
 ------
@@ -164,8 +167,8 @@ class Function:
             bound.apply_defaults()
             values = bound.arguments
             for argument in (*self.positional, *self.keywords):
-                if argument.kind == KINDS["crs"]:
-                    values[argument.name] = crs_text(values[argument.name])
+                if argument.kind in _TAKEN:
+                    values[argument.name] = _TAKEN[argument.kind](values[argument.name])
             return self.work(SimpleNamespace(**values), self.sets_of(values, named))
 
         function.__name__ = function.__qualname__ = name

@@ -6,6 +6,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Callable, Protocol
 
+from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..survey.area import Area
 from ..survey.corrections import NO_CORRECTIONS, Corrections
@@ -80,6 +81,19 @@ def lines_of(given: Any) -> Any:
     from ..survey.vector_files import shapes_of
 
     return shapes_of(given, "LineString")
+
+
+def extent_of(given: Any) -> tuple[float, ...] | None:
+    """Return a rectangle, given as four numbers or as a geometry that lies in it."""
+    if given is None:
+        return None
+    try:
+        west, south, east, north = map(float, getattr(given, "bounds", given))
+    except (TypeError, ValueError):
+        raise BareEarthError(
+            f"An extent is smallest x and y, then largest x and y, not {given!r}."
+        ) from None
+    return west, south, east, north
 
 
 def area_of(values: SimpleNamespace) -> Area | None:

@@ -4,6 +4,7 @@ import builtins
 import json
 import pickle
 import warnings
+from pathlib import Path
 
 import laspy
 import numpy as np
@@ -82,12 +83,19 @@ def test_what_raw_records_hold_in_bits_is_read_beside_coordinates(las, point_for
         lambda las: (laspy.PackedPointRecord(las.points.array, las.point_format),),
         lambda las: (las.X, las.Y, las.Z),
         lambda las: (np.column_stack((las.X, las.Y, las.Z)),),
+        lambda las: (las.x, las.y, las.Z),
         lambda las: ({"X": las.X, "Y": las.Y, "Z": las.Z},),
     ],
 )
 def test_integers_of_files_are_no_coordinates(las, raw):
     with pytest.raises(bare_earth.BareEarthError, match="integers as files store them"):
         arrays.ground(*raw(las))
+
+
+@pytest.mark.parametrize("file", ["a.laz", Path("a.laz")])
+def test_a_file_is_no_array(file):
+    with pytest.raises(bare_earth.BareEarthError, match="points must be arrays, not a file"):
+        arrays.ground(file)
 
 
 def test_other_integers_are_coordinates(las):
@@ -121,8 +129,6 @@ def shapes_of(square):
 
 
 def test_geometries_of_any_library_are_areas(las, tmp_path):
-    wanted = arrays.classify(las, boundary=[[SQUARE]])
-    assert 0.1 < (wanted != las.classification).mean() or (wanted == las.classification).all()
     raw = laspy.LasData(las.header, las.points.copy())
     raw.classification[:] = 1
     wanted = arrays.classify(raw, boundary=[[SQUARE]])
@@ -152,6 +158,15 @@ def test_lines_and_checkpoints_of_shapely(las):
     wanted = arrays.check(las, checkpoints=places)
     for points in ([*map(shapely.Point, places)], shapely.MultiPoint(places)):
         assert arrays.check(las, checkpoints=points).nva == wanted.nva
+
+
+def test_an_extent_is_four_numbers_or_that_of_a_geometry(las):
+    shapely = pytest.importorskip("shapely")
+    wanted = arrays.ground(las, extent=[*SQUARE.min(axis=0), *SQUARE.max(axis=0)])
+    assert np.array_equal(arrays.ground(las, extent=shapely.Polygon(SQUARE)), wanted)
+    for extent in ("here", (1, 2, 3), 5, [None] * 4):
+        with pytest.raises(bare_earth.BareEarthError, match="An extent is smallest x and y"):
+            arrays.ground(las, extent=extent)
 
 
 @pytest.mark.parametrize(
