@@ -158,18 +158,23 @@ class _PlainScorer:
         self._judges = [
             plain.Judge(row) for row in rows() if (row.kind.name, row.place) == (kind, of_grid)
         ]
-        self._base = self._held(BASE)
+        self._grounds = self._found(BASE)
+        judged = zip(self._judges, self._grounds)
+        self._base = np.array([judge.judged(ground).held for judge, ground in judged])
 
     def figures(self, variant: str) -> page.Figures:
         """Return how many are held, only held with what the variant leaves out, only without."""
-        held = self._base if variant == BASE else self._held(variant)
-        counts = held, self._base & ~held, held & ~self._base
-        names = "held", "protects", "takes", "rows"
-        return dict(zip(names, [float(some.sum()) for some in counts] + [float(len(held))]))
+        held = self._base.copy()
+        for number, ground in enumerate(self._found(variant) if variant != BASE else ()):
+            if not np.array_equal(ground, self._grounds[number]):
+                held[number] = self._judges[number].judged(ground).held
+        counts = {"held": held, "protects": self._base & ~held, "takes": held & ~self._base}
+        figures = {name: float(some.sum()) for name, some in counts.items()}
+        return {"rows": float(len(held)), **figures}
 
-    def _held(self, variant: str) -> np.ndarray:
+    def _found(self, variant: str) -> list[np.ndarray]:
         with switched_off(variant):
-            return np.array([judge.verdict(self._filter).held for judge in self._judges])
+            return [judge.ground(self._filter) for judge in self._judges]
 
 
 def _digest(job: Job) -> str:

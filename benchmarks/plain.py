@@ -11,8 +11,10 @@ Printed for each method: held or NOT, percent of the thing that is ground, metre
 is off, and percent of the ground round it that is kept.
 
 `--only 5x1.5` runs the rows whose name has this text. `--without low-groups` leaves out a rule, or
-runs a group or values of `benchmarks/rules.py`, or gives a value: `--without plants.steps=0.7`.
-`--set ground_tolerance=0.3` gives a parameter. `--picture FOLDER` draws the rows that fail.
+runs a group or values of `benchmarks/rules.py`, or gives a value: `--without gentle-border.shares=(0.2,0.2)`.
+With `--changed` only rows are printed whose verdict changes by that: NOT where the rule protects,
+held where it takes. `--set ground_tolerance=0.3` gives a parameter. `--picture FOLDER` draws the
+rows that fail.
 """
 
 from __future__ import annotations
@@ -83,10 +85,6 @@ class Judge:
             return method.ground(self._cloud)
         except BareEarthError:
             return np.zeros(self._cloud.count, dtype=bool)
-
-    def verdict(self, method: Filter) -> Verdict:
-        """Return the verdict on what a filter finds."""
-        return self.judged(self.ground(method))
 
     def judged(self, ground: np.ndarray) -> Verdict:
         """Return the verdict on a ground mask."""
@@ -181,6 +179,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--set", nargs="+", default=[], metavar="NAME=VALUE", help="parameters")
     parser.add_argument("--picture", type=Path, metavar="FOLDER", help="draw what fails")
     parser.add_argument("--failed", action="store_true", help="print only rows that fail")
+    parser.add_argument(
+        "--changed", action="store_true", help="print only rows whose verdict is another --without"
+    )
     options = parser.parse_args(arguments)
     values = tuple((name, _value(text)) for name, text in (one.split("=") for one in options.set))
     chosen = [
@@ -194,10 +195,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
         usual = [pipeline_of(method) for method in options.method]
         if usual == [changed(pipeline, options.without) for pipeline in usual]:
             parser.error(f"--without {options.without} changes none of these methods")
-    begun, found = time.perf_counter(), {}
+    begun, found, usual = time.perf_counter(), {}, {}
+    if options.changed:
+        before = [job._replace(variant=BASE, folder=None) for job in jobs]
+        usual = dict(zip(chosen, work.side_by_side(run, before)))
     for job, verdicts in zip(jobs, work.side_by_side(run, jobs)):
         found[job.name] = verdicts
-        if not options.failed or not all(one.held for one in verdicts.values()):
+        held = {method: one.held for method, one in verdicts.items()}
+        before_held = {method: one.held for method, one in usual.get(job.name, {}).items()}
+        if not ((options.failed and all(held.values())) or held == before_held):
             cells = (
                 f"{'held' if one.held else 'NOT':4} {one.share:5.1f} % {one.metres:+6.2f} m"
                 f" {one.round:5.1f} %"

@@ -376,7 +376,8 @@ drum 12x6/0/4 30x10/3/2
 a-frame 16x10x8/0/8 12x8x7/5/4 20x12x8/0/2 10x6x5/10/8
 """),
     (loose, _GOES, 5.0, 0.3, """
-polytunnels=vaults 40x8x3.2x1x4/0/8 70x8x3.2x1x4/0/7 60x8x3.5x1x8/3/4 50x6x2.5x1x5/0/8 60x9x4x1.5x3/5/2
+polytunnels=vaults 40x8x3.2x1x4/0/8 70x8x3.2x1x4/0/7 60x8x3.5x1x8/3/4\
+ 50x6x2.5x1x5/0/8 60x9x4x1.5x3/5/2
 glasshouses 60x6x4x0x8/0/4 60x8x4.5x1x5/2/8 40x10x3x3x4/0/2
 panels 40x4x0.8x0.4x4x6/0/8 50x4x2x0x1.5x6/5/4 60x2.2x0.6x0.2x2x10/10/8
 barges=boxes 50x9x2.5x2x3/0/2 40x8x3x1x4/0/2
