@@ -31,7 +31,11 @@ VEGETATED = """Forest|Nadelwald|brush land|VVA|Vegetated|tall grass|Forêt
     |Vegetated Vertical Accuracy|Tussock
     |hohes Gras|Gebuesch|Röhricht|Maisfeld|Waldboden|Weinberg|Fichtenwald|Weg unter Bäumen
     |herbes hautes|Roseaux|Sous-bois|haies|Culture de maïs|Végétation basse
-    |Bomen|Naaldbos|Hoog gras|Struiken|Árboles|hierba alta|Maíz|Matorral denso|Olivar"""
+    |Bomen|Naaldbos|Hoog gras|Struiken|Árboles|hierba alta|Maíz|Matorral denso|Olivar
+    |Alder|Eucalyptus|Erlen|Buschwerk|hohe Wiese|Ronciers|Canne à sucre|Prairie haute|Populieren
+    |Onderbegroeiing|Girasoles|Arrozal|Sottobosco|Erba alta|Brughiera|Milho|Capim alto|Pinhal
+    |Barrskog|Højt græs|Løvskog|Kratt|Mäntymetsä|Korkea ruoho|Las|Las sosnowy|Wysoka trawa|Krzaki
+    |Les|Listnatý les|Vysoká tráva|Keře|Kukorica|Pădure|Grmlje|Koruza|Orman|Mısır"""
 OPEN = """NVA|non-vegetated|unvegetated|no trees|Street|asphalt|grass
     |Woodward Street|Treeless|Wooden deck|Waldweg|Open terrain|Urban|OpenTerrain|Short grass
     |Forest road|Oak Avenue|Nonvegetated|Non-vegetated (bare earth)|NVA - short grass|FVA
@@ -39,7 +43,11 @@ OPEN = """NVA|non-vegetated|unvegetated|no trees|Street|asphalt|grass
     |Non-Vegetated Vertical Accuracy|Straße|Forststraße|vegetationslos|unbewachsen
     |Wiesenweg|ohne Bewuchs|sans végétation
     |chemin forestier|chemin en forêt|Sol nu|pont en bois|sin vegetación|Camino del bosque
-    |Suelo desnudo|Bospad|bosweg|geen bomen"""
+    |Suelo desnudo|Bospad|bosweg|geen bomen
+    |Plowed field|Deforested|Steinbruch|Clairière|Déboisé|Onbegroeid|Asfalt|Barbecho|Gravilla
+    |Calle de las flores|Via del Bosco|Erba bassa|Terreno nudo|Relva curta|Sem vegetação
+    |Skogsväg|Kort gräs|Uden vegetation|Skovvej|Ingen vegetasjon|Metsätie|Lyhyt ruoho
+    |Droga leśna|Niska trawa|Bez roślinności|Lesní cesta|Nízká tráva|Drum forestier|Orman yolu"""
 
 
 def names_in(text):

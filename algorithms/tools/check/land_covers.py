@@ -46,7 +46,7 @@ _ENDS = tuple(
 _NEUTRAL_ENDS = re.compile(
     "(.{3,})(?:felder|feld|fields|field|flachen|flache|gebiet|bestand|boden|rand|veld|velden|zone)"
 )
-_WITHOUT = re.compile("(.{3,})(?:less|los|lose|loses|losen|frei|freie|freies)|(?:un|non)(.+)")
+_WITHOUT = re.compile("(.{3,})(?:less|los|lose|loses|losen|frei|freie|freies)|(?:un|non|on)(.+)")
 _BETWEEN = re.compile(r"[,;/+&()|:]|\s[-\u2013]\s")
 
 
@@ -75,6 +75,8 @@ class LandCovers(NamedTuple):
         if not text.strip() or (words and {*words} <= _LISTS["check"] | _LISTS["point"]):
             return None
         if not self.words and _has("tall", words) and _has("low plants", words):
+            return VVA
+        if not self.words and len(words) == 1 and _has("vegetated alone", words):
             return VVA
         kinds = set(map(self._of_part, _parts(text)))
         if VVA in kinds:
