@@ -11,10 +11,10 @@ Printed for each method: held or NOT, percent of the thing that is ground, metre
 is off, and percent of the ground round it that is kept.
 
 `--only 5x1.5` runs the rows whose name has this text. `--without low-groups` leaves out a rule, or
-runs a group or values of `benchmarks/rules.py`, or gives a value: `--without gentle-border.shares=(0.2,0.2)`.
-With `--changed` only rows are printed whose verdict changes by that: NOT where the rule protects,
-held where it takes. `--set ground_tolerance=0.3` gives a parameter. `--picture FOLDER` draws the
-rows that fail.
+runs a group or values of `benchmarks/rules.py`, or gives a rule a value, as in
+`--without "gentle-border.shares=(0.2, 0.2)"`. With `--changed` only rows are printed whose verdict
+changes by that: NOT where the rule protects, held where it takes. `--set ground_tolerance=0.3`
+gives a parameter. `--picture FOLDER` draws the rows that fail.
 """
 
 from __future__ import annotations
