@@ -22,7 +22,11 @@ _VERTICAL = {"VERT_CS", "VERTCS", "VERTCRS", "VERTICALCRS"}
 _VERTICAL_DATUMS = {"VERT_DATUM", "VDATUM", "VERTICALDATUM", "VRF", "ENSEMBLE"}
 # The type of a datum of WKT 1 for heights above the ellipsoid.
 _ELLIPSOIDAL_HEIGHTS = "2002"
-_NO_NAME = re.compile(r"\s*(unknown|unnamed|undefined|not specified|$)", re.IGNORECASE)
+_NO_NAME = re.compile(
+    r"\W*(unknown|unnamed|undefined|unspecified|not (specified|known|defined)|none\b|n/?a\b|$)",
+    re.IGNORECASE,
+)
+_CARTESIAN_3 = re.compile(r"\bCS\[\s*Cartesian\s*,\s*3\s*\]", re.IGNORECASE)
 _UNITS = {"UNIT", "LENGTHUNIT"}
 _VERTICAL_UNIT = re.compile(r'(VERT_CS\[.*?\bUNIT\["[^"]*",([-+.0-9eE]+))(?=\])', re.DOTALL)
 _UNIT_CODES = {9001: 1.0, 9002: 0.3048, 9003: 1200 / 3937}
@@ -92,13 +96,29 @@ def read_wkt(text: str) -> WktFacts | None:
         is_geographic=horizontal.keyword in _GEOGRAPHIC,
         epsg=_epsg_of(horizontal),
         map_name=horizontal.name,
-        datum=_datum_of(vertical) or _ellipsoid_of(horizontal, upwards),
+        datum=_datum_of(vertical) if vertical else _ellipsoid_of(horizontal, upwards),
     )
 
 
 def is_wkt2(text: str) -> bool:
     """Return whether a text of a projected or local CRS, such as ENGCRS, is WKT 2."""
     return text.lstrip().upper().startswith(_SECOND_VERSION)
+
+
+def of_map(text: str) -> str:
+    """Return the well-known text of the horizontal CRS of a text, without an axis of heights."""
+    spans = _spans(text)
+    horizontal = _PROJECTED | _LOCAL | _GEOGRAPHIC
+    start, end = min((span for name, *span in spans if name in horizontal), default=(0, len(text)))
+    if not _CARTESIAN_3.search(text, start, end):
+        return text[start:end]
+    # The ellipsoidal heights of a CRS with three axes.
+    whole = text[start:end]
+    for name, first, last in spans:
+        axis = text[first:last]
+        if name == "AXIS" and start < first < end and _UPWARDS & set(re.findall(r"\w+", axis)):
+            whole = re.sub(r",\s*" + re.escape(axis), "", whole)
+    return _CARTESIAN_3.sub("CS[Cartesian,2]", whole)
 
 
 def with_unit_of_heights(text: str) -> str:
@@ -133,6 +153,17 @@ def _parse(text: str) -> list[str | Node]:
     return top
 
 
+def _spans(text: str) -> list[tuple[str, int, int]]:
+    """Return the keywords of a text, and where they begin and their brackets end."""
+    spans, still_open = [], []
+    for token in _TOKEN.finditer(text):
+        if token[2]:
+            still_open.append((token[2].upper(), token.start()))
+        elif token[4] and still_open:
+            spans.append((*still_open.pop(), token.end()))
+    return spans
+
+
 def _parts(node: Node) -> Sequence[Node]:
     """Return the parts of a compound or bound CRS."""
     if node.keyword in _COMPOUND | _BOUND:
@@ -164,10 +195,8 @@ def _axis_units(node: Node) -> tuple[float | None, float | None]:
     return horizontal, vertical
 
 
-def _datum_of(vertical: Node | None) -> VerticalDatum | None:
+def _datum_of(vertical: Node) -> VerticalDatum | None:
     """Return the datum of a vertical CRS; None if that is a placeholder such as "unknown"."""
-    if vertical is None:
-        return None
     datum = next(iter(vertical.children(_VERTICAL_DATUMS)), Node("", []))
     name = "" if _NO_NAME.match(datum.name) else datum.name
     is_ellipsoid = _ELLIPSOIDAL_HEIGHTS in datum.values or "ellips" in name.lower()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any, Iterator, Sequence
 
@@ -10,6 +11,9 @@ from ..core.progress import Progress
 from ..core.threads import import_early, may_use
 from ..las.cloud import PointCloud, survey_frame
 from ..las.crs_records import read_crs
+from ..las.lasfile import LasFile
+from ..las.opening import NoPoints
+from ..las.writing import write_without_points
 from ..survey.files import Inputs
 from ..survey.shapes import Place
 from .file_points import FilePoints, TileResult, copies_all_else
@@ -32,7 +36,12 @@ def work_on_file(
     """Let steps work on a LAS, LAZ or COPC file, and write its points with what they found, and
     nothing else changed; all outputs or none.
     """
-    las, resources = inputs.open_file(), resources.now()
+    try:
+        las, resources = inputs.open_file(), resources.now()
+    except NoPoints as empty:
+        if target is None:
+            raise
+        return _written_without_points(empty.layouts[0], steps, target, progress)
     place = Place(str(las.path), read_crs(las), las.outer_box if las.states_extent else None)
     for step in steps:
         step.placed(place)  # refuses, before any reading, what the header shows to be unsuitable
@@ -53,6 +62,19 @@ def work_on_file(
         result = run.found(writing.part(0.0, 0.2))
         result.write(outputs.file(target), writing.part(0.2, 1.0))
     return result.summary(target.name)
+
+
+def _written_without_points(
+    layout: LasFile, steps: Sequence[Step], target: Path, progress: Progress
+) -> Any:
+    """Write a file without points as it is, and nothing of what is made of points."""
+    write_without_points(layout, target)
+    left_out = [path.name for step in steps for _, path in step.outputs(is_survey=False)]
+    more = f" {', '.join(left_out)} cannot be made of it." if left_out else ""
+    progress.warning(f"{layout.path} holds no points: {target.name} is written as it is.{more}")
+    kind = next(step for step in steps if isinstance(step, PointStep)).summary_type
+    lacking = (one for one in fields(kind) if one.default is one.default_factory is MISSING)
+    return kind(**{one.name: target.name if one.name == "name" else 0 for one in lacking})
 
 
 class FileRun:

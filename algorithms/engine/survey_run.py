@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from pathlib import Path
-from typing import Any, Iterator, Sequence
+from typing import Any, Iterator, Mapping, Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..core.files import is_same_file, make_work_folder, temporary_folder, write_errors_told
@@ -12,7 +12,11 @@ from ..core.locks import alone_in
 from ..core.progress import Progress
 from ..core.temporary import remove, remove_leftovers
 from ..crs.measurable import require_measurable
+from ..crs.system import Crs
+from ..las.lasfile import LasFile
+from ..las.opening import NoPoints
 from ..las.unpacked import has_room
+from ..las.writing import write_without_points
 from ..survey.files import Inputs, Survey, open_survey
 from ..survey.vpc import write_vpc
 from .job_queue import JobQueue
@@ -46,7 +50,10 @@ def work_on_survey(
         return _work_sinks(steps, inputs, progress, workers)
     run = _SurveyRun(folder, steps, output, vpc)
     with _finished_files_stay():
-        run.open(inputs, progress)
+        try:
+            run.open(inputs, progress)
+        except NoPoints as empty:
+            return _written_without_points(empty.layouts, inputs, folder, output, progress, vpc)
         run.work(workers, progress.part(0.02, 0.98))
         return run.finish(progress)
 
@@ -67,6 +74,32 @@ def _work_sinks(steps: Sequence[Any], inputs: Inputs, progress: Progress, worker
         for step, part in zip(placed(steps, survey.place, progress), parts):
             told = run_sink(survey, working, step, workers, part, unpacking=unpacking)
     return told
+
+
+def _written_without_points(
+    layouts: tuple[LasFile, ...],
+    inputs: Inputs,
+    folder: Path,
+    output: TileOutput,
+    progress: Progress,
+    vpc: Path,
+) -> SurveySummary:
+    """Write files, none of which holds a point, as they are; no list of them has an extent."""
+    survey = Survey((), (), Crs(), None, layouts)
+    check_survey(survey, folder, vpc, inputs if inputs.recursive else [])
+    targets = targets_of(survey, folder, output.format)
+    with write_errors_told(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+    _write_empty(survey, targets, progress)
+    count = len(layouts)
+    return SurveySummary(count, count, 0, 0, 0, {}, "")
+
+
+def _write_empty(survey: Survey, targets: Mapping[Path, Path], progress: Progress) -> None:
+    """Write the files of a survey that hold no points."""
+    for layout in survey.empty:
+        write_without_points(layout, targets[layout.path])
+        progress.info(f"{layout.path.name} is written as it is, since it holds no points.")
 
 
 @contextlib.contextmanager
@@ -102,6 +135,7 @@ class _SurveyRun:
                     f"Input and output are the same file, {source}. Choose another output."
                 )
         self._survey = survey = open_survey(inputs, progress.part(0.0, 0.02))
+        require_measurable("The survey", survey.crs, survey.box)
         check_survey(survey, self._folder, self._vpc, inputs if inputs.recursive else [])
         count = len(self._steps)
         steps = placed([*self._steps, *self._sinks], survey.place, progress)
@@ -180,6 +214,7 @@ class _SurveyRun:
                 if reasons
                 else "None of the files has points to write in the area."
             )
+        _write_empty(self._survey, self._targets, progress)
         if self._empty_count:
             progress.info(
                 f"{self._empty_count:,} files are not written: they have no points to write in the"
@@ -188,10 +223,11 @@ class _SurveyRun:
         paths = [self._folder / summary.name for summary in self._done]
         part, stated = progress.part(0.98, 1.0), self._survey.stated
         write_vpc(self._vpc, paths, part, self._output.overview, stated)
+        without = len(self._survey.empty)
         unknown = self._failures.keys() - self._inputs.keys()
         return SurveySummary(
-            tile_count=len(self._inputs) - self._empty_count + len(unknown),
-            done_count=len(self._done),
+            tile_count=len(self._inputs) - self._empty_count + len(unknown) + without,
+            done_count=len(self._done) + without,
             kept_count=self._kept_count,
             point_count=sum(summary.point_count for summary in self._done),
             ground_count=sum(getattr(summary, "ground_count", 0) for summary in self._done),

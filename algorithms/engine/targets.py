@@ -8,7 +8,6 @@ from typing import Sequence
 
 from ..core.errors import BareEarthError
 from ..core.files import check_free, check_lengths, check_output, split_name
-from ..crs.measurable import require_measurable
 from ..las.writing import check_writable
 from ..survey.files import Survey
 from ..survey.outputs import check_outputs
@@ -18,7 +17,6 @@ from .manifest import names_beside
 
 def check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Path]) -> None:
     """Refuse a survey and a folder that would fail, or overwrite something."""
-    require_measurable("The survey", survey.crs, survey.box)
     if folder.exists() and not folder.is_dir():
         raise BareEarthError(f"Cannot write into {folder}: it is a file. Give a folder.")
     check_outputs([("folder", folder)])
@@ -91,5 +89,6 @@ def targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path,
 
 
 def _paths(survey: Survey) -> list[Path]:
-    """Return the paths of all files, also of those that cannot be read."""
-    return [tile.path for tile in survey.tiles] + [tile.path for tile in survey.broken]
+    """Return the paths of all files, also of those without points or that cannot be read."""
+    files = [tile.path for tile in (*survey.tiles, *survey.empty)]
+    return files + [tile.path for tile in survey.broken]

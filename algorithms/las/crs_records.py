@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import functools
+import json
 from typing import Protocol, Sequence
 
 from ..core.progress import SILENT, Notes, Progress
 from ..crs.geokeys import read_geokeys
 from ..crs.matching import described, has_same_units, is_same_crs
-from ..crs.provider import library
+from ..crs.provider import library, wkt_of_text
 from ..crs.records import crs_of_records
 from ..crs.stated import how_to_state
 from ..crs.system import Crs, crs_of_wkt
@@ -17,6 +18,12 @@ from .lasfile import FIRST_EXTENDED_FORMAT, LasFile, text_of
 WKT_RECORD = ("LASF_Projection", 2112)
 # Records with the directory of GeoTIFF keys, their numbers and their texts.
 GEOKEY_RECORDS = tuple(("LASF_Projection", number) for number in (34735, 34736, 34737))
+# Where programs write well-known text and PROJJSON beside the records of the LAS specification.
+_OTHER_WKT = (("LASF_Projection", 4224), ("PDAL", 4224), ("liblas", 2112))
+_PROJJSON = (("LASF_Projection", 4225), ("PDAL", 4225))
+# All of them: none may stay in a file whose CRS is another one.
+CRS_RECORDS = (WKT_RECORD, *GEOKEY_RECORDS, *_OTHER_WKT, *_PROJJSON)
+_LONGEST_PROJJSON = 100_000
 _WKT_BIT = 0x10
 
 
@@ -51,10 +58,10 @@ def crs_among(
     # A file can have well-known text and GeoTIFF keys. Point formats 6 to 10 need text; of others,
     # the global encoding of the header says which one is valid. What that lacks comes from the
     # other.
-    texts = (record.data or b"" for record in every if record.key == WKT_RECORD)
+    texts = _data_of(every, (WKT_RECORD,)), _data_of(every, _OTHER_WKT), _data_of(every, _PROJJSON)
     records = (next((one for one in every if one.key == key), None) for key in GEOKEY_RECORDS)
     keys = tuple(record.data or b"" if record else b"" for record in records)
-    crs, messages = _stated(tuple(dict.fromkeys(texts)), keys, prefers_text, library())
+    crs, messages = _stated(*texts, keys, prefers_text, library())
     if stated is not None:
         crs, messages = _given(stated, crs)
     for tell, text in messages:
@@ -65,6 +72,12 @@ def crs_among(
             f" give the CRS: {how_to_state()}."
         )
     return crs or Crs()
+
+
+def _data_of(every: Sequence[Record], keys: Sequence[tuple[str, int]]) -> tuple[bytes, ...]:
+    """Return the different contents of records with some keys, in the order of the keys."""
+    found = (record.data or b"" for key in keys for record in every if record.key == key)
+    return tuple(dict.fromkeys(found))
 
 
 @functools.lru_cache(maxsize=64)
@@ -83,9 +96,34 @@ def _given(wkt: str, stated: Crs | None) -> tuple[Crs | None, tuple[tuple[str, s
 
 @functools.lru_cache(maxsize=64)
 def _stated(
-    texts: tuple[bytes, ...], keys: tuple[bytes, ...], prefers_text: bool, library: object
+    texts: tuple[bytes, ...],
+    others: tuple[bytes, ...],
+    projjson: tuple[bytes, ...],
+    keys: tuple[bytes, ...],
+    prefers_text: bool,
+    library: object,
 ) -> tuple[Crs | None, tuple[tuple[str, str], ...]]:
     """Return the CRS from records, with messages about it."""
     notes = Notes()
-    crs = crs_of_records([*map(text_of, texts)], read_geokeys(*keys), prefers_text, notes)
+    every = [text_of(data) for data in (*texts, *others)]
+    geokeys = read_geokeys(*keys)
+    crs = crs_of_records(every, geokeys, prefers_text, notes)
+    if crs is None and projjson:
+        every = [text for data in projjson if (text := _wkt_of_projjson(text_of(data)))]
+        crs = crs_of_records(every, geokeys, prefers_text, notes)
+        if crs is None:
+            lack = "without pyproj: pip install pyproj" if library is None else "here"
+            notes.warning(f"The record {_PROJJSON[0][1]} (PROJJSON) states a CRS, but cannot be"
+                          f" read {lack}.")  # fmt: skip
     return crs, tuple(notes.messages)
+
+
+def _wkt_of_projjson(text: str) -> str | None:
+    """Return the well-known text of a CRS in PROJJSON, None if no library understands it."""
+    if len(text) > _LONGEST_PROJJSON or not text.startswith("{"):
+        return None
+    try:
+        # Without the address of the schema, which nobody needs.
+        return wkt_of_text(json.dumps({**json.loads(text), "$schema": ""}))
+    except (ValueError, RecursionError):
+        return None

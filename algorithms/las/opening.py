@@ -26,13 +26,23 @@ from .sources import FileState, damaged, open_source
 _MOST_EVLRS = 1_000_000
 # Records behind the points that are kept in memory; a survey can have thousands of files.
 _KEPT, _LARGEST_KEPT = ("LASF_Projection", "LASF_Spec"), 1 << 20
+# Bytes of compression, or between records, that files without points may have there.
+_MOST_WITHOUT_POINTS = 256
 # Largest coordinate, in units of the CRS, with which calculations make sense.
 _SMALLEST_SCALE, _LARGEST_SCALE, _LARGEST_OFFSET = 1e-12, 1e6, 1e12
 
 
+class NoPoints(BareEarthError):
+    """Files hold no points, but are sound: a run on points writes them as they are."""
+
+    def __init__(self, text: str, layouts: tuple[LasFile, ...] = ()) -> None:
+        super().__init__(text)
+        self.layouts = layouts
+
+
 def open_las(path: Path | LasFile, stated: str | None = None) -> LasFile:
     """Open a file (an opened one is returned) with the CRS that a user states, if any, and read all
-    but its points; refuse what is not LAS or LAZ, truncated or without points.
+    but its points; refuse what is not LAS or LAZ or truncated, and by `NoPoints` what is empty.
     """
     if isinstance(path, LasFile):
         return path
@@ -135,11 +145,21 @@ def _check_points(layout: LasFile, file: BinaryIO) -> None:
     if layout.extra_bytes < 0 or not is_sound:
         raise BareEarthError(f"The header of {path} is damaged. Copy or download it again.")
     if layout.count == 0:
-        raise BareEarthError(f"{path} holds no points. Give a file that has some.")
+        if _bytes_of_points(layout) > _MOST_WITHOUT_POINTS + layout.record_length:
+            raise BareEarthError(
+                f"{path} was not written to its end: it holds no points by its header, but bytes of"
+                " some. Write it again."
+            )
+        raise NoPoints(f"{path} holds no points. Give a file that has some.", (layout,))
     if layout.is_compressed:
         _check_compressed(layout, file)
     elif layout.points_end > layout.size:
         raise damaged(path)
+
+
+def _bytes_of_points(layout: LasFile) -> int:
+    """Return the bytes between the records before and behind the points."""
+    return min([layout.size, *(evlr.start for evlr in layout.evlrs)]) - layout.points_start
 
 
 def _check_compressed(layout: LasFile, file: BinaryIO) -> None:

@@ -99,8 +99,8 @@ class Description:
     encoding: str
     point_format: int
     point_count: int
-    minimum: tuple[float, float, float]  # in units of the CRS
-    maximum: tuple[float, float, float]  # in units of the CRS
+    minimum: tuple[float, float, float] | None  # in units of the CRS; None without points
+    maximum: tuple[float, float, float] | None  # in units of the CRS; None without points
     scale: tuple[float, float, float]
     offset: tuple[float, float, float]
     density: float | None  # points per square metre of the extent; None if it cannot be measured
@@ -156,8 +156,11 @@ class Description:
 
 def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
     """Describe a file, after reading all of its points."""
-    layout = open_las(path)
-    cloud = read_cloud(layout, progress)
+    layout = path if isinstance(path, LasFile) else open_las(path)
+    if not layout.count:
+        cloud = _empty_cloud(layout, 0, read_crs(layout, progress))
+    else:
+        cloud = read_cloud(layout, progress)
     if cloud.from_zero:
         progress.warning(FROM_ZERO)
     integers = (cloud.x, cloud.y, cloud.z)
@@ -167,8 +170,9 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
             for column, scale, offset in zip(integers, cloud.scale, cloud.offset)
         )
         for pick in (np.min, np.max)
+        if layout.count
     ]
-    scale = length_scale(cloud.crs, (*corners[0][:2], *corners[1][:2]))
+    scale = length_scale(cloud.crs, (*corners[0][:2], *corners[1][:2]) if corners else None)
     return Description(
         path=str(layout.path),
         file_size=layout.size,
@@ -176,11 +180,11 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
         encoding="COPC" if layout.is_copc else "LAZ" if layout.is_compressed else "uncompressed",
         point_format=layout.point_format,
         point_count=layout.count,
-        minimum=corners[0],
-        maximum=corners[1],
+        minimum=corners[0] if corners else None,
+        maximum=corners[1] if corners else None,
         scale=layout.scale,
         offset=layout.offset,
-        density=_density(cloud, scale, *corners),
+        density=_density(cloud, scale, *corners) if corners else None,
         crs=named_with_heights(cloud.crs.name, cloud.crs.datum),
         epsg=cloud.crs.epsg,
         is_geographic=cloud.crs.is_geographic,
@@ -276,5 +280,5 @@ def _counts(counts: dict[int, int]) -> str:
     return ", ".join(f"{value}: {count:,}" for value, count in counts.items())
 
 
-def _coordinates(values: tuple[float, ...]) -> str:
-    return "  ".join(f"{value:.10g}" for value in values)
+def _coordinates(values: tuple[float, ...] | None) -> str:
+    return "none" if values is None else "  ".join(f"{value:.10g}" for value in values)

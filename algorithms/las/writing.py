@@ -7,6 +7,7 @@ the necessary ones are changed.
 
 from __future__ import annotations
 
+import shutil
 import struct
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
@@ -85,6 +86,18 @@ def write_changed(
         _tell_of_waveforms(layout, target, progress)
 
 
+def write_without_points(layout: LasFile, target: Path) -> None:
+    """Write a file without points as it is; its name may ask for compression, or for none."""
+    check_writable(target)
+    wants = target.suffix.lower() == ".laz"
+    with replacing(target) as temporary:
+        if wants == layout.is_compressed:
+            shutil.copyfile(layout.path, temporary)
+        else:
+            _write(EditedFile(layout, Edits()), temporary, SILENT)
+        layout.check_unchanged()
+
+
 def is_copc(target: Path) -> bool:
     """Return whether a file of this name is written as COPC."""
     return target.name.lower().endswith(_COPC_SUFFIX)
@@ -155,7 +168,7 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
         file.write(layout.prefix(tuple(vlrs), compressed))
         writer = LazRecordWriter(file, laszip) if laszip else LasRecordWriter(file)
         channels, counts = set(), HeaderCounts(layout)
-        for records, classes, done in rewriting.points():
+        for records, classes, done in rewriting.points() if layout.count else ():
             if len(records):
                 points = named(layout, records)
                 # The flags in the same byte stay.

@@ -79,10 +79,10 @@ def lazy_rasters(blocks: Sequence[Block], step: MakeRasters) -> dict[str, Raster
             for number in sorted(rows, reverse=True)
         ]
         where, nodata = step.cells.of(window, grid.frame), row.nodata(step.model.nodata)
-        about = Band.of(where, nodata, row.shows, row.bands).description
+        about = Band.of(where, nodata, row.shows, row.bands)
         transform = (where.cell_size, 0.0, where.west, 0.0, -where.cell_size, where.north)
-        wkt = where.frame.wkt
-        rasters[name] = Raster(array.block(chunks), transform, wkt, nodata, name, about)
+        values = array.block(chunks)
+        rasters[name] = Raster(values, transform, about.wkt, nodata, name, about.description)
     return rasters
 
 

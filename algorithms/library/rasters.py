@@ -159,7 +159,7 @@ class Collected:
         """Add a raster; its name is that of the path."""
         rows = values if isinstance(values, Rows) else Rows(values.shape, "", [values])
         cells = np.concatenate([*rows.strips], axis=-2)
-        about = Band.of(grid, nodata, shows, rows.bands).description
+        about = Band.of(grid, nodata, shows, rows.bands)
         west, a, b, north, d, e = grid.geotransform
         transform, name = (a, b, west, d, e, north), path.name
-        self.rasters[name] = Raster(cells, transform, grid.frame.wkt, nodata, name, about)
+        self.rasters[name] = Raster(cells, transform, about.wkt, nodata, name, about.description)

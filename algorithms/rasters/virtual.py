@@ -38,7 +38,7 @@ def write_virtual(
     transform = ", ".join(repr(float(number)) for number in grid.geotransform)
     lines = [
         f'<VRTDataset rasterXSize="{grid.columns}" rasterYSize="{grid.rows}">',
-        f"<SRS>{escape(with_unit_of_heights(grid.frame.wkt))}</SRS>" if grid.frame.wkt else "",
+        f"<SRS>{escape(with_unit_of_heights(band.wkt))}</SRS>" if band.wkt else "",
         f"<GeoTransform>{transform}</GeoTransform>",
     ]
     for number, colour in enumerate(band.colours, 1):

@@ -17,7 +17,7 @@ from ..core.progress import Progress
 from ..core.temporary import remove, shown
 from ..core.version import __version__
 from ..crs.system import unit_name, unit_symbol
-from ..crs.wkt import with_unit_of_heights
+from ..crs.wkt import of_map, read_wkt, with_unit_of_heights
 from .geotiff import Raster, RasterGrid
 from .libraries import GdalErrors, library
 
@@ -51,27 +51,41 @@ class Rows(NamedTuple):
 
 
 class Band(NamedTuple):
-    """Properties of the bands: value for no data, description and unit, number of bands."""
+    """Properties of the bands: value for no data, description and unit, number of bands, CRS."""
 
     nodata: float
     description: str
     unit: str
     bands: int = 1
+    wkt: str | None = None  # with a vertical CRS only if the cells are heights
 
     @classmethod
     def of(cls, grid: RasterGrid | Raster, nodata: float, shows: str, bands: int = 1) -> Band:
         """Return the bands that `write_geotiff` writes; see there for `shows`."""
         metres, unit = grid.frame.vertical_unit, ""
+        wkt = _wkt_of(grid.frame.wkt, "{unit}" in shows)
         if isinstance(grid, Raster) and not grid.states_unit:
             shows = shows.replace(", {unit}", "")  # what is assumed is not stated
         elif "{unit}" in shows:
             unit = (grid.unit if isinstance(grid, Raster) else "") or unit_name(metres)
-        return cls(nodata, shows.format(unit=unit_symbol(metres)), unit, bands)
+        elif shows.endswith(", degrees"):
+            unit = "degree"
+        return cls(nodata, shows.format(unit=unit_symbol(metres)), unit, bands, wkt)
 
     @property
     def colours(self) -> tuple[str, ...]:
         """What each band shows, as GDAL names it."""
         return ("Gray",) if self.bands == 1 else ("Red", "Green", "Blue")
+
+
+def _wkt_of(wkt: str | None, is_height: bool) -> str | None:
+    """Return the CRS of heights, or of other cells, which have no vertical one."""
+    facts = read_wkt(wkt) if wkt else None
+    if wkt is None or facts is None or not facts.has_vertical:
+        return wkt
+    # GeoTIFF has no vertical CRS for heights above an ellipsoid.
+    is_above_ellipsoid = facts.datum is not None and facts.datum.is_ellipsoid
+    return wkt if is_height and not is_above_ellipsoid else of_map(wkt)
 
 
 def write_geotiff(
@@ -88,6 +102,8 @@ def write_geotiff(
     if isinstance(values, np.ndarray):
         values = Rows(values.shape, values.dtype.name, [values])
     band = Band.of(grid, nodata, shows, values.bands)
+    if "{unit}" in shows and band.wkt != grid.frame.wkt:
+        _tell_of_heights(progress)
     with Outputs() as outputs:
         _writer()(raster_file(outputs, target), values, grid, band, progress)
 
@@ -135,10 +151,13 @@ def _write_with_gdal(
             )
             errors.check(path)
             dataset.SetGeoTransform(grid.geotransform)
-            if grid.frame.wkt:
+            if about.wkt:
                 reference = osr.SpatialReference()
-                if reference.ImportFromWkt(grid.frame.wkt) == 0:
+                if reference.ImportFromWkt(about.wkt) == 0:
                     dataset.SetProjection(with_unit_of_heights(reference.ExportToWkt()))
+                elif reference.ImportFromWkt(of_map(about.wkt)) == 0:
+                    dataset.SetProjection(reference.ExportToWkt())
+                    _tell_of_heights(progress)
                 else:
                     _warn_without_crs(progress)
                 errors.clear()
@@ -192,7 +211,7 @@ def _write_with_rasterio(
     from rasterio.transform import Affine
     from rasterio.windows import Window
 
-    crs = _crs_of(grid, progress)
+    crs = _crs_of(about.wkt, progress)
     waiting = _waiting_file(path, rows)
     profile: dict[str, Any] = dict(
         driver="GTiff", width=rows.shape[1], height=rows.shape[0], count=rows.bands,
@@ -228,23 +247,33 @@ def _write_with_rasterio(
             remove(waiting)
 
 
-def _crs_of(grid: RasterGrid | Raster, progress: Progress) -> Any:
+def _crs_of(wkt: str | None, progress: Progress) -> Any:
     """Return the CRS as a rasterio object, or None."""
     import rasterio
     from rasterio.crs import CRS
     from rasterio.errors import CRSError
 
+    if not wkt:
+        return None
     try:
         with rasterio.Env():  # without it, GDAL prints its errors
-            if not grid.frame.wkt:
-                return None
-            crs = CRS.from_wkt(grid.frame.wkt)
+            crs = CRS.from_wkt(wkt)
             text = crs.to_wkt()
             changed = with_unit_of_heights(text)
             return crs if changed == text else CRS.from_wkt(changed)
     except CRSError:
+        if wkt != of_map(wkt):
+            _tell_of_heights(progress)
+            return _crs_of(of_map(wkt), progress)
         _warn_without_crs(progress)
         return None
+
+
+def _tell_of_heights(progress: Progress) -> None:
+    progress.warning(
+        "The raster states the CRS of x and y, but not that of its heights, which GeoTIFF cannot"
+        " state, such as heights above the ellipsoid."
+    )
 
 
 def _warn_without_crs(progress: Progress) -> None:

@@ -31,7 +31,7 @@ from ..core.words import counted, option
 from ..crs.stated import stated_wkt
 from ..crs.system import Crs, crs_of_wkt
 from ..las import header as fields
-from ..las.crs_records import GEOKEY_RECORDS, WKT_RECORD
+from ..las.crs_records import CRS_RECORDS, WKT_RECORD
 from ..las.edits import Edits
 from ..las.header_edits import with_count, with_statistics
 from ..las.lasfile import LARGEST_VLR, LASZIP, LasFile, new_vlr
@@ -333,7 +333,7 @@ class EptPart:
         vlrs = [vlr for vlr in tile.vlrs if vlr.key != LASZIP]
         text = (self._wkt or "").encode()
         if text and len(text) < LARGEST_VLR:
-            vlrs = [vlr for vlr in vlrs if vlr.key not in (*GEOKEY_RECORDS, WKT_RECORD)]
+            vlrs = [vlr for vlr in vlrs if vlr.key not in CRS_RECORDS]
             vlrs.append(new_vlr(WKT_RECORD, text + b"\0", "OGC WKT Coordinate System"))
             encoding = tile.global_encoding & _GPS_TIME_TYPE if tile.minor_version >= 2 else 0
             fields.GLOBAL_ENCODING.put(header, encoding | _WKT)

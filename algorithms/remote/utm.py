@@ -18,7 +18,7 @@ from ..crs.stated import stated_wkt
 from ..crs.system import Crs
 from ..crs.wkt import read_wkt
 from ..las import header as fields
-from ..las.crs_records import GEOKEY_RECORDS, WKT_RECORD
+from ..las.crs_records import CRS_RECORDS, WKT_RECORD
 from ..las.edits import Edits
 from ..las.header_edits import with_fields, with_statistics
 from ..las.lasfile import LASZIP, LasFile, new_vlr
@@ -46,7 +46,7 @@ class Utm:
         middle = np.mean([old.minimum[:2], old.maximum[:2]], axis=0)
         offset = np.floor(self._moved(middle[None])[0]).tolist()
         height = [old.scale[2] * self.height_unit, old.offset[2] * self.height_unit]
-        vlrs = [vlr for vlr in old.vlrs if vlr.key not in (LASZIP, *GEOKEY_RECORDS, WKT_RECORD)]
+        vlrs = [vlr for vlr in old.vlrs if vlr.key not in (LASZIP, *CRS_RECORDS)]
         text = (stated_wkt(self.zone) or "").encode() + b"\0"
         vlrs.append(new_vlr(WKT_RECORD, text, "OGC WKT Coordinate System"))
         layout = with_fields(

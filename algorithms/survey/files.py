@@ -20,7 +20,7 @@ from ..crs.system import Crs
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
 from ..las.lasfile import LasFile
-from ..las.opening import open_las
+from ..las.opening import NoPoints, open_las
 from ..las.reading import read_parts
 from ..las.sources import read_text
 from .copies import copies_in, tell_of_twins
@@ -90,6 +90,7 @@ class Survey:
     broken: tuple[BrokenTile, ...]  # those that cannot be read
     crs: Crs
     stated: str | None = None  # the CRS that the user states in place of the records, as WKT
+    empty: tuple[LasFile, ...] = ()  # sound files without points, which are none of the tiles
 
     @property
     def count(self) -> int:
@@ -137,15 +138,23 @@ def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
     files = [path for path in inputs if not path.is_dir()]
     named = set(map(_key, find_files(files, may_be_none=True)))
     notes, tiles, found, broken = Notes(), [], [], []
+    empty: list[LasFile] = []
     for number, path in enumerate(paths, start=1):
         try:
             tile = open_las(path, stated)
             _check_extent(tile)
             found.append(_crs_of(tile, notes))
             tiles.append(tile)
+        except NoPoints as error:
+            empty += error.layouts
         except BareEarthError as error:
             broken.append(BrokenTile(path, str(error)))
         progress(number / len(paths))
+    if empty:
+        hold = "holds" if len(empty) == 1 else "hold"
+        progress.warning(f"{_names(empty)} {hold} no points.")
+    if not tiles and not broken:
+        raise NoPoints("None of the files holds a point. Give files that have some.", tuple(empty))
     if not tiles:
         raise BareEarthError(
             broken[0].reason
@@ -158,7 +167,7 @@ def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
     tiles, found = (list(column) for column in zip(*pairs))
     crs = _common_crs(tiles, found, progress)
     tell_of_twins(tiles, progress)
-    return Survey(tuple(tiles), tuple(broken), crs, stated)
+    return Survey(tuple(tiles), tuple(broken), crs, stated, tuple(empty))
 
 
 def find_files(
@@ -309,10 +318,12 @@ def _tell_of_datums(
             others.setdefault(crs.datum.crs if crs.datum else "", []).append(tile)
     silent = others.pop("", [])
     if silent:
-        progress.info(
-            f"No vertical datum is stated by {_names(silent)}: that of the others is used,"
-            f" {common.datum.crs}."
-        )
+        text = f"No vertical datum is stated by {_names(silent)}: that of the others is used,"
+        if common.datum.is_ellipsoid:
+            # Heights above the sea differ from these by up to 100 m.
+            progress.warning(f"{text} {common.datum.crs}. Check that their heights fit together.")
+        else:
+            progress.info(f"{text} {common.datum.crs}.")
     if others:
         progress.warning(
             f"The vertical datum of most files is {common.datum.crs}; others name it"

@@ -5,7 +5,7 @@ import pytest
 from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.crs.matching import is_other_datum
 from bare_earth.algorithms.crs.system import Crs, compound_wkt, crs_of_wkt, unit_name
-from bare_earth.algorithms.crs.wkt import read_wkt
+from bare_earth.algorithms.crs.wkt import of_map, read_wkt
 from bare_earth.algorithms.las.crs_records import read_crs
 from bare_earth.algorithms.las.opening import open_las
 
@@ -372,3 +372,53 @@ def test_a_library_knows_the_units_of_a_code():
 )
 def test_units_have_names(metres, name):
     assert unit_name(metres) == name
+
+
+@pytest.mark.parametrize(
+    ("user", "number"),
+    [(b"LASF_Projection", 4224), (b"PDAL", 4224), (b"liblas", 2112), (b"LASF_Projection", 4225),
+     (b"PDAL", 4225)],
+)  # fmt: skip
+def test_the_records_of_pdal_and_liblas_are_read(las, user, number):
+    pyproj = pytest.importorskip("pyproj")
+    crs = pyproj.CRS("EPSG:2264+6360")
+    text = {2112: crs.to_wkt("WKT1_GDAL"), 4224: crs.to_wkt(), 4225: crs.to_json()}[number]
+    found, progress = crs_of(las, las.vlr(user, number, text.encode()))
+    assert found.epsg == 2264 and found.datum.name == "North American Vertical Datum 1988"
+    assert found.horizontal_unit == found.vertical_unit == pytest.approx(SURVEY)
+    assert progress.warnings == []
+
+
+@pytest.mark.parametrize("text", ["{}", '{"type": "GeographicCRS"', "[" * 5000, '{"a":' * 5000])
+def test_a_projjson_that_cannot_be_read_is_named(las, text):
+    crs, progress = crs_of(las, las.vlr(b"PDAL", 4225, text.encode()))
+    assert crs == Crs()
+    assert any("4225 (PROJJSON)" in warning for warning in progress.warnings)
+
+
+def test_a_projjson_needs_a_library(las, monkeypatch):
+    monkeypatch.setattr(provider.importlib.util, "find_spec", lambda name: None)
+    _, progress = crs_of(las, las.vlr(b"PDAL", 4225, b'{"type": "ProjectedCRS"}'))
+    assert any("pip install pyproj" in warning for warning in progress.warnings)
+
+
+@pytest.mark.parametrize(
+    "name", ["unknown", "Unknown vertical datum", "unnamed", "N/A", "none", ""]
+)
+def test_a_placeholder_states_no_vertical_datum(name):
+    heights = f'VERT_CS["{name}",VERT_DATUM["{name}",2005],UNIT["metre",1],AXIS["Up",UP]]'
+    crs = crs_of_wkt(f'COMPD_CS["x",{projcs(METRE_1)},{heights}]')
+    assert crs.datum is None and crs.vertical_unit == 1.0
+    above = crs_of_wkt(f'COMPD_CS["x",{projcs(METRE_1)},{heights.replace("2005", "2002")}]')
+    assert above.datum.is_ellipsoid
+
+
+@pytest.mark.parametrize("kind", ["WKT1_GDAL", "WKT1_ESRI", "WKT2_2019"])
+@pytest.mark.parametrize("code", ["25832", "25832+7837", "25832 3D"])
+def test_the_horizontal_part_of_a_text(kind, code):
+    pyproj = pytest.importorskip("pyproj")
+    crs = pyproj.CRS(f"EPSG:{code.split()[0]}")
+    text = crs.to_3d().to_wkt() if "3D" in code else crs.to_wkt(kind)
+    flat = pyproj.CRS(of_map(text))
+    assert len(flat.axis_info) == 2 and flat.to_epsg(20) == 25832
+    assert of_map(of_map(text)) == of_map(text)

@@ -96,9 +96,9 @@ def test_a_broken_file_stops_nothing_and_is_told(las):
     assert "not a LAS or LAZ file" in reasons["other.laz"]
     assert "does not state the extent" in reasons["nowhere.las"]
     assert "does not state the extent" in reasons["zero.las"]
-    assert "no points" in reasons["empty.las"]
+    assert [layout.path.name for layout in survey.empty] == ["empty.las"]
     assert "does not exist" in reasons["missing.laz"]
-    assert len(reasons) == 6
+    assert len(reasons) == 5
 
 
 def test_nothing_that_can_be_read_is_an_error(las):
@@ -198,6 +198,19 @@ def test_a_datum_that_is_not_stated_or_named_differently_is_told(las):
     open_survey([las.folder], progress=heard)
     (warning,) = heard.warnings
     assert "NZVD2016 height; others name it Geoid 2016: d.las" in warning
+
+
+def test_files_with_a_placeholder_for_their_datum_are_joined_and_told(las):
+    tile(las, "a.las", wkt=heights("unknown", "unknown"))
+    real = heights("NZVD2016 height", "New Zealand Vertical Datum 2016")
+    for wkt in (real, heights("Ellipsoid (meters)", "Ellipsoid").replace("2005", "2002")):
+        tile(las, "b.las", 100, wkt=wkt)
+        heard = las.Heard()
+        survey = open_survey([las.folder], progress=heard)
+        assert len(survey.tiles) == 2 and survey.crs.datum is not None
+        (told,) = [text for text in (*heard.infos, *heard.warnings) if "datum" in text]
+        assert told.startswith("No vertical datum is stated by a.las")
+    assert heard.warnings == [told]  # heights above the ellipsoid are far off
 
 
 def test_a_missing_crs_is_taken_from_the_others_if_these_are_metres(las):

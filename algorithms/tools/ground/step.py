@@ -57,7 +57,7 @@ class Summary(FileSummary):
     def text(self) -> str:
         """The share of the ground in words."""
         ground, count = self.area_ground_count, self.area_count
-        share = 100 * ground / count
+        share = 100 * ground / max(count, 1)
         return f"{ground:,} of {count:,} points{self._where} are ground ({share:.1f} %)"
 
 

@@ -292,7 +292,8 @@ class QualityCells:
         is_made = self._made.made(part)
         if part.strip is not None:
             is_made |= np.isin(part.strip, self._no_strips)
-        self.counts.infilled += int(np.count_nonzero(is_made & ~part.synthetic & ~part.withheld))
+        is_infilled = is_made & ~np.asarray(part.synthetic) & ~part.withheld
+        self.counts.infilled += int(np.count_nonzero(is_infilled))
         used = _real(part, is_made) & ~self._repeated.among(part)
         x, y, z = part.points(used, frame)
         number, flagged = part.return_number[used], overlapping(part)[used]

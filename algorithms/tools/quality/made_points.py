@@ -41,12 +41,13 @@ class MadePoints:
         """Read files, mostly only their first parts, until it is known how they count returns and
         whether all points are synthetic.
         """
-        counting, infill = set(), set()
+        counting: set[Path] = set()
+        infill: set[Path] = set()
         shares = progress.shares(*(max(tile.count, 1) for tile in survey.tiles))
         for tile, share in zip(survey.tiles, shares):
             counts = has_land = False
             for part in read_parts(tile, share.quiet(), True, has_times):
-                self.all_synthetic &= bool(part.synthetic.all())
+                self.all_synthetic &= bool(np.all(part.synthetic))
                 self._has_times |= part.gps_time is not None and bool(part.gps_time.any())
                 has_land |= not _may_be_infill(part).all()
                 if part.return_number.any() and not counts:
@@ -68,9 +69,10 @@ class MadePoints:
         """Look at the source ids of a part of the points, of which some are used."""
         used = used & ~self.infilled(part)
         own = PRODUCERS_CLASSES[part.classification]
-        self._of_producers[part.strip[used & own]] = True
+        strip = np.asarray(part.strip)
+        self._of_producers[strip[used & own]] = True
         is_measured = ~_may_be_infill(part) | (part.number_of_returns > 1)
-        self._measured[part.strip[used & is_measured]] = True
+        self._measured[strip[used & is_measured]] = True
 
     def sources(self) -> np.ndarray:
         """Return the source ids that are no flight strips, when all parts are added."""
@@ -89,7 +91,7 @@ class MadePoints:
     def made(self, part: PointCloud) -> np.ndarray:
         """Return which points were made, among these synthetic ones; boolean, shape (n,)."""
         made = self.infilled(part)
-        return made if self._counts_synthetic else made | part.synthetic
+        return made if self._counts_synthetic else made | np.asarray(part.synthetic)
 
 
 def _may_be_infill(part: PointCloud) -> np.ndarray:
