@@ -126,7 +126,7 @@ TOOL = Composition(
     page="point-cloud-to-terrain",
     words=(
         CLOUD, GROUND, TERRAIN, CANOPY, TILES, "contours,workflow",
-        "deliverables,archaeology,forestry,flood,drone",
+        "deliverables,archaeology,forestry,flood,drone,stockpile",
     ),
     shown=("delivery", "method", "preset", "dtm_cell_size", "contour_interval"),
     dialog_sets=(

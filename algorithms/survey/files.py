@@ -218,6 +218,11 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
                 raise BareEarthError(
                     f"{source} lists another list, {path}. List its files instead."
                 )
+            if not path.exists():
+                raise BareEarthError(
+                    f"{source} lists {path}, which does not exist. A list has the path of a point"
+                    " cloud in each line."
+                )
             yield from _expand(path, recursive, progress)
     elif is_cloud(source):
         yield source

@@ -13,7 +13,7 @@ from ..survey.files import Inputs
 from ..survey.ground_classes import GroundClasses
 
 # Search words of the toolbox that several tools share; each text is translated as a whole.
-CLOUD = "lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud"
+CLOUD = "lidar,laser scanning,als,uav,drone,las,laz,copc,ept,point cloud"
 GROUND = (
     "ground,bare earth,ground filter,ground classification,classify ground,extract ground,"
     "ground points,noise,outliers,vegetation removal,smrf,pmf,csf,mcc,lasground,classifyground"

@@ -142,5 +142,5 @@ TOOL = FileTool(
     " before it begins. If it is stopped, the same run goes on where it was.",
     numbers=(("POINT_COUNT", "Points"),),
     page="fetch",
-    words=(CLOUD, "download,remote,url,web,http,copc,clip,cloud storage"),
+    words=(CLOUD, "download,remote,url,web,http,clip,cloud storage,reproject,utm"),
 )

@@ -605,7 +605,7 @@
     </message>
     <message>
         <source>Give an extent or a boundary, not both, for an address.</source>
-        <translation>Geben Sie für eine Adresse eine Ausdehnung oder eine Grenze an, nicht beides.</translation>
+        <translation>Geben Sie für eine Adresse eine Ausdehnung oder eine Begrenzung an, nicht beides.</translation>
     </message>
     <message>
         <source>Given</source>
@@ -654,6 +654,10 @@
     <message>
         <source>Grid size</source>
         <translation>Rasterweite</translation>
+    </message>
+    <message>
+        <source>Ground and height above ground</source>
+        <translation>Boden und Höhe über Grund</translation>
     </message>
     <message>
         <source>Ground classes</source>
@@ -736,10 +740,6 @@
         <translation>Höhenschwellen</translation>
     </message>
     <message>
-        <source>Heights above ground</source>
-        <translation>Höhen über Grund</translation>
-    </message>
-    <message>
         <source>Heights of vegetation</source>
         <translation>Höhen der Vegetation</translation>
     </message>
@@ -777,11 +777,11 @@
     </message>
     <message>
         <source>Ignored classes of the reference</source>
-        <translation>Nicht beachtete Klassen der Referenz</translation>
+        <translation>Ignorierte Klassen der Referenz</translation>
     </message>
     <message>
         <source>Ignored ground</source>
-        <translation>Ausgelassener Boden</translation>
+        <translation>Ignorierter Boden</translation>
     </message>
     <message>
         <source>Ignored ground beside the shore</source>
@@ -972,6 +972,14 @@
         <translation>Misst Dichten, Lücken und Flugstreifen und vergleicht sie mit einer Spezifikation.</translation>
     </message>
     <message>
+        <source>Meets the accuracy class (1 or 0)</source>
+        <translation>Erfüllt die Genauigkeitsklasse (1 oder 0)</translation>
+    </message>
+    <message>
+        <source>Meets the specification (1 or 0)</source>
+        <translation>Erfüllt die Spezifikation (1 oder 0)</translation>
+    </message>
+    <message>
         <source>Memory</source>
         <translation>Arbeitsspeicher</translation>
     </message>
@@ -993,7 +1001,7 @@
     </message>
     <message>
         <source>Model key point</source>
-        <translation>Modellschlüsselpunkt</translation>
+        <translation>Modell-Schlüsselpunkt</translation>
     </message>
     <message>
         <source>Models</source>
@@ -1213,11 +1221,11 @@
     </message>
     <message>
         <source>RMSE with vegetation [m]</source>
-        <translation>RMSE mit Bewuchs [m]</translation>
+        <translation>RMSE mit Vegetation [m]</translation>
     </message>
     <message>
         <source>RMSE without vegetation [m]</source>
-        <translation>RMSE ohne Bewuchs [m]</translation>
+        <translation>RMSE ohne Vegetation [m]</translation>
     </message>
     <message>
         <source>Radius of the relief</source>
@@ -1492,6 +1500,10 @@
         <translation>TIN-Verdichtung, Stadt</translation>
     </message>
     <message>
+        <source>Tables</source>
+        <translation>Tabellen</translation>
+    </message>
+    <message>
         <source>Take part as others do</source>
         <translation>Teilnehmen wie die übrigen</translation>
     </message>
@@ -1684,6 +1696,10 @@
         <translation>Vegetation niedrig unter 0,5 m, mittel bis 2 m, darüber hoch</translation>
     </message>
     <message>
+        <source>Verdict</source>
+        <translation>Urteil</translation>
+    </message>
+    <message>
         <source>Virtual point cloud</source>
         <translation>Virtuelle Punktwolke</translation>
     </message>
@@ -1784,16 +1800,16 @@
         <translation>Grad</translation>
     </message>
     <message>
-        <source>deliverables,archaeology,forestry,flood,drone</source>
-        <translation>Lieferung,Archäologie,Forst,Hochwasser,Drohne</translation>
+        <source>deliverables,archaeology,forestry,flood,drone,stockpile</source>
+        <translation>Lieferung,Archäologie,Forst,Hochwasser,Drohne,Halde</translation>
     </message>
     <message>
         <source>densification</source>
         <translation>Verdichtung</translation>
     </message>
     <message>
-        <source>download,remote,url,web,http,copc,clip,cloud storage</source>
-        <translation>herunterladen,entfernt,url,web,http,copc,ausschneiden,cloud-speicher</translation>
+        <source>download,remote,url,web,http,clip,cloud storage,reproject,utm</source>
+        <translation>herunterladen,entfernt,url,web,http,ausschneiden,cloud-speicher,umprojizieren,utm</translation>
     </message>
     <message>
         <source>finer cells off surface</source>
@@ -1856,8 +1872,8 @@
         <translation>auf der Höhe von Startpunkten daneben</translation>
     </message>
     <message>
-        <source>lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud</source>
-        <translation>Lidar,Laserscanning,Airborne Laserscanning,Drohne,las,laz,copc,Punktwolke</translation>
+        <source>lidar,laser scanning,als,uav,drone,las,laz,copc,ept,point cloud</source>
+        <translation>Lidar,Laserscanning,Airborne Laserscanning,Drohne,las,laz,copc,ept,Punktwolke</translation>
     </message>
     <message>
         <source>low outliers</source>

@@ -656,6 +656,10 @@
         <translation>Pas de la grille</translation>
     </message>
     <message>
+        <source>Ground and height above ground</source>
+        <translation>Sol et hauteur au-dessus du sol</translation>
+    </message>
+    <message>
         <source>Ground classes</source>
         <translation>Classes de sol</translation>
     </message>
@@ -734,10 +738,6 @@
     <message>
         <source>Height thresholds</source>
         <translation>Seuils de hauteur</translation>
-    </message>
-    <message>
-        <source>Heights above ground</source>
-        <translation>Hauteurs au-dessus du sol</translation>
     </message>
     <message>
         <source>Heights of vegetation</source>
@@ -970,6 +970,14 @@
     <message>
         <source>Measures densities, voids and strips, and compares them with a specification.</source>
         <translation>Mesure densités, vides et bandes de vol, et les compare à une spécification.</translation>
+    </message>
+    <message>
+        <source>Meets the accuracy class (1 or 0)</source>
+        <translation>Respecte la classe de précision (1 ou 0)</translation>
+    </message>
+    <message>
+        <source>Meets the specification (1 or 0)</source>
+        <translation>Respecte la spécification (1 ou 0)</translation>
     </message>
     <message>
         <source>Memory</source>
@@ -1492,6 +1500,10 @@
         <translation>Densification de TIN, Ville</translation>
     </message>
     <message>
+        <source>Tables</source>
+        <translation>Tables</translation>
+    </message>
+    <message>
         <source>Take part as others do</source>
         <translation>Participer comme les autres</translation>
     </message>
@@ -1684,6 +1696,10 @@
         <translation>Végétation basse sous 0,5 m, moyenne jusqu'à 2 m, haute au-dessus</translation>
     </message>
     <message>
+        <source>Verdict</source>
+        <translation>Verdict</translation>
+    </message>
+    <message>
         <source>Virtual point cloud</source>
         <translation>Nuage de points virtuel</translation>
     </message>
@@ -1784,16 +1800,16 @@
         <translation>degrés</translation>
     </message>
     <message>
-        <source>deliverables,archaeology,forestry,flood,drone</source>
-        <translation>livrables,archéologie,forêt,inondation,drone</translation>
+        <source>deliverables,archaeology,forestry,flood,drone,stockpile</source>
+        <translation>livrables,archéologie,forêt,inondation,drone,stock de matériaux</translation>
     </message>
     <message>
         <source>densification</source>
         <translation>densification</translation>
     </message>
     <message>
-        <source>download,remote,url,web,http,copc,clip,cloud storage</source>
-        <translation>télécharger,distant,url,web,http,copc,découper,stockage cloud</translation>
+        <source>download,remote,url,web,http,clip,cloud storage,reproject,utm</source>
+        <translation>télécharger,distant,url,web,http,découper,stockage cloud,reprojeter,utm</translation>
     </message>
     <message>
         <source>finer cells off surface</source>
@@ -1856,8 +1872,8 @@
         <translation>au niveau de points de départ voisins</translation>
     </message>
     <message>
-        <source>lidar,laser scanning,als,uav,drone,las,laz,copc,point cloud</source>
-        <translation>lidar,laser aéroporté,drone,las,laz,copc,nuage de points</translation>
+        <source>lidar,laser scanning,als,uav,drone,las,laz,copc,ept,point cloud</source>
+        <translation>lidar,laser aéroporté,drone,las,laz,copc,ept,nuage de points</translation>
     </message>
     <message>
         <source>low outliers</source>

@@ -289,16 +289,19 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         """Run `compute`; if it is cancelled or fails, QGIS loads no output."""
         before, progress = set(context.layersToLoadOnCompletion()), FeedbackProgress(feedback)
         results: dict[str, Any] = {}
+        has_failed = True
         try:
             with errors_for_qgis(), addresses_named(self.brought):
                 self.bring(parameters, context, progress)
                 results = self.compute(parameters, context, progress)
+            has_failed = False
         except Cancelled:
+            has_failed = False
             feedback.pushInfo(self.cancelled)
         finally:
             if not results:
                 do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
-            progress.end(self.class_counts if results else {})
+            progress.end(self.class_counts if results else {}, has_failed)
             self._arrange(results, context, progress.commands)
         return results
 

@@ -94,8 +94,10 @@ class FeedbackProgress(Progress):
         """The commands that do the same without QGIS."""
         return tuple(self._commands)
 
-    def end(self, class_counts: Mapping[int, int]) -> None:
-        """End the log with points of each class, automatic choices, time and commands."""
+    def end(self, class_counts: Mapping[int, int], has_failed: bool) -> None:
+        """End the log with points of each class, automatic choices, time, and the commands of a run
+        that has not failed.
+        """
         every = max(sum(class_counts.values()), 1)
         for value in sorted(class_counts, key=lambda value: (value != _GROUND, value)):
             count, name = class_counts[value], CLASSES.get(value, "")
@@ -104,6 +106,8 @@ class FeedbackProgress(Progress):
         for choice in self._choices:
             self.info(f"Chosen automatically: {choice}")
         self.info(f"Time: {time.monotonic() - self._begun:.1f} s")
+        if has_failed:
+            return
         if self._commands:
             self.info("The same without QGIS:")
         for command in self._commands:

@@ -110,6 +110,13 @@ def test_nothing_that_can_be_read_is_an_error(las):
         open_survey([las.folder / "0.las"])
 
 
+def test_a_text_file_that_is_no_list_is_named(tmp_path):
+    path = tmp_path / "points.txt"
+    path.write_text("id E N H\nA 1 2 3\n")
+    with pytest.raises(BareEarthError, match=r"points\.txt lists .*id E N H, which does not exist"):
+        find_files(path)
+
+
 def test_sources_that_are_none_are_told(las):
     with pytest.raises(BareEarthError, match=r"No \.las"):
         find_files([las.folder])

@@ -345,9 +345,19 @@ def test_each_algorithm_has_an_icon_of_its_own(registry):
         "dem",
         "lidar",
         "drone",
+        "ept",
     ],
 )
 def test_the_search_of_the_toolbox_finds_what_people_type(registry, words):
+    assert {ALGORITHM, "bareearth:pointcloudtoterrain"} <= found_by(registry, words)
+
+
+def test_the_search_of_the_toolbox_finds_single_tools(registry):
+    assert "bareearth:pointcloudtoterrain" in found_by(registry, "stockpile")
+    assert "bareearth:fetch" in found_by(registry, "reproject")
+
+
+def found_by(registry, words):
     model = QgsProcessingToolboxProxyModel(None, registry)
     model.setFilterString(words)
     found = set()
@@ -360,7 +370,7 @@ def test_the_search_of_the_toolbox_finds_what_people_type(registry, words):
             look(index)
 
     look(QModelIndex())
-    assert {ALGORITHM, "bareearth:pointcloudtoterrain"} <= found
+    return found
 
 
 def test_an_instance_is_of_the_same_kind(any_algorithm):
