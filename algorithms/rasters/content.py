@@ -61,7 +61,9 @@ class MemoryRaster:
     def of(cls, content: Content, name: str) -> MemoryRaster:
         """Return a raster, without the cells whose value is no data that is not declared."""
         found = undeclared_in(zip(content.values, content.valid))
-        valid = content.valid & ~found.among(content.values) if found.counts else content.valid
+        valid = content.valid
+        if found.counts:
+            valid = valid & ~found.among(content.values, valid)
         return cls(content._replace(valid=valid), name, found)
 
     def __str__(self) -> str:
@@ -89,13 +91,14 @@ def read_content(source: Source, band: int = 1, window: Window | None = None) ->
     read = partial(library(_read_with_gdal, _read_with_rasterio, "Reading"), str(source), band)
     _check_local(str(source))
     content: Content = read(window)
-    if suspects(content.values, content.valid).any():
+    suspect = suspects(content.values, content.valid)
+    if suspect.any():
         key = _key(source, band)
         if key not in _FOUND:
             while len(_FOUND) >= _MOST_FOUND:
                 _FOUND.pop(next(iter(_FOUND)), None)
             _FOUND[key] = undeclared_in(_parts(read, content.shape))
-        content.valid[_FOUND[key].among(content.values)] = False
+        content.valid[_FOUND[key].among(content.values, suspect)] = False
     return content
 
 

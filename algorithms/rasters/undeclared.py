@@ -26,9 +26,13 @@ class Undeclared(NamedTuple):
 
     counts: dict[float, int]
 
-    def among(self, values: np.ndarray) -> np.ndarray:
-        """Return which cells have such a value."""
-        return np.isin(values, [*self.counts]) | (values <= -_ABSURD) | (values >= _ABSURD)
+    def among(self, values: np.ndarray, valid: np.ndarray) -> np.ndarray:
+        """Return which valid cells have such a value."""
+        found = valid & ((values <= _LOW) | (values >= _HIGH))
+        some = values[found]  # few, but in high mountains in feet
+        is_absurd = np.isfinite(some) & ((some <= -_ABSURD) | (some >= _ABSURD))
+        found[found] = is_absurd | np.isin(some, [*self.counts])
+        return found
 
     def text(self, source: object) -> str:
         """The sentence for users; empty if there are none."""
@@ -41,15 +45,14 @@ class Undeclared(NamedTuple):
         )
 
 
+_USUAL_ONES = Undeclared(dict.fromkeys(_USUAL, 0))
+
+
 def suspects(values: np.ndarray, valid: np.ndarray) -> np.ndarray:
     """Return which valid cells have a usual value for no data, whatever the others have."""
-    none = np.zeros(values.shape, dtype=bool)
     if values.dtype.kind not in "iuf" or values.dtype.itemsize == 1:
-        return none
-    known = values[valid]
-    if not (np.fmin.reduce(known, initial=0) <= _LOW or np.fmax.reduce(known, initial=0) >= _HIGH):
-        return none
-    return valid & np.isfinite(values) & Undeclared(dict.fromkeys(_USUAL, 0)).among(values)
+        return np.zeros(values.shape, dtype=bool)
+    return _USUAL_ONES.among(values, valid)
 
 
 def undeclared_in(parts: Iterable[tuple[np.ndarray, np.ndarray]]) -> Undeclared:
