@@ -12,17 +12,17 @@ from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay, UsageErr
 from ..core.words import Flags, use_names
 from ..engine.memory import share_one_heap
 from ..tools import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
-from . import cache, odm
+from . import cache
 from .commands import tool_command
 from .options import FAILED, USAGE
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (
-    tool_command("classify"), tool_command("classify-tiles"), tool_command("deliver"),
+    tool_command("classify"), tool_command("deliver"),
     *map(tool_command, ("info", "assess", "check", "quality")),
     *map(tool_command, ("remove-off-terrain-objects", "height", "above-ground", "key-points")),
     *map(tool_command, ("terrain", "contours", "relief", "water", "water-classes")),
-    *odm.COMMANDS, *cache.COMMANDS,
+    *cache.COMMANDS,
 )  # fmt: skip
 
 

@@ -12,7 +12,7 @@ def tool_commands() -> dict[str, str]:
     """Return the commands of tools, by the names of their functions."""
     commands = {command.replace("-", "_"): command for command in FILE_TOOLS}
     commands.update((listed.file, command) for command, listed in POINT_TOOLS.items())
-    # "classify-tiles" is no function of its own.
+    # "classify-tiles" is a dialog alone.
     commands.update((name, name) for name in (*MAP_TOOLS, *COMPOSITIONS) if name.isidentifier())
     return commands
 

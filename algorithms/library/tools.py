@@ -194,7 +194,10 @@ def _run_on_points(tool: Tool, values: SimpleNamespace, sets: list[Any]) -> Any:
     from ..tools.running import run
 
     outputs = _outputs_of(tool, values)
-    points = inputs_of(values, getattr(tool, "is_survey", False))
+    target = getattr(values, "output", None)
+    # One file, too, is written under its name into a folder.
+    is_folder = target is not None and (Path(target).is_dir() or not Path(target).suffix)
+    points = inputs_of(values, is_folder)
     inputs: dict[str, Any] = {"input": points, "crs": values.crs}
     inputs.update((declared.name, input_of(declared, values)) for declared in tool.inputs)
     workers = workers_of(values, Resources.among(sets))

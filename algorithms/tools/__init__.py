@@ -35,9 +35,7 @@ MAP_TOOLS = {
     "classify": Listed(
         "ground.tool", "classify the ground points of a file, or of many as one survey"
     ),
-    "classify-tiles": Listed(
-        "ground.tool", "the same as classify, but always writes into a folder", "TILES_TOOL"
-    ),
+    "classify-tiles": Listed("ground.tool", "the dialog of classify for many files", "TILES_TOOL"),
     "terrain": Listed("rasters.tool", "make rasters of the terrain and of what stands on it"),
 }
 # The tools that read files and write others.

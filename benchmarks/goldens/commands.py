@@ -46,7 +46,7 @@ COMMANDS = {
     # Many files.
     "classify/survey-tin": f"classify raw OUT/tiles --dtm OUT/dtm.tif {_ALL_CLASSES} {_POINTS}"
     " asprs --format copc.laz --overview --json",
-    "classify/survey-slope": f"classify-tiles raw OUT/tiles --method slope {_POINTS} ign --vpc"
+    "classify/survey-slope": f"classify raw OUT/tiles --method slope {_POINTS} ign --vpc"
     " OUT/all.vpc --corrections corrections.geojson --raster-per-file --dtm OUT/dtm.tif",
     "classify/survey-grid-minimum": "classify raw OUT/tiles --method grid-minimum --format las"
     " --boundary boundary.geojson --area-only --hillshade OUT/shade.tif --dtm-cell-size 2",
@@ -115,7 +115,6 @@ COMMANDS = {
     " --json",
     "compare-settings": "compare-settings raw OUT/page.html --extent 569970 5931970 570030 5932030"
     " --settings grid-minimum:automatic slope:town --json",
-    "odm": "odm raw.laz OUT/a.laz --window 18 --json",
     "info/file": "info truth.laz",
     "info/old": "info old.las --json",
     # What is refused.

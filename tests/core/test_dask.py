@@ -128,14 +128,14 @@ def survey(tmp_path_factory):
 
 def test_a_cluster_gives_the_same_bytes(dask, survey, tmp_path):
     folder, expected = survey
-    words = ["classify-tiles", folder, tmp_path / "out", "--scheduler", dask[0]]
+    words = ["classify", folder, tmp_path / "out", "--scheduler", dask[0]]
     assert main([*map(str, words), "--method", "slope", "--preset", "whitebox"]) == 0
     assert bytes_of(tmp_path / "out") == expected
 
 
 def test_a_scheduler_that_is_not_there_is_told(survey, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(cluster_module, "_CONNECTING", "1s")
-    words = ["classify-tiles", survey[0], tmp_path / "out"]
+    words = ["classify", survey[0], tmp_path / "out"]
     address = f"tcp://127.0.0.1:{free_port()}"
     assert main([*map(str, words), "--scheduler", address]) == 1
     assert f"No Dask scheduler answers at {address}" in capsys.readouterr().err

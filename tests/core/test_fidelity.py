@@ -301,7 +301,7 @@ def outputs(path):
         yield "classify", command("classify", path, target), target
     coarse = ("--dtm", dtm, "--dtm-cell-size", "20")
     yield "classify", [*command("classify", path, folder / "r.las"), *coarse], folder / "r.las"
-    yield "tiles", ["classify-tiles", path, folder / "tiles", "--method", "slope"], None
+    yield "tiles", ["classify", path, folder / "tiles", "--method", "slope"], None
     for name in COMMANDS[1:]:
         target = folder / f"{name}{suffix}".replace(" ", "-")
         yield name, command(name, classified, target), target

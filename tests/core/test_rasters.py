@@ -229,7 +229,7 @@ def test_the_terrain_command_takes_a_folder(survey, tmp_path, capsys, threads_fo
     words = ["terrain", str(survey / "many"), "--dtm", str(tmp_path / "dtm.tif"), "--json"]
     assert main(words) == 0
     assert json.loads(capsys.readouterr().out)["columns"] == 300
-    words = ["classify-tiles", str(survey / "many"), str(tmp_path / "out"), "--method", "slope"]
+    words = ["classify", str(survey / "many"), str(tmp_path / "out"), "--method", "slope"]
     assert main([*words, "--hillshade", str(tmp_path / "out" / "shade.tif")]) == 0
     assert (tmp_path / "out" / "shade.tif").exists()
 

@@ -193,7 +193,7 @@ def test_secrets_are_nowhere(server, tiles, tmp_path, threads_for_processes):
         ("info", address),
         ("info", address, "--json"),
         ("quality", address, "--page", tmp_path / "page.html"),
-        ("classify-tiles", address, tmp_path / "out", *EXTENT),
+        ("classify", address, tmp_path / "out", *EXTENT),
         ("classify", address, tmp_path / "out.laz", "--limit", "0", "--cache", tmp_path / "new"),
     ):
         code, *texts = said(*words, "--verbose")
@@ -337,7 +337,6 @@ def test_a_plain_file_is_whole_or_one_sentence(server, tmp_path, fault, every, m
 # What each command needs besides the address: what stands before it, and behind it.
 COMMANDS = {
     "classify": ((), ("out.laz",)),
-    "classify-tiles": ((), ("out",)),
     "deliver": (("survey",), ("out",)),
     "check": ((), ("--checkpoints", "points.csv")),
     "quality": ((), ("--page", "page.html")),

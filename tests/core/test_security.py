@@ -87,8 +87,8 @@ def outputs(folder, source, name):
         "assess": ("assess", classified, classified, "--report", out.with_name(f"{name}.html")),
         "compare-settings": ("compare-settings", source, out.with_name(f"{name}.html"), *box,
                              "--settings", "slope:automatic", "slope:town"),
-        "classify-tiles": ("classify-tiles", source.parent, folder / "out" / "tiles",
-                           "--method", "slope", "--vpc", out.with_name(f"{name}.vpc")),
+        "classify many": ("classify", source.parent, folder / "out" / "tiles",
+                          "--method", "slope", "--vpc", out.with_name(f"{name}.vpc")),
         "remove-off-terrain-objects": ("remove-off-terrain-objects",
                                        out.with_name(f"{name}.tif"), out.with_name(f"{name}.tiff")),
     }  # fmt: skip

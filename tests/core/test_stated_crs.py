@@ -219,7 +219,7 @@ def test_coordinates_that_cannot_be_degrees_are_told_and_can_be_given_a_crs(degr
     for words in (
         ("terrain", degrees, *dtm),
         ("classify", degrees, tmp_path / "out.las"),
-        ("classify-tiles", degrees, tmp_path / "out"),
+        ("classify", degrees, tmp_path / "out"),
     ):
         code, _, errors = said(*words)
         assert code == 1
@@ -255,7 +255,7 @@ def test_web_mercator_is_refused_where_its_lengths_are_wrong(tmp_path):
     source = real("field/mercator-60N.laz")
     for words in (
         ("classify", source, tmp_path / "out.laz"),
-        ("classify-tiles", source, tmp_path / "out"),
+        ("classify", source, tmp_path / "out"),
         ("terrain", source, "--dtm", tmp_path / "dtm.tif"),
         ("height", source, tmp_path / "out.laz"),
         ("compare-settings", source, tmp_path / "page.html",

@@ -391,7 +391,7 @@ sys.exit(cli.main(sys.argv[1:]))
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
     folder, expected = many
-    words = ["classify-tiles", folder, out, "--threads", 2, "--resume"]
+    words = ["classify", folder, out, "--threads", 2, "--resume"]
     words += ["--method", "slope", "--preset", "whitebox"]
     run = subprocess.run(
         [sys.executable, "-c", _KILLED.format(number=number), *map(str, words)],
@@ -430,7 +430,7 @@ def test_broken_tiles_are_told_at_the_end_and_the_others_done(
     assert set(bytes_of(out)) == {"0.laz", "2.laz", "3.laz", "4.laz", "5.laz"}
     assert any("1.laz is left out: the results beside it" in text for text in progress.warnings)
     assert len(read_vpc(out / "classified.vpc")) == 5
-    assert main(["classify-tiles", str(six), str(out), "--method", "slope", "--json"]) == 1
+    assert main(["classify", str(six), str(out), "--method", "slope", "--json"]) == 1
     said = capsys.readouterr()
     assert json.loads(said.out)["done_count"] == 5
     assert f"{six / '9.laz'} is left out." in said.err

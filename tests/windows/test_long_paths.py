@@ -50,7 +50,7 @@ def test_this_is_as_on_windows(tmp_path):
     [
         ("ground.copc.laz", "classify {one} {out}/ground.copc.laz --memory 0.001"),
         ("d.tif", "classify {one} {out}/c.las --dtm {out}/d.tif --hillshade {out}/h.tif"),
-        ("0.laz", "classify-tiles {many} {out} --height-above-ground --dtm {out}/d.tif"),
+        ("0.laz", "classify {many} {out} --height-above-ground --dtm {out}/d.tif"),
     ],
 )
 def test_classified_files_and_rasters(survey, tmp_path, longest, words):

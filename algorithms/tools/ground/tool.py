@@ -211,9 +211,6 @@ TILES_TOOL = replace(
     points=Input("input", "files", label="Point clouds"),
     dialog_inputs=(replace(_AREA, advanced=True), _CORRECTIONS, _CONSTRAINTS, _TARGET),
     dialog_outputs=_of_tiles,
-    command="classify-tiles",
-    command_about="Classifies the ground points of LAS, LAZ and COPC files, and writes each into a"
-    f" folder.{_ABOUT}",
     dialog_sets=(
         TileMethod, Selection, TileInput, ShownTiles, Written, ThenAboveGround, TerrainModel, Gaps,
         RasterOutput, Resources,
