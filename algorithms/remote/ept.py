@@ -15,10 +15,9 @@ import contextlib
 import hashlib
 import re
 import threading
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 import numpy as np
 
@@ -30,21 +29,17 @@ from ..core.temporary import remove
 from ..core.words import counted, option
 from ..crs.stated import stated_wkt
 from ..crs.system import Crs, crs_of_wkt
-from ..las import header as fields
-from ..las.crs_records import CRS_RECORDS, WKT_RECORD
 from ..las.edits import Edits
-from ..las.header_edits import with_count, with_statistics
-from ..las.lasfile import LARGEST_VLR, LASZIP, LasFile, new_vlr
 from ..las.opening import open_las
-from ..las.records import HeaderCounts, column, read_records
+from ..las.records import read_records
 from ..las.sources import open_source
 from ..las.writing import write_changed
 from ..survey.area import Area
 from ..survey.shapes import Place
-from ..survey.window import are_inside
 from .addresses import beside, is_address, name_of, shown
 from .answers import Missing, parsed, too_large
 from .copc import EVERYWHERE, area_of, levels_of
+from .ept_joining import joined
 from .ept_records import Schema
 from .parts import Parts
 from .transfers import Transfers
@@ -53,7 +48,7 @@ DESCRIPTION = "ept.json"
 _ENDINGS = {"laszip": "laz", "binary": "bin", "zstandard": "zst"}
 Key = tuple[int, int, int, int]  # depth, x, y and z of a node
 _KEY = re.compile(r"(\d{1,2})-(\d{1,10})-(\d{1,10})-(\d{1,10})")
-_DEEPEST, _GPS_TIME_TYPE, _WKT = 30, 0x01, 0x10
+_DEEPEST = 30
 # Most bytes of the description, of a file of the hierarchy and of a tile; six are read at a time.
 MOST_DESCRIPTION, _MOST_HIERARCHY, _MOST_TILE = 1 << 22, 1 << 24, 1 << 25
 # Most points of a tile, bytes of one in a tile, and tiles that are needed.
@@ -62,8 +57,6 @@ _MOST_POINTS, _MOST_A_POINT, _MOST_TILES = 1 << 23, 200, 1_000_000
 _PIECE = 100_000
 # Bytes that a compressed point usually has.
 _USUAL = 7
-# Places may differ by this share of a step when the integers of a tile are moved to another offset.
-_WHOLE = 0.01
 
 
 class EptPart:
@@ -288,71 +281,13 @@ class EptPart:
         with temporary_folder(target.parent) as folder:
             plain = folder / "points.las"
             with open(plain, "w+b") as file:
-                count = self._write_plain(file, progress.part(0.0, 0.4))
+                # Tiles are opened one after the other: there can be a million.
+                tiles = ((open_las(self._path(key)), count) for key, count in self.tiles.items())
+                tell = progress.part(0.0, 0.4).shares(*[1.0] * len(self.tiles))
+                count = joined(tiles, file, self.name, self._wkt, self.area, tell)
             if count:
                 write_changed(plain, target, Edits(), progress.part(0.4, 1.0))
         return count
-
-    def _write_plain(self, file: BinaryIO, progress: Progress) -> int:
-        """Write the points without compression."""
-        layout, counts, total = None, None, 0
-        for number, (key, stated) in enumerate(self.tiles.items()):
-            tile = open_las(self._path(key))
-            if tile.count != stated:
-                self._transfers.progress.warning(
-                    f"Tile {_name(key)} of {self.name} has {tile.count:,} points, not"
-                    f" {stated:,} as its hierarchy says. All that it has are used."
-                )
-            if layout is None or counts is None:
-                layout = self._layout(tile)
-                counts = HeaderCounts(layout)
-                file.write(layout.prefix(layout.vlrs, compressed=False))
-            self._check_same(layout, tile)
-            for records in read_records(tile):
-                kept = _moved(layout, tile, records[self._inside(tile, records)])
-                counts.add(kept)
-                file.write(kept.data)
-                total += len(kept)
-            progress((number + 1) / len(self.tiles))
-        if layout is None or counts is None or not total:
-            return 0
-        layout = with_statistics(
-            with_count(layout, total),
-            counts.lowest.tolist(), counts.highest.tolist(), counts.returns.tolist(),
-        )  # fmt: skip
-        file.seek(0)
-        file.write(layout.prefix(layout.vlrs, compressed=False))
-        return total
-
-    def _layout(self, tile: LasFile) -> LasFile:
-        """Return header and records of the output, LAS 1.4, given those of a tile."""
-        header = bytearray(fields.HEADER_SIZES[4])
-        header[: fields.WAVEFORM_START.start] = tile.header[: fields.HEADER_SIZES[0]]
-        fields.VERSION.put(header, 1, 4)
-        fields.HEADER_SIZE.put(header, len(header))
-        vlrs = [vlr for vlr in tile.vlrs if vlr.key != LASZIP]
-        text = (self._wkt or "").encode()
-        if text and len(text) < LARGEST_VLR:
-            vlrs = [vlr for vlr in vlrs if vlr.key not in CRS_RECORDS]
-            vlrs.append(new_vlr(WKT_RECORD, text + b"\0", "OGC WKT Coordinate System"))
-            encoding = tile.global_encoding & _GPS_TIME_TYPE if tile.minor_version >= 2 else 0
-            fields.GLOBAL_ENCODING.put(header, encoding | _WKT)
-        return replace(tile, header=bytes(header), vlrs=tuple(vlrs), padding=b"", evlrs=())
-
-    def _check_same(self, layout: LasFile, tile: LasFile) -> None:
-        """Refuse tiles of different formats, whose points do not fit into one file."""
-        if (layout.point_format, layout.record_length) != (tile.point_format, tile.record_length):
-            raise BareEarthError(
-                f"The tiles of {self.name} have different point formats, {layout.point_format} and"
-                f" {tile.point_format}, which do not fit into one file. Fetch a smaller area."
-            )
-
-    def _inside(self, tile: LasFile, records: np.ndarray) -> np.ndarray:
-        """Return which points lie in the area."""
-        if self.area is None:
-            return np.ones(len(records), dtype=bool)
-        x, y = (column(records, 4 * axis, "<i4") for axis in (0, 1))
-        return are_inside(tile, self.area, x, y)
 
     def _whole(self, name: str, most: int) -> bytes:
         """Return a file of the data set, of at most so many bytes."""
@@ -392,22 +327,3 @@ def _wkt_of(srs: Any) -> str | None:
     with contextlib.suppress(BareEarthError):  # it is none, or needs a library
         return stated_wkt(text)
     return None
-
-
-def _moved(layout: LasFile, tile: LasFile, records: np.ndarray) -> np.ndarray:
-    """Return records of a tile with the integers that their places have in the output."""
-    for axis in range(3):
-        scale, step = tile.scale[axis], layout.scale[axis]
-        shift = tile.offset[axis] - layout.offset[axis]
-        if scale == step and shift == 0:
-            continue
-        integers = column(records, 4 * axis, "<i4")
-        steps = (integers * scale + shift) / step
-        whole = np.rint(steps)
-        if (np.abs(whole - steps) > _WHOLE).any() or (np.abs(whole) >= 1 << 31).any():
-            raise BareEarthError(
-                f"The coordinates of {tile.path.name} do not fit to those of the tiles before:"
-                " their scales and offsets differ. Fetch a smaller area."
-            )
-        integers[:] = whole
-    return records
