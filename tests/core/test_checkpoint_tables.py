@@ -35,7 +35,7 @@ VEGETATED = """Forest|Nadelwald|brush land|VVA|Vegetated|tall grass|Forêt
     |Alder|Eucalyptus|Erlen|Buschwerk|hohe Wiese|Ronciers|Canne à sucre|Prairie haute|Populieren
     |Onderbegroeiing|Girasoles|Arrozal|Sottobosco|Erba alta|Brughiera|Milho|Capim alto|Pinhal
     |Barrskog|Højt græs|Løvskog|Kratt|Mäntymetsä|Korkea ruoho|Las|Las sosnowy|Wysoka trawa|Krzaki
-    |Les|Listnatý les|Vysoká tráva|Keře|Kukorica|Pădure|Grmlje|Koruza|Orman|Mısır"""
+    |Les|Listnatý les|Vysoká tráva|Keře|Kukorica|Pădure|Grmlje|Koruza|Orman"""
 OPEN = """NVA|non-vegetated|unvegetated|no trees|Street|asphalt|grass
     |Woodward Street|Treeless|Wooden deck|Waldweg|Open terrain|Urban|OpenTerrain|Short grass
     |Forest road|Oak Avenue|Nonvegetated|Non-vegetated (bare earth)|NVA - short grass|FVA

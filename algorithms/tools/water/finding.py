@@ -195,14 +195,15 @@ class _Search:
             yield _Region(window, water, under, beyond, flat, np.zeros_like(water))
 
     def _is_small(self, water: np.ndarray) -> bool:
-        return np.count_nonzero(water) < self.least
+        return int(np.count_nonzero(water)) < self.least
 
     def _goes_on(self, water: np.ndarray, window: Window) -> bool:
         """Return whether a region has points of class 9 and reaches the border of the survey."""
         # The margin of a window is missing only where the grid ends, as the survey does.
         beside = dilation(water, 1.5) & self.outside[window]
         ends = (water[[0, -1]].any(), water[:, [0, -1]].any(), beside.any())
-        return any(ends) and np.count_nonzero(water & self.grid.class_in(window)) >= FEW_RETURNS
+        count = int(np.count_nonzero(water & self.grid.class_in(window)))
+        return any(ends) and count >= FEW_RETURNS
 
     def _with_small_islands(self, water: np.ndarray) -> np.ndarray:
         from scipy.ndimage import label
