@@ -1,46 +1,41 @@
-"""Reading polygons, lines and points: GeoJSON and WKT here, other formats by a library."""
+"""Reading polygons, lines and points: files by a library, geometries in memory here."""
 
 from __future__ import annotations
 
 import itertools
-import json
 import re
 from os import PathLike
-from pathlib import Path
 from typing import Any, Callable, Iterator
 
 import numpy as np
 
 from ..core.errors import BareEarthError
 from ..crs.provider import LONGITUDE_LATITUDE
-from ..las.sources import read_text
 from .area import Polygon
 from .corrections import CLASS_FIELD, Corrections
 from .shapes import Shapes
 from .vector_library import read_features
 from .wkb import geometries_of
 
-_WKT_PART = re.compile(r"[()]|[^()]+")
-# Errors while reading a text that is not valid GeoJSON or WKT.
+# Errors while reading what is not valid GeoJSON.
 _INVALID = (
     ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, OverflowError
 )  # fmt: skip
-# Formats that are read here, without a library.
-_TEXTS = {".geojson": "GeoJSON", ".json": "GeoJSON", ".wkt": "WKT"}
 # For the help of options.
 FORMATS = (
-    "GeoJSON, WKT, or with pyogrio GeoPackage, shapefile and others; if the file states its CRS, it"
+    "GeoPackage, GeoJSON, shapefile and others, which pyogrio reads; if the file states its CRS, it"
     " is transformed to that of the points"
 )
 # A CRS in GeoJSON: EPSG:25832, urn:ogc:def:crs:EPSG::25832, or a URL that ends with EPSG/0/25832.
 _CRS_NAME = re.compile(r"(EPSG|ESRI|IGNF|OGC|CRS)[:/](?:[\w.]*[:/])?(\w+)$", re.IGNORECASE)
-_SRID = re.compile(r"\s*SRID\s*=\s*(\d+)\s*;", re.IGNORECASE)
 # Levels of lists: a line is a list of corners, a polygon a list of rings.
 _DEPTHS = {"LineString": 1, "Polygon": 2}
 # How messages name a table of geopandas, and GeoJSON and objects that know it.
 FRAME, _GEOMETRY = "The GeoDataFrame", "The geometry"
 # The attribute of objects that know their GeoJSON.
 _KNOWS = "__geo_interface__"
+# Units of any CRS; libraries read numbers that are too large as large ones.
+_FARTHEST = 1e12
 _WORDS = {"LineString": "line", "Polygon": "polygon", "Point": "point"}
 
 
@@ -63,8 +58,6 @@ def read_boundary(source: Any) -> tuple[Polygon, ...]:
 
 def read_corrections(source: Any) -> Corrections:
     """Read the polygons of the same with their classes, and nothing else."""
-    if isinstance(source, (str, PathLike)) and Path(source).suffix.lower() == ".wkt":
-        raise BareEarthError(f"{source} holds no classes. Give the corrections as GeoJSON.")
     found = _shapes(source, "Polygon", _polygon_with_class)
     polygons, classes = zip(*found)
     return Corrections(Shapes(polygons, found.crs, found.source), classes)
@@ -76,34 +69,28 @@ def read_lines(source: Any) -> tuple[np.ndarray, ...]:
 
 
 def read_points(source: Any) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
-    """Read x, y and z of the points of the same, but no .wkt, float64 (3,), NaN for z where there
-    is none, and all of their attributes.
+    """Read x, y and z of the points of the same, float64 (3,), NaN for z where there is none, and
+    all of their attributes.
     """
     return _shapes(source, "Point", lambda place, attributes: (_line([place])[0], attributes))
 
 
 def _shapes(source: Any, kind: str, shape_of: Callable[[Any, dict], Any]) -> Shapes:
     """Return what `shape_of` returns for coordinates and attributes of each geometry of a kind."""
-    what, name, crs = _WORDS[kind], "", None
+    what, crs = _WORDS[kind], None
     try:
         if is_frame(source):
             label, (found, crs) = FRAME, _of_frame(source, kind)
         elif isinstance(source, (str, PathLike)):
-            label, name = str(source), _TEXTS.get(Path(source).suffix.lower(), "")
-            if name:
-                text = _text_of(source)
-                read = _of_wkt if name == "WKT" else _of_geojson
-                found, crs = read(text if name == "WKT" else json.loads(text), kind)
-            else:
-                found, crs = read_features(source, kind, None if kind == "Point" else CLASS_FIELD)
+            label = str(source)
+            found, crs = read_features(source, kind, None if kind == "Point" else CLASS_FIELD)
         elif (content := _geojson_of(source)) is not None:
             label, (found, crs) = _GEOMETRY, _of_geojson(content, kind)
         else:
             label, found = f"The {what}", _of_arrays(source, kind)
         shapes = tuple(shape_of(*feature) for feature in found)
     except _INVALID as error:
-        as_what = f" {name}" if name else ""
-        raise BareEarthError(f"{label} is not valid{as_what}: {_one_line(error)}.") from error
+        raise BareEarthError(f"{label} is not valid: {_one_line(error)}.") from error
     if not any(map(len, shapes)):
         raise BareEarthError(f"{label} holds no {what}. Give one that does.")
     return Shapes(shapes, crs, label)
@@ -169,13 +156,6 @@ def _of_frame(frame: Any, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | 
     return found, ":".join(shapes.crs.to_authority() or ()) or shapes.crs.to_wkt()
 
 
-def _text_of(path: Path) -> str:
-    try:
-        return read_text(path)
-    except UnicodeDecodeError:
-        raise BareEarthError(f"{path} is not a text file. Give GeoJSON or WKT.") from None
-
-
 def _one_line(error: Exception) -> str:
     return " ".join(str(error).split()).rstrip(".") or type(error).__name__
 
@@ -200,8 +180,8 @@ def _line(corners: Any) -> np.ndarray:
 
 def _finite(corners: np.ndarray) -> np.ndarray:
     """Return corners; refuse those that are not finite."""
-    if not np.isfinite(corners[:, :2]).all():
-        raise ValueError("a corner is not a finite number")
+    if not (np.abs(corners[:, :2]) <= _FARTHEST).all():
+        raise ValueError("a corner is not a finite number, or not on this planet")
     return corners
 
 
@@ -235,30 +215,3 @@ def _nodes_of(content: Any, kind: str) -> Iterator[tuple[Any, dict]]:
         elif name in ("FeatureCollection", "GeometryCollection"):
             some = node["features" if name == "FeatureCollection" else "geometries"]
             nodes += [(child, attributes) for child in reversed(some)]
-
-
-def _of_wkt(text: str, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:
-    """Return the coordinates of each geometry of a kind, and the CRS of extended WKT."""
-    stated = _SRID.match(text)
-    return _wkt_of(text, kind), f"EPSG:{stated[1]}" if stated else None
-
-
-def _wkt_of(text: str, kind: str) -> Iterator[tuple[Any, dict]]:
-    """Yield the coordinates of each geometry of a kind in a text that holds WKT; no attributes."""
-    name = rf"\b(MULTI)?{kind.upper()}\s*(?:ZM|Z|M)?\s*(?=\()"
-    for match in re.finditer(name, text, re.IGNORECASE):
-        # Depths of parentheses at the corners, and at a whole geometry.
-        corners_at = _DEPTHS[kind] + bool(match[1])
-        whole_at = corners_at - _DEPTHS[kind]
-        depth, runs = 0, []
-        for part in map(re.Match.group, _WKT_PART.finditer(text, match.end())):
-            depth += {"(": 1, ")": -1}.get(part, 0)
-            if depth == corners_at and part not in "()":
-                runs.append([corner.split() for corner in part.split(",")])
-            elif part == ")" and depth == whole_at and runs:
-                yield (runs if kind == "Polygon" else runs[0]), {}
-                runs = []
-            if depth == 0:
-                break
-        if depth:
-            raise ValueError("a parenthesis is not closed")

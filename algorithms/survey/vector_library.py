@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 import warnings
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple, Sequence
@@ -11,9 +12,14 @@ from ..core.errors import BareEarthError
 from ..las.sources import open_source
 from .wkb import geometries_of
 
+_WGS84 = re.compile(r'EPSG:4326$|OGC:CRS84$|GEOG[A-Z]*\["WGS 84(?! /)', re.IGNORECASE)
+
 # Between a file and the name of a layer, as QGIS writes it.
 _LAYER = "|layername="
 _FOLDERS = (".gdb",)
+_GEOJSON = (".geojson", ".json")
+_STATED = re.compile(rb'"crs"\s*:\s*\{[^{}]*(\{[^{}]*\})?')
+_DEGREES = re.compile(rb"4326|CRS84")
 # XML that the library may read. Other XML can tell it to fetch files from other computers.
 _XML = (".kml", ".gpx")
 
@@ -48,8 +54,8 @@ def read_features(
         raise BareEarthError(f"Cannot read {name}: {error}.") from error
     except Exception as error:  # the errors of the libraries have many types
         raise BareEarthError(
-            f"Cannot read {name}: it is damaged, or no vector file. Give GeoJSON, WKT, GeoPackage"
-            " or a shapefile."
+            f"Cannot read {name}: it is damaged, or no vector file. Give GeoPackage, GeoJSON or a"
+            " shapefile."
         ) from error
     if wanted and not found:
         raise BareEarthError(f"{name} has no layer {wanted}. Check its name.")
@@ -60,13 +66,25 @@ def read_features(
             f"{name} has {what} in the layers {', '.join(filled)}. Give one of them:"
             f" '{name}{_LAYER}{filled[0]}'."
         )
-    return found[filled[0]] if filled else ([], None)
+    features, crs = found[filled[0]] if filled else ([], None)
+    if Path(name).suffix.lower() not in _GEOJSON or not _WGS84.match(crs or ""):
+        return features, crs
+    # The library takes GeoJSON as degrees that states no CRS, or one that it does not know.
+    with open_source(Path(name)) as file:
+        stated = _STATED.search(file.read())
+    if stated and not _DEGREES.search(stated[0]):
+        raise BareEarthError(
+            f"The CRS that {name} states is not known. Save it in the CRS of the points."
+        )
+    return features, None
 
 
 def _check(path: Path) -> None:
     """Refuse what is no file, and files that could refer to others."""
     if path.suffix.lower() in _FOLDERS and path.is_dir():
         return
+    if path.suffix.lower() == ".wkt":
+        raise BareEarthError(f"{path} is WKT, which is not read. Save it as GeoPackage or GeoJSON.")
     with open_source(path) as file:
         is_xml = file.read(256).lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
     if is_xml and path.suffix.lower() not in _XML:
@@ -79,10 +97,7 @@ def _library(name: str) -> Any:
         return _by_pyogrio
     if importlib.util.find_spec("osgeo") is not None:
         return _by_gdal
-    raise BareEarthError(
-        f"{name} needs pyogrio to be read: pip install pyogrio. GeoJSON (.geojson, .json) and WKT"
-        " (.wkt) are read without it."
-    )
+    raise BareEarthError(f"{name} needs pyogrio to be read: pip install pyogrio.")
 
 
 def _by_pyogrio(name: str, attribute: str | None) -> Iterator[_Layer]:

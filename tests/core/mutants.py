@@ -33,8 +33,7 @@ SHARES = {
     ".laz": 0.35,
     ".copc.laz": 0.25,
     ".vpc": 0.08,
-    ".geojson": 0.06,
-    ".wkt": 0.06,
+    ".geojson": 0.12,
 }
 WORDS = (
     b"null", b"-1", b"1e999", b"1e-400", b"NaN", b"Infinity", b"9" * 400, b"{}", b"[]", b"[[[[",
@@ -133,8 +132,6 @@ def _texts():
     line = {"type": "LineString", "coordinates": [[*corner, 100.0] for corner in RING]}
     shapes = [{"type": "Feature", "geometry": value, "properties": {}} for value in (polygon, line)]
     yield ".geojson", json.dumps({"type": "FeatureCollection", "features": shapes}).encode()
-    corners = ", ".join(f"{x} {y}" for x, y in RING)
-    yield ".wkt", f"POLYGON (({corners}))\nMULTILINESTRING Z (({corners}))\n".encode()
 
 
 def mutant(originals, seed, number):

@@ -151,7 +151,6 @@ TWO_FEATURES = {
         {"type": "Feature", "geometry": {"type": "Point", "coordinates": [1, 2]}},
     ],
 }
-FIRST = "((0 0, 10 0, 10 10, 0 10, 0 0), (4 4,4 6,6 6,6 4,4 4))"
 
 
 @pytest.mark.parametrize(
@@ -163,13 +162,6 @@ FIRST = "((0 0, 10 0, 10 10, 0 10, 0 0), (4 4,4 6,6 6,6 4,4 4))"
         ("a.geojson", geojson("Feature", geometry=POLYGON), [2]),
         ("a.geojson", geojson("GeometryCollection", geometries=[POLYGON]), [2]),
         ("a.geojson", "\ufeff" + json.dumps(POLYGON), [2]),
-        ("a.wkt", f"POLYGON {FIRST}", [2]),
-        ("a.wkt", f"SRID=25832;polygon{FIRST}\n", [2]),
-        ("a.wkt", f"MULTIPOLYGON ({FIRST}, ((20 0, 30 0, 25 9, 20 0)))", [2, 1]),
-        ("a.wkt", f"POLYGON {FIRST}\nPOINT (1 2)\nPOLYGON EMPTY\nPOLYGON ((0 0,1 0,1 1))", [2, 1]),
-        ("a.wkt", "PolygonZ ((0 0 1, 10 0 1, 10 1e1 1, 0 10 1))", [1]),
-        ("a.wkt", "POLYGON ZM ((0 0 1 2, 10 0 1 2, 10 10 1 2, 0 10 1 2))", [1]),
-        ("a.wkt", f"GEOMETRYCOLLECTION (POINT (1 2), POLYGON {FIRST})", [2]),
     ],
 )  # fmt: skip
 def test_boundaries_are_read(name, text, expected, tmp_path):
@@ -188,23 +180,19 @@ def test_boundaries_are_read(name, text, expected, tmp_path):
         ("a.shp", "", "Cannot read"),
         ("a.gpkg", "", "Cannot read"),
         ("a.gml", "<gml/>", "is XML"),
-        ("a.geojson", '{"type": "Polygon", "crs": {"type": "link"}}', "is not valid GeoJSON"),
-        ("a.geojson", "", "is not valid GeoJSON"),
-        ("a.geojson", "{", "is not valid GeoJSON"),
-        ("a.geojson", "[]", "is not valid GeoJSON"),
-        ("a.geojson", "[" * 100_000, "is not valid GeoJSON"),
-        ("a.geojson", '{"features": []}', "is not valid GeoJSON"),
-        ("a.geojson", geojson("Polygon", coordinates=[[[1], [2]]]), "is not valid GeoJSON"),
-        ("a.geojson", geojson("Polygon", coordinates=[[["a", 1]]]), "is not valid GeoJSON"),
-        ("a.geojson", geojson("Polygon", coordinates=3), "is not valid GeoJSON"),
+        ("a.geojson", '{"type": "Polygon", "crs": {"type": "link"}}', "Cannot read"),
+        ("a.geojson", "", "Cannot read"),
+        ("a.geojson", "{", "Cannot read"),
+        ("a.geojson", "[]", "Cannot read"),
+        ("a.geojson", "[" * 100_000, "Cannot read"),
+        ("a.geojson", '{"features": []}', "Cannot read"),
+        ("a.geojson", geojson("Polygon", coordinates=[[[1], [2]]]), "Cannot read"),
+        ("a.geojson", geojson("Polygon", coordinates=[[["a", 1]]]), "Cannot read"),
+        ("a.geojson", geojson("Polygon", coordinates=3), "Cannot read"),
         ("a.geojson", geojson("FeatureCollection", features=[]), "holds no polygon"),
         ("a.geojson", geojson("Polygon", coordinates=[]), "holds no polygon"),
-        ("a.wkt", "", "holds no polygon"),
-        ("a.wkt", "LINESTRING (0 0, 1 1)", "holds no polygon"),
-        ("a.wkt", "POLYGON ((0 0, 1 0, 1 1)", "is not valid WKT: a parenthesis is not closed"),
-        ("a.wkt", "POLYGON ((0 0, 1 x, 1 1))", "is not valid WKT"),
-        ("a.wkt", "POLYGON ((0, 1, 1))", "is not valid WKT"),
-        ("b.wkt", None, "b.wkt does not exist"),
+        ("a.wkt", "POLYGON ((0 0, 1 0, 1 1))", "is WKT, which is not read"),
+        ("b.geojson", None, "b.geojson does not exist"),
     ],
 )
 def test_what_cannot_be_read_gives_one_sentence(name, text, word, tmp_path):
@@ -217,7 +205,7 @@ def test_what_cannot_be_read_gives_one_sentence(name, text, word, tmp_path):
 
 
 def test_a_boundary_that_is_no_text(tmp_path):
-    path = tmp_path / "a.wkt"
+    path = tmp_path / "a.geojson"
     path.write_bytes(bytes(range(128, 256)))
-    with pytest.raises(BareEarthError, match="not a text file"):
+    with pytest.raises(BareEarthError, match="Cannot read"):
         read_boundary(path)

