@@ -18,7 +18,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 from bare_earth.algorithms.crs.system import unit_symbol
-from bare_earth.algorithms.rasters.geotiff import NO_CELLS, read_raster
+from bare_earth.algorithms.rasters.content import NO_CELLS
+from bare_earth.algorithms.rasters.geotiff import read_raster
 
 GROUND = 2
 _PIXELS = 700

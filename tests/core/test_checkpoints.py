@@ -465,7 +465,7 @@ def test_what_cannot_be_done_is_refused_before_the_work(survey, tmp_path, capsys
     ]:
         with pytest.raises(BareEarthError, match=words):
             check([tmp_path / "missing.laz"], given, outputs={name: tmp_path / file})
-    with pytest.raises(BareEarthError, match="Give checkpoints"):
+    with pytest.raises(BareEarthError, match="Give 'checkpoints'"):
         check([survey])
     with pytest.raises(BareEarthError, match="Give checkpoints"):
         outputs = {"table": tmp_path / "t.csv"}

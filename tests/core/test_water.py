@@ -323,7 +323,7 @@ def test_what_cannot_be_done_is_said(survey, tmp_path, capsys):
     assert main(["water", str(source), str(target), "--breaklines-out", str(target)]) == 1
     output = str(tmp_path / "out.laz")
     assert main(["classify", str(source), output, "--water", "automatic"]) == 2
-    assert "terrain --water automatic" in capsys.readouterr().err
+    assert "--water automatic of 'bare-earth terrain'" in capsys.readouterr().err
     assert not any(tmp_path.iterdir())
 
 
