@@ -20,8 +20,6 @@ _CELL = 1.0
 # Distances from the lowest point of a group, as multiples of its width: up to the first, points
 # below the plane are of the group; beyond the second, others as low show that it is none.
 _OF_GROUP, _BESIDE_GROUP = 1.5, 1.25
-# Of the members of a group, this share that is nearest to its middle says how wide it is.
-_MOST_MEMBERS = 0.8
 # Fewest heights on a water surface that show its level.
 _LEAST_HEIGHTS = 6
 # The deviation of a normal distribution as a multiple of the median of its absolute values.
@@ -50,6 +48,13 @@ class LowGroups(PointRule):
     sides: int = 5  # on so many of eight sides, half of the heights must belong to the plane
     # Most heights beyond the group that are as low, as a share of those on the plane.
     most_beside: float = 0.0
+    # Points of the ground lie above a group as densely as beside it: half of its points have one no
+    # farther than so many times the usual distance to the nearest among them. A group that spreads
+    # less, as a multiple of the same, shows nothing of this, and must be parted from the plane by a
+    # gap in height, as a share of its depth.
+    nearest: float = 1.3
+    spread: float = 2.0
+    gap: float = 0.6
 
     def apply(self, state: State) -> None:
         """Add the groups to the low noise."""
@@ -119,13 +124,26 @@ class LowGroups(PointRule):
             some = np.concatenate([which[start:end] for start, end in np.searchsorted(index, ends)])
             beside = points.take(some)
             inside = group.holds(beside, self.width)
-            if self.is_group(group, beside, inside):
+            if self.is_detached(group, beside, inside):
                 members[some[inside]] = True
         return members
 
-    def is_group(self, group: Group, points: Points, members: np.ndarray) -> bool:
-        """Return whether points beside a group, of which some are its members, confirm it."""
-        return True
+    def is_detached(self, group: Group, points: Points, members: np.ndarray) -> bool:
+        """Return whether points of the ground lie above the members of a group, which are some of
+        the points beside it, or a gap in height parts them.
+        """
+        from scipy.spatial import cKDTree
+
+        places = np.column_stack(points[:2])
+        low, ground = places[members], places[group.is_on_ground(points)]
+        if len(ground) > 1:
+            tree = cKDTree(ground)
+            apart = np.median(tree.query(ground, 2)[0][:, 1])
+            spread = np.median(np.hypot(*(low - np.median(low, axis=0)).T))
+            if spread >= self.spread * apart:
+                return bool(np.median(tree.query(low)[0]) <= self.nearest * apart)
+        below = np.sort(np.append(group.above(points)[members], 0.0))
+        return bool(np.diff(below).max() >= self.gap * -below[0])
 
 
 @dataclass(frozen=True)
@@ -140,10 +158,6 @@ class WideLowGroups(LowGroups):
     most_beside: float = 0.1
     cell: float = 3.0  # least side in metres of the cells of which the lowest points are compared
     spacings: float = 3.0  # the same as a multiple of the usual distance between points
-    # Least number of points of the ground among those of the group, as a share of these.
-    on_ground: float = 0.3
-    # So many points nearest to the middle of the group are looked at if it has fewer.
-    least: int = 8
 
     def apply(self, state: State) -> None:
         """Add the groups to the low noise."""
@@ -152,16 +166,6 @@ class WideLowGroups(LowGroups):
         index, some = cells.index[grid.lowest], points.take(grid.lowest)
         first = first_of_each(index, cells.rows * cells.columns, some.z, some.x, some.y)
         state.add_low_noise(self.find(points, (cells, grid.lowest[first])))
-
-    def is_group(self, group: Group, points: Points, members: np.ndarray) -> bool:
-        """Return whether points beside a group, of which some are its members, confirm it."""
-        x, y = (np.median(axis[members]) for axis in points[:2])
-        distance = np.hypot(points.x - x, points.y - y)
-        reach = np.quantile(distance[members], _MOST_MEMBERS)
-        last = min(self.least, points.count) - 1
-        inside = distance <= max(reach, np.partition(distance, last)[last])
-        ground = np.count_nonzero(inside & group.is_on_ground(points))
-        return bool(ground >= self.on_ground * np.count_nonzero(inside & members))
 
 
 class Group(NamedTuple):
@@ -176,20 +180,20 @@ class Group(NamedTuple):
     north: float
     margin: float  # metres from this plane up to that of the ground
 
-    def _above(self, points: Points) -> np.ndarray:
+    def above(self, points: Points) -> np.ndarray:
         """Return how many metres above the plane points lie."""
         x, y = points.x - self.x, points.y - self.y
         return points.z - (self.limit + self.east * x + self.north * y)
 
     def is_on_ground(self, points: Points) -> np.ndarray:
         """Return which points lie on the plane of the ground."""
-        above = self._above(points)
+        above = self.above(points)
         return (above >= 0.0) & (above <= 2.0 * self.margin)
 
     def holds(self, points: Points, width: float) -> np.ndarray:
         """Return which points belong to the group."""
         distance = np.hypot(points.x - self.x, points.y - self.y)
-        return (self._above(points) < 0.0) & (distance <= _OF_GROUP * width)
+        return (self.above(points) < 0.0) & (distance <= _OF_GROUP * width)
 
 
 @dataclass(frozen=True)
