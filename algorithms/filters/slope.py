@@ -52,7 +52,7 @@ class ManyScales(NamedTuple):
 
 
 MANY_SCALES = {
-    "automatic": ManyScales(18.0, 15.0, 0.5, 100.0),
+    "automatic": ManyScales(18.0, 15.0, 0.5, 150.0),
     "flat": ManyScales(24.0, 15.0, 0.4, 100.0),
     "hilly": ManyScales(15.0, 15.0, 0.5, 30.0),
     "steep": ManyScales(12.0, 20.0, 0.5, 24.0),
@@ -129,15 +129,13 @@ class SlopeFilter(ParameterSet):
         " found by the drop on all their sides. Empty: from the preset, or two search radii if the"
         " search radius is given. Not used with the preset Whitebox.",
     )
-    ground_tolerance: float = parameter(
-        0.18,
-        label="Ground tolerance",
-        unit="m",
-        minimum=0.0,
-        maximum=10.0,
+    ground_tolerance: float | None = of_preset(
+        "Ground tolerance",
+        (0.0, 10.0),
+        "In level terrain, points up to this height above the surface through the ground are"
+        " ground. Empty: 0.18 m, and more where points are sparse or noisy. Not used with the"
+        " preset Whitebox.",
         advanced=True,
-        help="In level terrain, points up to this height above the surface through the ground are"
-        " ground. Not used with the preset Whitebox.",
     )
     slope_tolerance: float = parameter(
         1.4,

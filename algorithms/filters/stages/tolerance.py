@@ -66,6 +66,8 @@ class MeasuredNoise(Rule):
     # than the noise cannot be recognised.
     sparse_factor: float = 2.5
     usual: float = 0.07
+    # Lasers and images scatter less than this, in metres: more is the height of plants.
+    most: float = 0.08
 
     def applied(
         self,
@@ -74,13 +76,17 @@ class MeasuredNoise(Rule):
         slopes: tuple[np.ndarray, np.ndarray],
         above: float,
     ) -> tuple[np.ndarray, float]:
-        """Return the rise of the surface to the middle of the noise, and the tolerance above."""
+        """Return the rise of the surface to the middle of the noise, and the usual tolerance above
+        it, given that without noise.
+        """
         level = np.zeros(surface.shape)
         points, cells, spacing = state.points, state.grids[0].cells, state.spacing
         # Lasers scatter little, and the roughness of crops and plants is no noise.
         if spacing <= (DENSE_SPACING if state.has_multi_returns else _NOISE_SPACING):
-            level, noise = middle_of_noise(points, cells, surface, slopes)
-            level = level.reshape(surface.shape)
+            middle, noise = middle_of_noise(points, cells, surface, slopes)
+            if noise > self.most:
+                return level, above
+            level = middle.reshape(surface.shape)
             of_noise = self.least + self.factor * noise
             above = of_noise if spacing <= DENSE_SPACING else max(above, of_noise)
         elif _NOISE_SPACING < spacing <= _SPARSE:
@@ -123,11 +129,16 @@ class ToleranceSurface(PointRule):
     stage: ClassVar = Stage.ACCEPTED
     writes: ClassVar = ("limits",)
 
-    above: float  # metres in level terrain
+    above: float | None  # metres in level terrain; None for what follows from the points
     # Metres that a slope of 45 degrees adds, where points are a metre apart or more.
     on_slopes: float
     # Metres in level terrain; more than above, because the surface is smoother than the ground.
     below: float = 0.6
+    # Usual metres above, and what is added to them where points are farther apart than the first of
+    # two distances in metres, in full from the second one on: the surface is known less well.
+    usual: float = 0.18
+    where_sparse: float = 0.12
+    sparse: tuple[float, float] = (0.5, 1.0)
     measured_noise: MeasuredNoise | None = MeasuredNoise()
     # At breaks the surface is too smooth: metres of curvature over a cell above which there is one,
     # and what each metre above adds to the tolerances.
@@ -143,17 +154,20 @@ class ToleranceSurface(PointRule):
         points, grid, spacing = state.points, state.grids[0], state.spacing
         cells, woods = grid.cells, grid.woods
         surface, slopes = _centred(points, state.seeds, cells, woods)
-        above = self.above
+        above = self.usual + self.where_sparse * float(np.interp(spacing, self.sparse, (0.0, 1.0)))
         if self.measured_noise:
             level, above = self.measured_noise.applied(state, surface, slopes, above)
             surface = surface + np.where(woods, 0.0, level)
+        in_woods = self.usual
+        if self.above is not None:
+            above = in_woods = self.above
         slope, curvature = _smooth_steepness(surface, cells), _curvature(surface)
         rise = self.on_slopes * min(max(spacing, _DENSE), _SPARSE) / _SPARSE * slope
         rise_above = np.where(woods, self.under_trees, 1.0) * rise
         if spacing < _SPARSE:
             at_break = self.at_breaks * np.maximum(curvature - self.curvature, 0.0)
             rise, rise_above = rise + at_break, rise_above + at_break
-        highest = surface + np.where(woods, self.above, above) + rise_above
+        highest = surface + np.where(woods, in_woods, above) + rise_above
         if self.wall_foot and state.from_images:
             highest += np.where(self.wall_foot.where(state, highest), self.wall_foot.more, 0.0)
         state.limits = np.stack((surface - self.below - rise, highest), axis=-1)
