@@ -58,8 +58,8 @@ class GridState:
         heights = np.full(cells.rows * cells.columns, np.nan)
         heights[cells.index[lowest]] = points.z[lowest]
         grid = HeightGrid(heights.reshape(cells.shape), cells.size, cells.first)
-        woods, raised, objects, plateaus = np.zeros((4, *cells.shape), dtype=bool)
-        return cls(points, spacing, cells, shift, lowest, grid, woods, raised, objects, plateaus)
+        masks = np.zeros((4, *cells.shape), dtype=bool)
+        return cls(points, spacing, cells, shift, lowest, grid, *masks)
 
     @property
     def cell(self) -> np.ndarray:

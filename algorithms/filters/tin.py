@@ -51,6 +51,7 @@ class Preset(NamedTuple):
     iteration_angle: float
     iteration_distance: float
     cell_size: float = 1.0
+    ground_tolerance: float | None = None  # None: from the points
 
 
 # Cells of 0.5 m lose 2 to 11 % of generated berms of 0.6 to 1.8 m, cells of 1 m 35 to 43 %
@@ -63,7 +64,7 @@ PRESETS = {
     "town": Preset(60.0, 12.0, 1.4),
     "city": Preset(120.0, 12.0, 1.4),
     "site": Preset(25.0, 15.0, 1.4, 0.5),
-    CLASSIC: Preset(20.0, 8.0, 1.4),
+    CLASSIC: Preset(20.0, 8.0, 1.4, ground_tolerance=0.18),
 }
 
 
@@ -150,15 +151,13 @@ class TinDensification(ParameterSet):
         help="A point that is closer to its triangle than this joins the TIN whatever its angle."
         " Near a corner, noise alone makes a large angle.",
     )
-    ground_tolerance: float = parameter(
-        0.18,
-        label="Ground tolerance above",
-        unit="m",
-        minimum=0.0,
-        maximum=10.0,
+    ground_tolerance: float | None = of_preset(
+        "Ground tolerance above",
+        (0.0, 10.0),
+        "In level terrain, points up to this height above the final surface are ground. A larger"
+        " value takes in grass and low bushes. Empty: 0.18 m, and more where points are sparse or"
+        " noisy.",
         advanced=True,
-        help="In level terrain, points up to this height above the final surface are ground. A"
-        " larger value takes in grass and low bushes.",
     )
     ground_tolerance_below: float = parameter(
         0.6,
@@ -270,7 +269,9 @@ def _classic(resolved: TinDensification) -> Pipeline:
                 judges_gaps=False,
                 on_slope=None,
                 in_images=True,
-                gentle_border=GentleBorder(shares=(0.5, 0.5), least_area=0.0, most_cut=1.0),
+                gentle_border=GentleBorder(
+                    shares=(0.5, 0.5), in_one_place=0.5, least_area=0.0, most_cut=1.0
+                ),
                 rocks=None,
                 low_banks=LowBanks(most_in_row=1.0),
             ),

@@ -179,7 +179,7 @@ def test_what_is_chosen_from_the_data_is_said_and_gives_the_same_when_given_by_h
         slope_threshold=15.0,
         height_threshold=0.5,
         cell_size=round(chosen.cell_size, 1),
-        max_building_size=100.0,
+        max_building_size=150.0,
     )
     assert by_hand == chosen == chosen.resolve(points)
     assert np.array_equal(classify(points, by_hand, heard), found)

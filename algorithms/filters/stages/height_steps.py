@@ -227,7 +227,8 @@ class HeightSteps:
             rise = np.zeros(len(cells), dtype=np.float32)
             stepped = np.flatnonzero(sign)
             rise[stepped] = self._rise(cells[stepped], step)
-            parts.append((regions[cells], regions[cells + step.offset], sign, rise))
+            pairs = np.stack((cells, cells + step.offset), axis=1).astype(np.int32)
+            parts.append((regions[cells], regions[cells + step.offset], sign, rise, pairs))
         return Border(count, *(np.concatenate(values) for values in zip(*parts)))
 
 

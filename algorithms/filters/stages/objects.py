@@ -7,6 +7,7 @@ the grid into *regions*, and a region whose border is mostly a drop is a raised 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
@@ -18,6 +19,7 @@ from ...grids.cells import Cells, usual_count
 from ...grids.gradient import steepness
 from ...grids.height_grid import HeightGrid
 from ...grids.inpaint import inpaint
+from ...grids.morphology import within_square
 from ..pipeline import GridRule, PointRule, Stage
 from ..state import GridState, State, covered
 from .height_steps import HeightSteps
@@ -28,6 +30,8 @@ from .regions import Regions
 _DENSITY_BLOCK = 10.0
 # Largest slope (rise over run) of the surface that counts, and relaxations across its gaps.
 _STEEPEST, _RELAXATIONS = 5.0, 2
+# Metres beyond an object within which a cell as high is of its rim.
+_RIM = 2.0
 
 
 class Objects(NamedTuple):
@@ -69,6 +73,10 @@ class RaisedObjects(GridRule):
     # uphill. The cells must be so wide that most points on its walls share a cell with the ground.
     # None for no plateaus.
     plateau_height: float | None = 1.2
+    # A plateau is a roof, however wide, if such shares of its known and of its whole border drop by
+    # a mean of at least the last of `heights`, and no ramp leads to it. Banks are not so steep.
+    sheer_shares: tuple[float, float] = (0.85, 0.75)
+    ramp: float = 5.0  # least width of a ramp in metres
     narrow_pits: NarrowPits | None = NarrowPits()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
@@ -84,7 +92,19 @@ class RaisedObjects(GridRule):
             found = Objects(*(blocks.repeated(mask, heights.values.shape) for mask in found))
         found = Objects(*(cells.resampled(mask, grid.cells) for mask in found))
         grid.objects, grid.plateaus = found
+        if self.plateau_height is not None:
+            grid.objects |= self._rims(grid, self.plateau_height)
         grid.raised = grid.objects.copy()
+
+    def _rims(self, grid: GridState, least: float) -> np.ndarray:
+        """Return the cells beside objects that are as high, and higher than others beside them."""
+        # Blocks of cells along the border of a roof hold ground as well.
+        heights = grid.heights.values
+        low = np.where(grid.objects, np.nan_to_num(heights, nan=-np.inf), -np.inf)
+        reach = math.ceil(_RIM / grid.cells.size)
+        top = within_square(np.maximum, low, reach)
+        foot = within_square(np.minimum, np.nan_to_num(heights, nan=np.inf), 1)
+        return np.isfinite(top) & (heights > top - least) & (heights > foot + least)
 
     def _without_gaps(self, grid: GridState) -> tuple[Cells, HeightGrid]:
         """Return cells so wide that hardly one is empty, which would break the rims of objects."""
@@ -111,8 +131,11 @@ class RaisedObjects(GridRule):
             objects |= found
             progress(done / len(self.heights))
         if self.plateau_height is not None:
-            steps = HeightSteps(rest, inside)
-            plateaus |= self.plateaus_of(steps.regions(self.plateau_height))
+            regions = HeightSteps(rest, inside).regions(self.plateau_height)
+            plateaus |= self.plateaus_of(regions)
+            roofs = regions.bounded(self.max_size, *self.sheer_shares, height=self.heights[-1])
+            if roofs.any():
+                objects |= regions.without_ramps(roofs, self.ramp)
         return Objects(objects, plateaus & ~objects)
 
     def bounded(self, regions: Regions) -> np.ndarray:

@@ -37,6 +37,7 @@ class Border(NamedTuple):
     # float32 (pairs,): Height of the second above the first in metres, beyond the trend; 0 where
     # `sign` is 0.
     rise: np.ndarray
+    cell: np.ndarray  # int32 (pairs, 2): Both cells, in the flattened grid with its frame
 
     def length(self) -> np.ndarray:
         """Return the length of each region's border in cells, if neighbours are one apart."""
@@ -79,7 +80,7 @@ class Regions:
 
     def __init__(self, number: np.ndarray, border: Border, size: float, step: int) -> None:
         self.number = number
-        self._border = border
+        self._border, self._size, self._frame = border, size, step
         area = np.bincount(number.ravel(), minlength=border.regions)
         self.width = _shorter_side(area, border.length() / step) * size
 
@@ -89,15 +90,41 @@ class Regions:
         share: float,
         whole_share: float,
         steepness: float = 0.0,
+        height: float = 0.0,
     ) -> np.ndarray:
         """Return the cells of regions of at most some width (the shorter side) in metres, of whose
-        known and whole border such shares drop, by a mean of `steepness` times the width.
+        known and whole border such shares drop, by a mean of `height` metres or more, and of
+        `steepness` times the width.
         """
-        return self._bounded(max_size, 1, share, whole_share, steepness)
+        return self._bounded(max_size, 1, share, whole_share, steepness, height)
+
+    def without_ramps(self, found: np.ndarray, width: float) -> np.ndarray:
+        """Return the cells of the regions of some cells whose border is nowhere level over so many
+        metres in one place.
+        """
+        from scipy import ndimage
+
+        which = np.zeros(len(self.width), dtype=bool)
+        which[self.number[found]] = True
+        border = self._border
+        is_level = (border.sign == 0) & (border.first > 0) & (border.second > 0)
+        sides = []
+        for regions, cells in zip((border.first, border.second), border.cell.T):
+            own = is_level & which[regions]
+            sides.append((regions[own], cells[own]))
+        level = np.zeros([side + 2 * self._frame for side in self.number.shape], dtype=bool)
+        for _, cells in sides:
+            level.ravel()[cells] = True
+        place, _ = ndimage.label(level, np.ones((3, 3)))
+        longest = [max(s.stop - s.start for s in box) for box in ndimage.find_objects(place)]
+        is_ramp = np.array([0, *longest]) * self._size >= width
+        for regions, cells in sides:
+            which[regions[is_ramp[place.ravel()[cells]]]] = False
+        return which[self.number]
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of pits: regions whose border is a rise nearly all round."""
-        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE, 0.0)
+        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE)
 
     def _bounded(
         self,
@@ -105,7 +132,8 @@ class Regions:
         sign: int,
         share: float,
         least_share: float,
-        least_steepness: float,
+        least_steepness: float = 0.0,
+        least_height: float = 0.0,
     ) -> np.ndarray:
         """Return the cells of regions bounded by drops (1) or rises (-1)."""
         # What one round finds is unknown in the next, which finds what it hid: a roof below a
@@ -115,7 +143,8 @@ class Regions:
         found = np.zeros(len(fits), dtype=bool)
         for _ in range(_ROUNDS):
             drops, known, pairs, height = self._border.drops(found, sign)
-            new = fits & ~found & (drops > 0) & (height >= least_steepness * self.width)
+            new = fits & ~found & (drops > 0)
+            new &= height >= np.maximum(least_steepness * self.width, least_height)
             new &= (drops >= share * known) & (drops > least_share * pairs)
             if not new.any():
                 break
@@ -144,14 +173,34 @@ class RaisedRegions(NamedTuple):
     area: np.ndarray
     above: np.ndarray
     filled: np.ndarray  # float32 (rows, columns): Heights of all cells in metres, without NaN
-    # Pairs of regions between which there are level steps, drops and rises, for two directions.
+    # Pairs of regions between which there are level steps, drops and rises, for two directions, and
+    # the first cells of the level steps.
     borders: list[list[_Pairs]]
+    level_cells: list[np.ndarray]
     cut: np.ndarray  # float64 (regions,): Sides of cells along the border of the survey
 
     @property
     def even(self) -> np.ndarray:
         """Which raised cells are even (`even_cells`); boolean, shape (n,)."""
         return even_cells(self.filled).ravel()[self.cells]
+
+    def widths(self, ground: np.ndarray) -> np.ndarray:
+        """Return how many metres of the border of each region are level in one place, given the
+        regions that are ground (bool, one each, and a last one for all other cells).
+        """
+        from scipy import ndimage
+
+        level, own = np.zeros(self.shape, dtype=bool), []
+        for (pairs, *_), cells in zip(self.borders, self.level_cells):
+            is_ground = ground[pairs[1]]
+            level.ravel()[cells[is_ground]] = True
+            own.append((pairs[0][is_ground], cells[is_ground]))
+        place, _ = ndimage.label(level, np.ones((3, 3)))
+        length = np.bincount(place.ravel()) * self.size
+        widths = np.zeros(len(self.area))
+        for region, cells in own:
+            np.maximum.at(widths, region, length[place.ravel()[cells]])
+        return widths
 
     def spread(self, regions: np.ndarray) -> np.ndarray:
         """Return the cells of some regions (boolean, one each) as a mask (rows, columns)."""
@@ -187,7 +236,7 @@ def raised_regions(
         area,
         np.bincount(number, above, count) * size**2 / area,
         grid.filled,
-        _borders(region, up, steps, seen),
+        *_borders(region, up, steps, seen),
         np.bincount(number, _sides_outside(grid.surveyed).ravel()[cells], count),
     )
 
@@ -224,21 +273,19 @@ def _numbered(up: np.ndarray, cell: np.ndarray, neighbour: np.ndarray) -> tuple[
 
 def _borders(
     region: np.ndarray, up: np.ndarray, steps: Steps, seen: np.ndarray
-) -> list[list[_Pairs]]:
+) -> tuple[list[list[_Pairs]], list[np.ndarray]]:
     """Return, for each of two directions, the pairs of regions with level steps, drops and rises
-    between them.
+    between them, and the first cells of the level steps.
     """
     cell, neighbour, sign = steps
-    borders = []
+    borders, level_cells = [], []
     for from_, to, drop in ((cell, neighbour, -1), (neighbour, cell, 1)):
         differ = up[from_] & (region[from_] != region[to])
         kinds = (sign == 0) & seen[from_], sign == drop, sign == -drop
-        pairs = []
-        for kind in kinds:
-            which = differ & kind
-            pairs.append((region[from_[which]], region[to[which]]))
-        borders.append(pairs)
-    return borders
+        kinds = tuple(differ & kind for kind in kinds)
+        borders.append([(region[from_[which]], region[to[which]]) for which in kinds])
+        level_cells.append(from_[kinds[0]])
+    return borders, level_cells
 
 
 @dataclass(frozen=True)

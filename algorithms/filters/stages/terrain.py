@@ -100,25 +100,39 @@ class OnSlope(Rule):
 
 @dataclass(frozen=True)
 class GentleBorder(Rule):
-    """A region is terrain if a large share of its border is level with the ground, or some of it if
-    the region is wide: a plateau with a ramp.
+    """A region is terrain if a large share of its border is level with the ground, or less in one
+    place: a plateau with a ramp.
     """
 
     # A region of the first area (m2) needs the first share of the border that is level or drops,
     # one of the second area the second; between them it falls with the logarithm of the area.
     areas: tuple[float, float] = (400.0, 3000.0)
-    shares: tuple[float, float] = (0.3, 0.05)
+    shares: tuple[float, float] = (0.3, 0.2)
+    # One of the second area needs so large a share only if it is level over so many metres in one
+    # place: points on walls make some of the border of a roof level, here and there.
+    in_one_place: float = 0.05
+    width: float = 4.0
     least_area: float = 100.0  # square metres: crowns and sheds are smaller
     # If the survey ends along a larger share of the border, the first share is needed: the rest of
     # a roof or of a closed canopy may lie beyond it.
     most_cut: float = 0.1
 
-    def fits(self, regions: RaisedRegions, level: np.ndarray, sharp: np.ndarray) -> np.ndarray:
-        """Return which regions are terrain, given the sides that are level or drop, (regions,)."""
+    def fits(
+        self, regions: RaisedRegions, ground: np.ndarray, level: np.ndarray, sharp: np.ndarray
+    ) -> np.ndarray:
+        """Return which regions are terrain, given which are ground, and the sides that are level or
+        drop, (regions,).
+        """
         area, border = regions.area, level + sharp
-        share = np.interp(np.log(area), np.log(self.areas), self.shares)
-        share[regions.cut > self.most_cut * (border + regions.cut)] = self.shares[0]
-        return (level > 0) & (level >= share * border) & (area >= self.least_area)
+        cut = regions.cut > self.most_cut * (border + regions.cut)
+        shares = self.shares[0], self.in_one_place
+        few = np.where(cut, shares[0], np.interp(np.log(area), np.log(self.areas), shares))
+        many = np.where(cut, shares[0], np.interp(np.log(area), np.log(self.areas), self.shares))
+        found = (level > 0) & (level >= few * border) & (area >= self.least_area)
+        doubtful = found & (level < many * border)
+        if doubtful.any():
+            found &= ~doubtful | (regions.widths(ground) >= self.width)
+        return found
 
 
 @dataclass(frozen=True)
@@ -214,7 +228,8 @@ class GentleRegions(GridRule):
             level = np.zeros(count)
             for flat, _, _ in regions.borders:
                 level += np.bincount(flat[0][ground[flat[1]]], minlength=count)
-            new = self.gentle_border.fits(regions, level, sharp) & (regions.area >= self.area)
+            new = self.gentle_border.fits(regions, ground, level, sharp)
+            new &= regions.area >= self.area
             if not (new & ~joined).any():
                 break
             joined |= new
