@@ -78,9 +78,9 @@ def above_ground(
         Xmin, ymin, xmax, ymax: change only points in this rectangle, in the CRS of the points;
         points outside keep their class.
     boundary : path or polygons, optional
-        Change only points in these polygons (GeoJSON, WKT, or with pyogrio GeoPackage,
-        shapefile and others; if the file states its CRS, it is transformed to that of the
-        points); with an extent only what lies in both.
+        Change only points in these polygons (GeoPackage, GeoJSON, shapefile and others, which
+        pyogrio reads; if the file states its CRS, it is transformed to that of the points);
+        with an extent only what lies in both.
     above_ground : {"asprs", "ign", "own"}, default "asprs"
         What is no building, no bridge and no noise becomes low (3), medium (4) or high (5)
         vegetation by its height above ground. The LAS specification has these classes, but no
@@ -514,28 +514,28 @@ def classify(
     breaklines : path or lines, optional
         Lines that no triangle of the terrain crosses; z is in the unit of heights of the
         points, and a line without z gets the height of the nearest ground point on each side
-        (GeoJSON, WKT, or with pyogrio GeoPackage, shapefile and others; if the file states its
+        (GeoPackage, GeoJSON, shapefile and others, which pyogrio reads; if the file states its
         CRS, it is transformed to that of the points).
     water : path or polygons, optional
-        Polygons of water; each is flattened to one level (GeoJSON, WKT, or with pyogrio
-        GeoPackage, shapefile and others; if the file states its CRS, it is transformed to that
-        of the points).
+        Polygons of water; each is flattened to one level (GeoPackage, GeoJSON, shapefile and
+        others, which pyogrio reads; if the file states its CRS, it is transformed to that of
+        the points).
     rivers : path or lines, optional
-        Lines along which the level of the water polygons falls (GeoJSON, WKT, or with pyogrio
-        GeoPackage, shapefile and others; if the file states its CRS, it is transformed to that
+        Lines along which the level of the water polygons falls (GeoPackage, GeoJSON, shapefile
+        and others, which pyogrio reads; if the file states its CRS, it is transformed to that
         of the points).
     no_ground : path or polygons, optional
-        Polygons in which the terrain uses no ground points, such as bridges and roofs (GeoJSON,
-        WKT, or with pyogrio GeoPackage, shapefile and others; if the file states its CRS, it is
-        transformed to that of the points).
+        Polygons in which the terrain uses no ground points, such as bridges and roofs
+        (GeoPackage, GeoJSON, shapefile and others, which pyogrio reads; if the file states its
+        CRS, it is transformed to that of the points).
     extent : four floats, optional
         Xmin, ymin, xmax, ymax: classify only points in this rectangle, in the CRS of the
         points; points outside are written too, with the class that they have, unless
         `area_only` is given; rasters end at its border.
     boundary : path or polygons, optional
-        Classify only points in these polygons (GeoJSON, WKT, or with pyogrio GeoPackage,
-        shapefile and others; if the file states its CRS, it is transformed to that of the
-        points); with an extent only what lies in both.
+        Classify only points in these polygons (GeoPackage, GeoJSON, shapefile and others, which
+        pyogrio reads; if the file states its CRS, it is transformed to that of the points);
+        with an extent only what lies in both.
     corrections : path or polygons, optional
         Polygons in which you know the class; the attribute 'class' holds it, and it replaces
         the result of the filter.
@@ -609,13 +609,15 @@ def classify(
         joins the TIN whatever its angle. Near a corner, noise alone makes a large angle. From 0
         to 5 m.
     ground_tolerance : by method
-        With method='tin-densification': float, default 0.18 m. In level terrain, points up to
-        this height above the final surface are ground. A larger value takes in grass and low
-        bushes. From 0 to 10 m. With method='grid-minimum': float, optional. In level terrain,
-        points up to this height above the surface of the ground are ground. None: from the
-        preset. From 0 to 10 m. With method='slope': float, default 0.18 m. In level terrain,
-        points up to this height above the surface through the ground are ground. Not used with
-        the preset Whitebox. From 0 to 10 m.
+        With method='tin-densification': float, optional. In level terrain, points up to this
+        height above the final surface are ground. A larger value takes in grass and low bushes.
+        None: 0.18 m, and more where points are sparse or noisy. From 0 to 10 m. With
+        method='grid-minimum': float, optional. In level terrain, points up to this height above
+        the surface of the ground are ground. None: 0.18 m, and more where points are sparse or
+        noisy; in the paper's preset 0.4 m. From 0 to 10 m. With method='slope': float,
+        optional. In level terrain, points up to this height above the surface through the
+        ground are ground. None: 0.18 m, and more where points are sparse or noisy. Not used
+        with the preset Whitebox. From 0 to 10 m.
     ground_tolerance_below : float, default 0.6 m
         Only of method='tin-densification'. In level terrain, points down to this depth below
         the final surface are ground. The surface goes through the lowest points, but is
@@ -1149,26 +1151,26 @@ def deliver(
         Xmin, ymin, xmax, ymax: deliver only this rectangle, in the CRS of the points; points
         nearby help to judge.
     boundary : path or polygons, optional
-        Deliver only these polygons (GeoJSON, WKT, or with pyogrio GeoPackage, shapefile and
-        others; if the file states its CRS, it is transformed to that of the points); with an
+        Deliver only these polygons (GeoPackage, GeoJSON, shapefile and others, which pyogrio
+        reads; if the file states its CRS, it is transformed to that of the points); with an
         extent only what lies in both.
     breaklines : path or lines, optional
         Lines that no triangle of the terrain crosses; z is in the unit of heights of the
         points, and a line without z gets the height of the nearest ground point on each side
-        (GeoJSON, WKT, or with pyogrio GeoPackage, shapefile and others; if the file states its
+        (GeoPackage, GeoJSON, shapefile and others, which pyogrio reads; if the file states its
         CRS, it is transformed to that of the points).
     water : path or polygons, optional
-        Polygons of water; each is flattened to one level (GeoJSON, WKT, or with pyogrio
-        GeoPackage, shapefile and others; if the file states its CRS, it is transformed to that
-        of the points); the word automatic: the water is found first.
+        Polygons of water; each is flattened to one level (GeoPackage, GeoJSON, shapefile and
+        others, which pyogrio reads; if the file states its CRS, it is transformed to that of
+        the points); the word automatic: the water is found first.
     rivers : path or lines, optional
-        Lines along which the level of the water polygons falls (GeoJSON, WKT, or with pyogrio
-        GeoPackage, shapefile and others; if the file states its CRS, it is transformed to that
+        Lines along which the level of the water polygons falls (GeoPackage, GeoJSON, shapefile
+        and others, which pyogrio reads; if the file states its CRS, it is transformed to that
         of the points).
     no_ground : path or polygons, optional
-        Polygons in which the terrain uses no ground points, such as bridges and roofs (GeoJSON,
-        WKT, or with pyogrio GeoPackage, shapefile and others; if the file states its CRS, it is
-        transformed to that of the points).
+        Polygons in which the terrain uses no ground points, such as bridges and roofs
+        (GeoPackage, GeoJSON, shapefile and others, which pyogrio reads; if the file states its
+        CRS, it is transformed to that of the points).
     like : path, Raster or xarray.DataArray, optional
         A raster in the CRS of the points, such as dem.tif: all rasters get its CRS, cell size,
         position of the cells, and extent; it replaces the cell size.
@@ -1242,13 +1244,15 @@ def deliver(
         joins the TIN whatever its angle. Near a corner, noise alone makes a large angle. From 0
         to 5 m.
     ground_tolerance : by method
-        With method='tin-densification': float, default 0.18 m. In level terrain, points up to
-        this height above the final surface are ground. A larger value takes in grass and low
-        bushes. From 0 to 10 m. With method='grid-minimum': float, optional. In level terrain,
-        points up to this height above the surface of the ground are ground. None: from the
-        preset. From 0 to 10 m. With method='slope': float, default 0.18 m. In level terrain,
-        points up to this height above the surface through the ground are ground. Not used with
-        the preset Whitebox. From 0 to 10 m.
+        With method='tin-densification': float, optional. In level terrain, points up to this
+        height above the final surface are ground. A larger value takes in grass and low bushes.
+        None: 0.18 m, and more where points are sparse or noisy. From 0 to 10 m. With
+        method='grid-minimum': float, optional. In level terrain, points up to this height above
+        the surface of the ground are ground. None: 0.18 m, and more where points are sparse or
+        noisy; in the paper's preset 0.4 m. From 0 to 10 m. With method='slope': float,
+        optional. In level terrain, points up to this height above the surface through the
+        ground are ground. None: 0.18 m, and more where points are sparse or noisy. Not used
+        with the preset Whitebox. From 0 to 10 m.
     ground_tolerance_below : float, default 0.6 m
         Only of method='tin-densification'. In level terrain, points down to this depth below
         the final surface are ground. The surface goes through the lowest points, but is
@@ -1526,9 +1530,9 @@ def fetch(
         Xmin, ymin, xmax, ymax: download only points in this rectangle, in the CRS of the
         points; without an area all points.
     boundary : path or polygons, optional
-        Download only points in these polygons (GeoJSON, WKT, or with pyogrio GeoPackage,
-        shapefile and others; if the file states its CRS, it is transformed to that of the
-        points); with an extent only what lies in both.
+        Download only points in these polygons (GeoPackage, GeoJSON, shapefile and others, which
+        pyogrio reads; if the file states its CRS, it is transformed to that of the points);
+        with an extent only what lies in both.
     resolution : float, optional
         Distance between points. If it is larger than that of the cloud, only the upper levels
         of its octree are downloaded, whose points are about so far apart. From 0.001 to 10000
@@ -2108,26 +2112,26 @@ def terrain(
         Xmin, ymin, xmax, ymax: make the rasters only in this rectangle, in the CRS of the
         points; points outside still help along its border.
     boundary : path or polygons, optional
-        Make the rasters only in these polygons (GeoJSON, WKT, or with pyogrio GeoPackage,
-        shapefile and others; if the file states its CRS, it is transformed to that of the
+        Make the rasters only in these polygons (GeoPackage, GeoJSON, shapefile and others,
+        which pyogrio reads; if the file states its CRS, it is transformed to that of the
         points); with an extent only what lies in both.
     breaklines : path or lines, optional
         Lines that no triangle of the terrain crosses; z is in the unit of heights of the
         points, and a line without z gets the height of the nearest ground point on each side
-        (GeoJSON, WKT, or with pyogrio GeoPackage, shapefile and others; if the file states its
+        (GeoPackage, GeoJSON, shapefile and others, which pyogrio reads; if the file states its
         CRS, it is transformed to that of the points).
     water : path or polygons, optional
-        Polygons of water; each is flattened to one level (GeoJSON, WKT, or with pyogrio
-        GeoPackage, shapefile and others; if the file states its CRS, it is transformed to that
-        of the points); the word automatic: the water is found first.
+        Polygons of water; each is flattened to one level (GeoPackage, GeoJSON, shapefile and
+        others, which pyogrio reads; if the file states its CRS, it is transformed to that of
+        the points); the word automatic: the water is found first.
     rivers : path or lines, optional
-        Lines along which the level of the water polygons falls (GeoJSON, WKT, or with pyogrio
-        GeoPackage, shapefile and others; if the file states its CRS, it is transformed to that
+        Lines along which the level of the water polygons falls (GeoPackage, GeoJSON, shapefile
+        and others, which pyogrio reads; if the file states its CRS, it is transformed to that
         of the points).
     no_ground : path or polygons, optional
-        Polygons in which the terrain uses no ground points, such as bridges and roofs (GeoJSON,
-        WKT, or with pyogrio GeoPackage, shapefile and others; if the file states its CRS, it is
-        transformed to that of the points).
+        Polygons in which the terrain uses no ground points, such as bridges and roofs
+        (GeoPackage, GeoJSON, shapefile and others, which pyogrio reads; if the file states its
+        CRS, it is transformed to that of the points).
     ground_classes : sequence of int, default (2,)
         Classes of the points that are ground. Add 8 if model key points have that class, 10 and
         11 for rails and roads that lie on the ground, and 9 if water counts as ground. Withheld
@@ -2345,7 +2349,7 @@ def water_classes(
     output : path
         The file to write (.las, .laz or .copc.laz), or a folder if there are many inputs.
     water : path or polygons
-        Polygons of water (GeoJSON, WKT, or with pyogrio GeoPackage, shapefile and others; if
+        Polygons of water (GeoPackage, GeoJSON, shapefile and others, which pyogrio reads; if
         the file states its CRS, it is transformed to that of the points); with the word
         automatic, the water is found first, as the command 'water' does.
     shore_distance : float, default 0.7 m

@@ -92,7 +92,7 @@ def test_a_rule_changes_only_what_it_says(method, preset):
     ],
 )
 def test_a_pipeline_works_without_any_of_its_rules(method, shared):
-    points = make("sparse_village", seed=11, density=0.5, size=60.0).points
+    points = make("plaza", seed=11, density=1.0, size=80.0).points
     pipeline = pipeline_of(method, "automatic", points)
     usual = pipeline.run(points).ground
     needed = {"lowest-points", "seeds", "tolerance-surface", "near-surface"}
