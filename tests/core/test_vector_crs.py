@@ -230,7 +230,7 @@ def test_without_a_library_one_sentence_tells_what_to_install(cloud, tmp_path, m
 
 def test_a_crs_that_is_not_known_is_one_sentence(cloud, tmp_path):
     path = geojson(tmp_path / "a.geojson", CORNERS, "EPSG:999999")
-    with pytest.raises(BareEarthError, match="a.geojson states is not known"):
+    with pytest.raises(BareEarthError, match=r"a\.geojson states is not known"):
         highest(cloud, tmp_path / "a.tif", no_ground=path)
 
 
