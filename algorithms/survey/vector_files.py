@@ -88,6 +88,9 @@ def _shapes(source: Any, kind: str, shape_of: Callable[[Any, dict], Any]) -> Sha
             label, (found, crs) = _GEOMETRY, _of_geojson(content, kind)
         else:
             label, found = f"The {what}", _of_arrays(source, kind)
+            if kind == "Polygon":
+                # Those of files are zeros as a rule; corners in arrays keep their heights.
+                shape_of = _polygon_with_heights
         shapes = tuple(shape_of(*feature) for feature in found)
     except _INVALID as error:
         raise BareEarthError(f"{label} is not valid: {_one_line(error)}.") from error
@@ -160,13 +163,19 @@ def _one_line(error: Exception) -> str:
     return " ".join(str(error).split()).rstrip(".") or type(error).__name__
 
 
-def _polygon(rings: Any) -> Polygon:
+def _polygon(rings: Any, columns: int = 2) -> Polygon:
     polygon = []
     for ring in rings:
-        corners = np.array([(float(corner[0]), float(corner[1])) for corner in ring])
+        corners = np.array(
+            [list(map(float, (corner[0], corner[1], *corner[2:columns]))) for corner in ring]
+        )
         if len(corners):
             polygon.append(_finite(corners))
     return tuple(polygon)
+
+
+def _polygon_with_heights(rings: Any, _: dict) -> Polygon:
+    return _polygon(rings, 3)
 
 
 def _polygon_with_class(rings: Any, attributes: dict) -> tuple[Polygon, Any]:

@@ -182,7 +182,7 @@ def test_points_without_crs_are_taken_to_be_in_that_of_the_raster(source, tmp_pa
     assert raster.crs == rasterio.CRS.from_string(CRS)
     feet = given(tmp_path / "feet.tif", crs="EPSG:2230")
     words = made(tmp_path / "feet", source, "--like", feet, names=["dtm"], fails=True)
-    assert "do not say their CRS" in words and "with 'crs'" in words
+    assert "do not say their CRS" in words and "with --crs" in words
 
 
 def test_an_extent_cuts_the_usual_cells(source, usual, tmp_path):
