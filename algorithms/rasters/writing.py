@@ -239,8 +239,6 @@ def _write_with_rasterio(
             with copy.open() as dataset:
                 if crs is not None and dataset.crs is None:
                     _warn_without_crs(progress)
-                elif crs is not None and _has_heights(crs) and not _has_heights(dataset.crs):
-                    _tell_of_heights(progress)
             path.write_bytes(copy.getbuffer())
     except RasterioError as error:
         raise BareEarthError(f"Cannot write {shown(path)}: {shown(error)}.") from error
@@ -269,10 +267,6 @@ def _crs_of(wkt: str | None, progress: Progress) -> Any:
             return _crs_of(of_map(wkt), progress)
         _warn_without_crs(progress)
         return None
-
-
-def _has_heights(crs: Any) -> bool:
-    return "VERT_CS" in crs.to_wkt()
 
 
 def _tell_of_heights(progress: Progress) -> None:
