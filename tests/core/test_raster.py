@@ -181,9 +181,7 @@ def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_
     assert [file for file in removed if file.endswith(".cells.tif")] and not os.listdir(tmp_path)
 
 
-def test_a_vertical_crs_that_geotiff_cannot_hold_is_left_out_without_a_side_car(
-    tmp_path,
-):
+def test_a_vertical_crs_that_geotiff_cannot_hold_is_left_out_with_a_warning(tmp_path):
     warnings = []
 
     class Listener(Progress):
@@ -195,12 +193,10 @@ def test_a_vertical_crs_that_geotiff_cannot_hold_is_left_out_without_a_side_car(
         'VERT_CS["Ellipsoid",VERT_DATUM["Ellipsoid",2002],UNIT["metre",1],AXIS["Up",UP]]]'
     )
     grid = RasterGrid.over(square(3.0), Frame(wkt=wkt), 1.0)
-    write_geotiff(
-        tmp_path / "a.tif", np.zeros((3, 3), np.float32), grid, NODATA, Listener(), "Height"
-    )
+    cells = np.zeros((3, 3), np.float32)
+    write_geotiff(tmp_path / "a.tif", cells, grid, NODATA, Listener(), "Height, {unit}")
     with rasterio.open(tmp_path / "a.tif") as raster:
-        assert raster.crs.to_epsg() == 25832
-    assert not any("without a CRS" in text for text in warnings)
+        assert "not that of its heights" in warnings[0] and raster.crs.to_epsg() == 25832
     assert [path.name for path in tmp_path.iterdir()] == ["a.tif"]
 
 
