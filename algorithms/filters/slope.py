@@ -31,7 +31,7 @@ from .whitebox import StandsAbove
 # dilation and comparison need. It is at least so many metres if the radius follows from the points.
 _REACH_RADII, _REACH_RADII_ON_ONE_SCALE, _LEAST_REACH = 5.0, 3.01, 100.0
 # The same, as a multiple of the largest building.
-_REACH_BUILDINGS = 1.2
+_REACH_BUILDINGS = 2.0
 _WHITEBOX_RADIUS = 2.0
 # The preset with the rules of Whitebox's filter.
 CLASSIC = "whitebox"
