@@ -235,7 +235,8 @@ def test_an_answer_without_end_is_given_up(server, tmp_path, monkeypatch, fault)
     server.fault = lambda number, path: fault
     notes, begun = Notes(), time.monotonic()
     with pytest.raises(BareEarthError, match=r"127\.0\.0\.1"):
-        fetched(server.add("a", DATA), tmp_path / "parts", notes)
+        # One piece: several are asked for side by side.
+        fetched(server.add("a", DATA), tmp_path / "parts", notes, PIECES[:1])
     assert time.monotonic() - begun < 5 and len(server.asked) <= 3
     told = [text for _, text in notes.messages]
     assert told == ["No bytes have come from 127.0.0.1 for 0 seconds: waiting for it."] or (
