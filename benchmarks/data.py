@@ -71,6 +71,11 @@ REAL = (
     RealTile("house_slope.laz", True),
     RealTile("tall_crops.laz", True, (65,), (3,)),
     RealTile("pond_powerline.laz", True, (5, 9, 26)),
+    RealTile("savanna_grass.laz"),
+    RealTile("hillside_images.laz", True),
+    RealTile("city_court.laz", True, (0,)),
+    RealTile("rock_mountain.laz", True),
+    RealTile("campus_terraces.laz", True),
 )
 
 

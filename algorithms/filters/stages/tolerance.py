@@ -66,8 +66,10 @@ class MeasuredNoise(Rule):
     # than the noise cannot be recognised.
     sparse_factor: float = 2.5
     usual: float = 0.07
-    # Lasers and images scatter less than this, in metres: more is the height of plants.
+    # Lasers and images scatter less than this, in metres: more is the height of plants. Where few
+    # points lie in a cell, the errors of the surface come on top.
     most: float = 0.08
+    most_sparse: float = 0.12
 
     def applied(
         self,
@@ -94,7 +96,7 @@ class MeasuredNoise(Rule):
             # The surface goes through the lowest point of a cell, which has about so many.
             number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
             least = (self.sparse_factor + float(below_middle(number))) * noise - self.usual
-            above = max(above, least)
+            above = max(above, least) if noise <= self.most_sparse else above
         return level, above
 
 
