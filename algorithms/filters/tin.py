@@ -37,6 +37,8 @@ from .stages.tolerance import PlainSurface, ToleranceSurface
 
 # Least spacing of points in metres; a smaller one counts as this.
 _LEAST_SPACING = 0.01
+# Up to so many square metres, what is tall and slender is an A-frame or a polytunnel, not a hill.
+_SMALL = 600.0
 # Points affect each other within so many times the largest building, and within at least so many
 # metres.
 _REACH_BUILDINGS, _LEAST_REACH = 1.2, 100.0
@@ -238,6 +240,7 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
         (Seeds(),),
         Plants(),
         is_site=is_site,
+        regions=GentleRegions(gentle_border=GentleBorder(small=_SMALL)),
         surface=(
             # Low plants are level with each other, but hardly where it is wholly open.
             *(() if is_site else (Shrubs(most_open=0.95),)),

@@ -22,6 +22,7 @@ def shared_pipeline(
     seeds: tuple[Rule, ...],
     plants: Plants,
     is_site: bool,
+    regions: GentleRegions = GentleRegions(),
     objects: Rule | None = None,
     opening: tuple[Rule, ...] = (),
     surface: tuple[Rule, ...] = (),
@@ -41,7 +42,7 @@ def shared_pipeline(
             objects or RaisedObjects(size),
             ProgressiveOpening(size / 2.0),
             *opening,
-            SITE if is_site else GentleRegions(),
+            SITE if is_site else regions,
             *seeds,
             plants,
             # Heaps of a site are as wide as shrubs, and as high.

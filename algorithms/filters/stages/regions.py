@@ -184,6 +184,15 @@ class RaisedRegions(NamedTuple):
         """Which raised cells are even (`even_cells`); boolean, shape (n,)."""
         return even_cells(self.filled).ravel()[self.cells]
 
+    @property
+    def width(self) -> np.ndarray:
+        """Mean width of each region in metres, that of a strip with its area and border."""
+        sides = np.zeros(len(self.area))
+        for kinds in self.borders:
+            for first, _ in kinds:
+                sides += np.bincount(first, minlength=len(sides))
+        return 2.0 * self.area / np.maximum(sides * self.size, self.size)
+
     def widths(self, ground: np.ndarray) -> np.ndarray:
         """Return how many metres of the border of each region are level in one place, given the
         regions that are ground (bool, one each, and a last one for all other cells).
@@ -336,14 +345,9 @@ class LowBanks(Rule):
     def fits(self, regions: RaisedRegions) -> np.ndarray:
         """Return which regions are banks; boolean, shape (regions,)."""
         count = len(regions.area)
-        sides = np.zeros(count)
-        for kinds in regions.borders:
-            for first, _ in kinds:
-                sides += np.bincount(first, minlength=count)
-        width = 2.0 * regions.area / np.maximum(sides * regions.size, regions.size)
         region = regions.number
         share = np.bincount(region, regions.even, count) / np.bincount(region, minlength=count)
-        is_bank = (regions.area >= self.area) & (width <= self.width)
+        is_bank = (regions.area >= self.area) & (regions.width <= self.width)
         if self.most_in_row < 1.0:
             is_bank &= ~self._in_rows(regions)
         return is_bank & (regions.above <= self.height) & (share >= self.even_share)

@@ -116,6 +116,12 @@ class GentleBorder(Rule):
     # If the survey ends along a larger share of the border, the first share is needed: the rest of
     # a roof or of a closed canopy may lie beyond it.
     most_cut: float = 0.1
+    # A region of up to so many square metres is an object, as an A-frame or a polytunnel is, if its
+    # mean height is more than so many metres, and more than this share of its mean width. Regions
+    # that `SteepRises` or `Rims` raise are whole rocks, so only TIN densification asks for it.
+    small: float = 0.0
+    tall: float = 2.0
+    steep: float = 0.45
 
     def fits(
         self, regions: RaisedRegions, ground: np.ndarray, level: np.ndarray, sharp: np.ndarray
@@ -129,6 +135,8 @@ class GentleBorder(Rule):
         few = np.where(cut, shares[0], np.interp(np.log(area), np.log(self.areas), shares))
         many = np.where(cut, shares[0], np.interp(np.log(area), np.log(self.areas), self.shares))
         found = (level > 0) & (level >= few * border) & (area >= self.least_area)
+        tall = (area <= self.small) & (regions.above > self.tall)
+        found &= ~(tall & (regions.above > self.steep * regions.width))
         doubtful = found & (level < many * border)
         if doubtful.any():
             found &= ~doubtful | (regions.widths(ground) >= self.width)
