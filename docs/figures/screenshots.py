@@ -1,6 +1,6 @@
 """Makes the pictures of docs/images: the dialogs, and maps of what the algorithms make.
 
-    tools/environment qgis /usr/bin/python3 docs/figures/screenshots.py TILE.laz [FOLDER [PICTURE ...]]
+    tools/environment qgis /usr/bin/python3 docs/figures/screenshots.py TILE [FOLDER [PICTURE ...]]
 
 It needs the widgets of QGIS but no screen. The names of the pictures hold the version of QGIS.
 Without PICTUREs all are made: dialog, map, map-one-step, ... Those from map-terrain on are of the
