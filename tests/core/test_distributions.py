@@ -18,7 +18,7 @@ TEXT = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
 LISTED = TEXT.partition("[project.optional-dependencies]")[2].partition("\n[")[0]
 EXTRAS = re.findall(r"^(\w+) = \[", LISTED, re.M)
 # Those that are for the development of the package.
-OURS = {"mutants", "docs", "test"}
+OURS = {"docs", "test"}
 BEGIN = "import bare_earth; from bare_earth import arrays; import numpy as np, laspy\n"
 CHECKPOINTS = "laspy.read('ground.laz').xyz[::100]"
 # What each extra makes possible, in the folder of the files.
