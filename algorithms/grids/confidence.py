@@ -2,7 +2,7 @@
 
 It follows from labelled points alone, labelled by any method. The weights are fitted by ``python -m
 benchmarks.confidence``, which also prints how often the terrain is right at each level of
-confidence; docs/confidence.md has the figures.
+confidence; docs/check.md has the figures.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
     is the second half of the id.
     """
 
-    page = "models"
+    page = "command-line#models"
     # The same methods as in the other algorithms.
     helpUrl = BareEarthAlgorithm.helpUrl
     shortHelpString = BareEarthAlgorithm.shortHelpString

@@ -141,6 +141,6 @@ TOOL = FileTool(
     " ground, where the settings differ, and how to run each of them on all points. No point cloud"
     " is written. Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is"
     " read as a whole.",
-    page="compare-settings",
+    page="which-method#compare-settings-on-a-window",
     words=(CLOUD, GROUND, TERRAIN, "preview,try,test,preset,parameters,compare,profile"),
 )
