@@ -31,6 +31,9 @@ class WithStubs(build_py):
             )  # fmt: skip
 
 
-found = find_packages(str(ROOT), include=["algorithms*"])
-setup(packages=["bare_earth", *(f"bare_earth.{name}" for name in found)],
-      cmdclass={"build_py": WithStubs})  # fmt: skip
+if __name__ == "__main__":  # this file lies in the package, too
+    found = find_packages(str(ROOT), include=["algorithms*"])
+    setup(
+        packages=["bare_earth", *(f"bare_earth.{name}" for name in found)],
+        cmdclass={"build_py": WithStubs},
+    )
