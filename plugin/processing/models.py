@@ -41,7 +41,7 @@ _CLASSIFIED, _LINES = "ground:OUTPUT", "contours:OUTPUT"
 _WORDS = {
     "terraincontours": (CLOUD, GROUND, TERRAIN, "contours,workflow"),
     "cloudheights": (CLOUD, GROUND, CANOPY, "height,extra bytes"),
-    "twomethods": (CLOUD, GROUND, "preview,try,test,preset,parameters,compare,profile"),
+    "twomethods": (CLOUD, GROUND, "preview,try,test,preset,parameters,compare"),
 }
 _FOLDER = Path(__file__).parents[1] / "models"
 

@@ -125,7 +125,7 @@ PARAMETERS = {
         "LIMIT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE",
     ],
     "bareearth:comparesettings": [
-        "INPUT", "EXTENT", "CRS", "SETTINGS", "CONTEXT", "PROFILE", "THREADS", "MEMORY", "LIMIT",
+        "INPUT", "EXTENT", "CRS", "SETTINGS", "CONTEXT", "THREADS", "MEMORY", "LIMIT",
         "OUTPUT",
     ],
     "bareearth:assess": [
