@@ -220,8 +220,8 @@ def _surface(
     heights[row, column] = points.z[top]
     inner = slice(margin, margin + window.rows), slice(margin, margin + window.columns)
     # No cell farther from all vertices lies in a triangle that counts.
-    near = math.ceil(step.longest_edge / math.sqrt(3.0) / cell) + 1
-    near = within_square(np.maximum, np.isfinite(heights), near)[inner]
+    reach = math.ceil(step.longest_edge / math.sqrt(3.0) / cell) + 1
+    near = within_square(np.maximum, np.isfinite(heights), reach)[inner]
     heights = heights[inner]
     progress(0.4)
     row, column = np.nonzero(np.isnan(heights) & near)
