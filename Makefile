@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-core test-long test-systems lint test-qgis coverage docs translations package mutants clean
+.PHONY: help demo test test-core test-long test-systems lint test-qgis coverage docs translations package clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -38,10 +38,6 @@ package:  ## pack the last commit, with laspy, as dist/bare_earth-X.Y.Z.zip, to 
 
 coverage:  ## tell which lines no test runs, those of the plugin in the real QGIS
 	@tools/test coverage
-
-mutants:  ## make small faults in the code and tell how many the tests see, which takes hours
-	@tools/environment python -m pip install --quiet --editable ".[mutants]"
-	@tools/environment python tools/mutants.py
 
 clean:  ## remove what these made
 	rm -rf build dist demo-output bare_earth.egg-info

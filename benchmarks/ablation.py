@@ -209,7 +209,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         "--on", nargs="+", choices=page.KINDS, default=page.KINDS, help="some kinds of places"
     )
     parser.add_argument("--kept", action="store_true", help="measure nothing, show what is kept")
-    parser.add_argument("--write", action="store_true", help="write docs/rules.md")
+    parser.add_argument("--write", action="store_true", help="write results/rules.md")
     options = parser.parse_args(arguments)
     everywhere = [place for place in places(options.quick) if place.kind in options.on]
     results: page.Results = {}

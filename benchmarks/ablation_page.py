@@ -1,4 +1,4 @@
-"""The tables of what each rule is worth, and docs/rules.md."""
+"""The tables of what each rule is worth, and results/rules.md."""
 
 from __future__ import annotations
 
@@ -14,8 +14,7 @@ from .rules import BASE, GROUPS, VALUES, lines, variants
 
 # Kinds of places where rules are measured.
 KINDS = "isprs", "real", "plain"
-PAGE = Path(__file__).parents[1] / "docs" / "rules.md"
-COMMENTS = Path(__file__).parent / "rules_comments.md"
+PAGE = Path(__file__).parent / "results" / "rules.md"
 _HEAD = (
     "Left out", "lines", "CPU, %", "ISPRS", "labels: worst", "best", "RMSE, %", "DTM: worst",
     "best", "spikes", "pits", "protects", "takes",
@@ -46,6 +45,7 @@ is measured again. A rule is worth its code if errors get worse without it, abov
 A positive change is a loss without the rule. 0 is less than can be printed. A rule may be worth
 nothing alone and something in a group, where no other stands in for it. The command
 `python -m benchmarks.ablation --write` makes this page; this one is {form}.
+[Comments](rules_comments.md) tell what each rule was made for, and what was tried in vain.
 """
 
 # Figures of a variant at a place, by name.
@@ -169,7 +169,7 @@ def _base(method: str, places: Places) -> list[str]:
 
 
 def write(results: Results, is_quick: bool) -> None:
-    """Write the page, with the comments as they stand in their file."""
+    """Write the page."""
     everywhere = {place: found for places in results.values() for place, found in places.items()}
     samples = [place.split(" ", 1) for kind, place in everywhere if kind == "isprs"]
     text = [
@@ -191,5 +191,4 @@ def write(results: Results, is_quick: bool) -> None:
     for name, (kind, values) in VALUES.items():
         given = ", ".join(f"`{field}` {value}" for field, value in values.items())
         text.append(f"- *{name}*: {kind.name} with {given}.")
-    text += ["", COMMENTS.read_text("utf-8").rstrip()]
     PAGE.write_text("\n".join(text) + "\n", "utf-8")

@@ -1,7 +1,7 @@
 """Measures the classes above the ground: buildings of real tiles and scenes, and each constant.
 
     python -m benchmarks.above_ground            # print the tables
-    python -m benchmarks.above_ground --write    # and put them into docs/above-ground.md
+    python -m benchmarks.above_ground --write    # and put them into results/above_ground.md
 
 The constants were chosen with four real tiles, forests and the tuning seeds. What is quoted of the
 scenes is measured on the reporting seeds.
@@ -29,7 +29,7 @@ from benchmarks.clouds import classify_cloud
 from .data import FOLDER, read_cloud
 from .scenes import REPORTING_SEEDS, TUNING_SEEDS, make
 
-PAGE = Path(__file__).parents[1] / "docs" / "above-ground.md"
+PAGE = Path(__file__).parent / "results" / "above_ground.md"
 TILES = (
     "ahn3_urban.laz",
     "house_slope.laz",

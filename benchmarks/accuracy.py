@@ -9,7 +9,7 @@ their range. Generated scenes (`benchmarks/scenes`) are made from seeds of which
 tuning: `--scenes --method tin --seeds tuning --no-dtm`.
 
 Without the name of a part everything is measured and printed. With `--write`, samples and tiles are
-written to docs/accuracy.md, scenes and sensitivity to docs/scenes.md. Answers of peers are
+written to results/accuracy.md, scenes and sensitivity to results/scenes.md. Answers of peers are
 remembered in ~/.cache/bare-earth/benchmarks (or $BARE_EARTH_CACHE); the data are sought in
 $BARE_EARTH_DATA.
 """
@@ -151,7 +151,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument(
         "--write",
         action="store_true",
-        help="write docs/accuracy.md (--isprs --real), docs/scenes.md (--scenes --sensitivity)",
+        help="write accuracy.md (--isprs --real), scenes.md (--scenes --sensitivity)",
     )
     options = parser.parse_args(arguments)
     parts = {name for name in PARTS if getattr(options, name)} or set(PARTS)

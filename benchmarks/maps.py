@@ -1,4 +1,4 @@
-"""Pictures for docs/accuracy.md: where a filter errs, and terrain models in relief."""
+"""Pictures for results/accuracy.md: where a filter errs, and terrain models in relief."""
 
 from __future__ import annotations
 

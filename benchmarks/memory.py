@@ -12,7 +12,6 @@ this needs about 1.5 GB there, and 12 GB for the files of a run.
 from __future__ import annotations
 
 import argparse
-import datetime
 import itertools
 import os
 import subprocess
@@ -30,7 +29,7 @@ from . import cache, tables
 from .speed import tiles
 from .speed.process import ROOT, environment
 
-PAGE = ROOT / "docs" / "memory.md"
+PAGE = ROOT / "benchmarks" / "results" / "memory.md"
 # Seconds between two looks at the processes.
 _LOOKING = 0.1
 _GIGABYTE = 1e9
@@ -233,7 +232,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )  # fmt: skip
     parser.add_argument("--memory", type=float, default=1.0, help="GB that runs get (default: 1)")
     parser.add_argument("--only", help="only runs whose name contains this, and the floor")
-    parser.add_argument("--write", action="store_true", help="write docs/memory.md")
+    parser.add_argument("--write", action="store_true", help="write results/memory.md")
     options = parser.parse_args(arguments)
     paths = survey(options.tiles, int(options.points * 1e6))
     count = options.tiles * options.points
@@ -255,7 +254,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             ["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True
         )
         words = {
-            "libraries": LIBRARIES, "date": datetime.date.today(), "commit": commit.stdout.strip(),
+            "libraries": LIBRARIES, "commit": commit.stdout.strip(),
             "processors": os.cpu_count(), "load": f"{load:.1f}", "count": options.tiles,
             "points": f"{options.points:g}", "table": "\n".join(lines),
         }  # fmt: skip

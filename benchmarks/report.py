@@ -1,4 +1,4 @@
-"""Writes docs/accuracy.md and docs/scenes.md: the figures, with pictures."""
+"""Writes results/accuracy.md and results/scenes.md: the figures, with pictures."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ from .phases import Phased
 from .scenes import KINDS
 from .sensitivity import Moved, Sensitivity
 
-PAGE = Path(__file__).parents[1] / "docs" / "accuracy.md"
-IMAGES = PAGE.parent / "images"
+RESULTS = Path(__file__).parent / "results"
+PAGE = RESULTS / "accuracy.md"
+IMAGES = RESULTS / "images"
 WORST_NAME, RELIEF_NAME = "accuracy-worst-", "accuracy-relief-"
 SCENE_NAME = "accuracy-scene-"
 WORST, WORST_SCENES = 3, 5
@@ -60,7 +61,7 @@ _TILES = {
 
 
 class Picture(NamedTuple):
-    """A file below docs/images, and what stands below it."""
+    """A file below results/images, and what stands below it."""
 
     name: str
     caption: str

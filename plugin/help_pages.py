@@ -13,10 +13,12 @@ _HELP = _ROOT / "help"
 
 
 def address_of(page: str) -> str:
-    """Return the address of a page of docs/, named without ending."""
-    file = _HELP / f"{page}.html"
+    """Return the address of a page of docs/, named without ending, perhaps with a section."""
+    name, mark, section = page.partition("#")
+    anchor = mark + section
+    file = _HELP / f"{name}.html"
     if file.is_file():
-        return QUrl.fromLocalFile(str(file)).toString()
+        return QUrl.fromLocalFile(str(file)).toString() + anchor
     metadata = configparser.ConfigParser(interpolation=None)
     metadata.read(_ROOT / "metadata.txt", encoding="utf-8")
-    return f"{metadata['general']['repository']}/blob/main/docs/{page}.md"
+    return f"{metadata['general']['repository']}/blob/main/docs/{name}.md{anchor}"

@@ -1,11 +1,12 @@
 """Writes `__init__.pyi` and `arrays.pyi`, from which editors and mypy know the library.
 
-python tools/stub.py   writes them anew; `tests/core/test_library.py` tells when that is to be done
+python tools/stub.py FOLDER   writes them into the folder of the package, as setup.py does
 """
 
 from __future__ import annotations
 
 import inspect
+import sys
 import textwrap
 from pathlib import Path
 
@@ -13,7 +14,6 @@ from bare_earth.algorithms.library import array_names, arrays, names
 from bare_earth.algorithms.library.functions import Function
 from bare_earth.algorithms.library.tools import declared
 
-ROOT = Path(__file__).parents[1]
 _PATH = "str | PathLike[str]"
 _HEAD = """\
 # Made by tools/stub.py from what tools declare. Do not edit.
@@ -67,11 +67,15 @@ def _of(function: Function) -> str:
             lines, is_keyword = [*lines, "*,"], True
         default = "" if argument.default is inspect.Parameter.empty else f" = {argument.default!r}"
         lines.append(f"{argument.name}: {argument.annotation.replace(_PATH, '_Path')}{default},")
-    text = textwrap.indent(f'"""{function.documentation}"""', "    ").replace("\\", "\\\\")
-    head, result = textwrap.indent("\n".join(lines), "    "), function.returns
-    return f"def {function.name}(\n{head}\n) -> {result}:\n{text}\n"
+    head = textwrap.indent("\n".join(lines), "    ")
+    return f"def {function.name}(\n{head}\n) -> {function.returns}: ...\n"
+
+
+def write(package: Path) -> None:
+    """Write the stubs into the folder of the package."""
+    for name, text in stubs().items():
+        (package / name).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
-    for name, text in stubs().items():
-        (ROOT / name).write_text(text, encoding="utf-8")
+    write(Path(sys.argv[1]))

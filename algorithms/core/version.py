@@ -1,3 +1,6 @@
-"""The version of the package, which is also in `metadata.txt` and the changelog."""
+"""The version of the package, which stands in `metadata.txt`, where QGIS reads it."""
 
-__version__ = "0.1.0"
+from pathlib import Path
+
+_METADATA = Path(__file__).parents[2] / "metadata.txt"
+__version__ = _METADATA.read_text(encoding="utf-8").partition("\nversion=")[2].split("\n")[0]

@@ -123,7 +123,7 @@ TOOL = Composition(
     about="Finds the ground of a raw lidar point cloud and makes maps of it. Each output is"
     " optional. A delivery makes all that a job hands over, in one folder: for a survey,"
     " archaeology, forestry, floods or a drone site. Lengths are metres.",
-    page="point-cloud-to-terrain",
+    page="terrain-model#point-cloud-to-terrain",
     words=(
         CLOUD, GROUND, TERRAIN, CANOPY, TILES, "contours,workflow",
         "deliverables,archaeology,forestry,flood,drone,stockpile",

@@ -19,28 +19,27 @@ from .bridge_relief import Relief
 from .bridge_sections import Rule, Sections, raised_sections
 from .morphology import within_square
 
-# At the sides of a deck the ground is lower by at least so many metres, and so many for each metre
-# of distance. This share of the spacing of the points is added to the distance.
-_DROP, _DROP_SLOPE, _DROP_SPACING = 0.5, 1.0, 0.75
-# A deck that was found is extended by at most so many metres, or spacings if that is more, where
-# cross-sections meet this weaker rule.
-_GROWTH, _GROWTH_SPACINGS, _WEAK_RULE = 8.0, 4.0, Rule(0.25, 0.9, False)
-# A deck has at least so many square metres and so many cells, and is at least so many metres, and
-# so many spacings of the points, long.
-_LEAST_AREA, _LEAST_CELLS, _LEAST_SPAN, _LEAST_SPACINGS = 12.0, 4, 3.0, 2.0
-# The ground at an end may differ in height from the deck by so many metres, and so many for each
-# metre of distance.
-_LEVEL, _LEVEL_SLOPE = 0.25, 0.03
-# Cross-sections at this angle to a deck, or a larger one, lie across it. More than this share of
-# them must.
-_OBLIQUE, _MOSTLY = math.radians(30.0), 0.5
+_DROP = 0.5  # least height of a deck above the ground at its sides, m
+_DROP_SLOPE = 1.0  # what a metre of distance adds to it, m
+_DROP_SPACING = 0.75  # what is added to that distance, spacings of the points
+_WEAK_RULE = Rule(0.25, 0.9, False)  # of cross-sections by which a deck that was found grows
+_GROWTH = 8.0  # the most that it grows, m
+_GROWTH_SPACINGS = 4.0  # or in spacings of the points, if that is more
+_LEAST_AREA = 12.0  # of a deck, m²
+_LEAST_CELLS = 4
+_LEAST_SPAN = 3.0  # least length of a deck, m
+_LEAST_SPACINGS = 2.0  # and in spacings of the points
+_LEVEL = 0.25  # largest difference in height between a deck and the ground at its end, m
+_LEVEL_SLOPE = 0.03  # what a metre of distance adds to it, m
+_OBLIQUE = math.radians(30.0)  # least angle to a deck of cross-sections that lie across it
+_MOSTLY = 0.5  # share of all cross-sections that must lie across it
 # Least number of cross-sections through each cell of a deck, on average. On a table mountain there
 # are a few, which meet no point on the face of the cliff by chance.
 _CROSSING = 2.5
-# Least length of the ground, in metres, within so many metres of an end, over this share of the
-# deck's width.
-_GROUND, _END, _CARRIED = 4.0, 12.0, 0.5
-# Points within so many metres of the surface of a deck are on it.
+_GROUND = 4.0  # least length of the ground at an end of a deck, m
+_END = 12.0  # distance from the end within which it lies, m
+_CARRIED = 0.5  # share of the deck's width over which it does
+# Largest distance in metres of points on a deck from its surface.
 _NEAR = 0.5
 
 

@@ -19,25 +19,22 @@ from .bridge_relief import BORDER, STEP, STEP_SLOPE, Relief
 from .cells import are_inside, numbered
 from .morphology import within_square
 
-# Directions of cross-sections over a whole turn, and the longest in metres.
-_DIRECTIONS, _LONGEST = 96, 70.0
-# Along a cross-section the surface may be unknown over so many metres.
-_GAP = 3.0
-# Largest distance in metres from an edge to its foot, and to its foot beyond water or another void.
-_FOOT, _VOID_FOOT = 6.0, 60.0
-# Beyond a void the ground must be lower by so many metres, and so many for each metre of distance.
-_VOID_DROP, _VOID_SLOPE = 2.0, 0.05
-# The ends of a cross-section may differ in height by so many metres, and so many for each metre of
-# its length.
-_TILT, _TILT_SLOPE = 0.5, 0.08
+_DIRECTIONS = 96  # of cross-sections, over a whole turn
+_LONGEST = 70.0  # longest cross-section, m
+_GAP = 3.0  # length over which the surface may be unknown along a cross-section, m
+_FOOT = 6.0  # largest distance from an edge to its foot, m
+_VOID_FOOT = 60.0  # the same beyond water or another void, m
+_VOID_DROP = 2.0  # how much lower the ground beyond a void must be, m
+_VOID_SLOPE = 0.05  # what a metre of distance adds to it, m
+_TILT = 0.5  # largest difference in height between the ends of a cross-section, m
+_TILT_SLOPE = 0.08  # what a metre of its length adds to it, m
 # The feet may differ in height by this share of the lower drop.
 _FEET = 0.5
 # No ground may lie on a drop, except in the lowest and the highest part, which have this share of
 # it.
 _FACE = 0.25
-# For so many metres beyond the foot, the ground must be lower than the edge by at least this share
-# of the drop. Otherwise the foot lies in a pit. The border of the relief is just wide enough.
-_PIT, _BEYOND = 0.5, BORDER - _FOOT
+_PIT = 0.5  # share of the drop by which the ground beyond the foot must be lower than the edge
+_BEYOND = BORDER - _FOOT  # distance up to which this holds, m: all that the relief has
 # Radii in cells of the rings round an edge in which the lowest ground is compared with it.
 _RINGS = (0, 1, 2, 4)
 

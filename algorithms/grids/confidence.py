@@ -2,7 +2,7 @@
 
 It follows from labelled points alone, labelled by any method. The weights are fitted by ``python -m
 benchmarks.confidence``, which also prints how often the terrain is right at each level of
-confidence; docs/confidence.md has the figures.
+confidence; docs/check.md has the figures.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from .parts import parts_with
 
 # Side of the cells in metres. All values below were fitted with it.
 CELL = 1.0
-# The terrain of a cell is right within so many metres, plus this share of the terrain's rise over
-# the cell, because the height is that of the middle of the cell.
-TOLERANCE, RISE_SHARE = 0.3, 0.5
-# Cells up to so many to each side are near a cell, and up to so many are round it.
-_NEAR, _AROUND = 2, 8
+TOLERANCE = 0.3  # distance from the true terrain up to which a cell is right, m
+# Share of the terrain's rise over the cell that is added, because the height is that of its middle.
+RISE_SHARE = 0.5
+_NEAR = 2  # cells to each side that are near a cell
+_AROUND = 8  # cells to each side that are round it
 # Weight of the cells round a cell, where the weight of those near it is 1.
 _AROUND_SHARE = 0.05
-# A rejected point up to so many metres above the ground may be ground.
+# Height in metres above the ground up to which a rejected point may be ground.
 _DOUBTFUL_HEIGHT = 1.0
 _RELAXATIONS = 2
-# Largest roughness (m) and steepest step (rise over run) that count.
-_ROUGHEST, _STEEPEST = 2.0, 8.0
+_ROUGHEST = 2.0  # largest roughness that counts, m
+_STEEPEST = 8.0  # steepest step that counts, rise over run
 _TINY = 1e-6
 
 

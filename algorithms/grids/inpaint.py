@@ -117,7 +117,7 @@ def _relax_all(padded: np.ndarray, unknown: np.ndarray, relaxations: int) -> Non
 
 
 def _relax_some(padded: np.ndarray, row: np.ndarray, column: np.ndarray, relaxations: int) -> None:
-    """Do the same as `_relax_all` for few unknown cells, given by row and column."""
+    """Relax few unknown cells, given by row and column, as `_relax_all` does."""
     width = padded.shape[1]
     place = (row + 1) * width + column + 1
     flat = padded.ravel()
@@ -179,7 +179,7 @@ def _finer(coarse: np.ndarray, shape: tuple[int, int], odd: First) -> np.ndarray
 
 
 def _finer_at(coarse: np.ndarray, row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Do the same as `_finer` for single cells, in the same order, so that rounding is equal."""
+    """Refine single cells as `_finer` does, in the same order, so that rounding is equal."""
     width = coarse.shape[1]
     # The coarse cell that holds the fine one, and its neighbour on the side of the fine one.
     own_row, own_column = row >> 1, column >> 1

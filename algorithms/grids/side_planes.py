@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Callable, NamedTuple
 
 import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import over_parts
+from .cells import Cells, cells_at
 from .planes import means_and_moments, plane_slopes
 
 # Nearest neighbours that are used, and how many of them a side needs for a plane.
@@ -24,6 +25,14 @@ _LEAF = 32
 # Square metres that are added to the variances of the neighbours' places, so that there is always a
 # plane.
 _STIFFNESS = 0.1
+# Cells on each side of that of a place in which neighbours are looked for first, and how many times
+# as many cells as points there may be.
+_STENCIL, _MOST_VOID = 3, 8
+_ANGLES = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
+
+# Says of which points of a part the plane of one side (rise, slopes, misfit) decides enough: on
+# most land any side does.
+Enough = Callable[..., np.ndarray]
 
 
 class Sides:
@@ -32,69 +41,149 @@ class Sides:
     # `ground`: Points of the ground.
     # `reach`: Metres within which ground points are neighbours.
     # `apart`: Metres within which they are none, as they may belong to the same plant.
+    # `cells`: Cells of which the ground has the lowest points, in their order.
 
-    def __init__(self, ground: Points, reach: float, apart: float = 0.0) -> None:
+    def __init__(
+        self, ground: Points, reach: float, apart: float = 0.0, cells: Cells | None = None
+    ) -> None:
         from scipy.spatial import cKDTree
 
         self._ground, self._reach, self._apart = ground, reach, apart
         self._tree = None
+        self._of_cells = None
+        if cells and cells.rows * cells.columns < _MOST_VOID * ground.count:
+            self._of_cells = _OfCells.over(cells, ground)
         if ground.count:
             places = np.column_stack((ground.x, ground.y))
             self._tree = cKDTree(places, _LEAF, compact_nodes=False, balanced_tree=False)
 
-    def rises(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+    def rises(
+        self, points: Points, own: bool, enough: Enough | None = None
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Return how many metres points lie above the plane of each side, NaN with too few
         neighbours, and its misfit, both (n, 8); `own` points are ground, and not their own
         neighbours.
         """
-        rise, _, _, misfit = self.planes(points, own)
+        rise, _, _, misfit = self.planes(points, own, enough)
         return rise, misfit
 
-    def planes(self, points: Points, own: bool = False) -> tuple[np.ndarray, ...]:
+    def planes(
+        self, points: Points, own: bool = False, enough: Enough | None = None
+    ) -> tuple[np.ndarray, ...]:
         """Return the planes on all sides of points: how many metres these lie above them, their
-        slopes to the east and to the north, rise over run, and their misfits, all (n, 8).
+        slopes to the east and to the north, rise over run, and their misfits, all (n, 8); NaN where
+        the plane of the first side is `enough`.
         """
         found = np.full((4, points.count, _SIDES), np.nan)
         tree = self._tree
         if tree is not None:
 
             def judge(part: slice) -> None:
-                found[:, part] = _planes(self._sums(tree, points.take(part), own))
+                terms, there = self._neighbours(tree, points.take(part), own)
+                rest = np.arange(there.shape[1])
+                if enough:
+                    beside = _beside(terms, there, np.zeros(1))[0]
+                    first = _planes((terms * beside).sum(axis=1))
+                    found[:, part, 0] = first
+                    rest = np.flatnonzero(~enough(part, *first))
+                    terms, there = terms.take(rest, axis=2), there.take(rest, axis=1)
+                beside = _beside(terms, there, _ANGLES).transpose(2, 0, 1)
+                sums = beside.astype(float) @ terms.transpose(2, 1, 0)
+                found[:, part.start + rest] = _planes(np.moveaxis(sums, -1, 0))
 
             over_parts(judge, points.count, _AT_ONCE, SILENT)
         return tuple(found)
 
-    def _sums(self, tree: Any, points: Points, own: bool) -> np.ndarray:
-        """Return the sums over the neighbours on each side of points, shape (n, 8, 10)."""
-        places = np.column_stack((points.x, points.y))
-        distance, which = tree.query(
-            places, _NEIGHBOURS + 1 + own, distance_upper_bound=self._reach
-        )
-        if own:
-            distance, which = distance[:, 1:], which[:, 1:]
+    def _nearest(self, tree: Any, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Return the distances and the numbers of the neighbours of points, shape (17, n), the
+        farthest one last.
+        """
+        places, count = np.column_stack((points.x, points.y)), _NEIGHBOURS + 1 + own
+        if self._of_cells is None or own:
+            found = tree.query(places, count, distance_upper_bound=self._reach)
+        else:
+            found = distance, which = self._of_cells.nearest(points, count)
+            far = np.flatnonzero(distance[:, -1] > min(self._of_cells.certain, self._reach))
+            distance[far], which[far] = tree.query(
+                places[far], count, distance_upper_bound=self._reach
+            )
+        distance, which = (np.ascontiguousarray(values.T[int(own) :]) for values in found)
+        return distance, which
+
+    def _neighbours(self, tree: Any, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Return the terms of which sums give planes, shape (10, 16, n), for the neighbours of
+        points, and which of these count, shape (16, n).
+        """
+        distance, which = self._nearest(tree, points, own)
         # If several are equally far away, the tree may return any of them. Then none of them
         # counts.
-        there = (distance[:, :-1] < distance[:, -1:]) & (distance[:, :-1] >= self._apart)
-        which = np.where(there, which[:, :-1], 0)
+        there = (distance[:-1] < distance[-1]) & (distance[:-1] >= self._apart)
+        which = np.where(there, which[:-1], 0)
         terms = np.empty((10, *which.shape))
         terms[0] = 1.0
         for term, of, place in zip(terms[1:4], self._ground, points):
-            np.subtract(of.take(which), place[:, None], out=term)
+            np.subtract(of.take(which), place, out=term)
         terms[1:4] *= there
         for product, (one, two) in zip(terms[4:], _PRODUCTS):
             np.multiply(terms[one], terms[two], out=product)
-        angles = 2.0 * np.pi * np.arange(_SIDES)[:, None] / _SIDES
-        ahead = terms[1][:, None] * np.cos(angles)
-        ahead += terms[2][:, None] * np.sin(angles)
-        beside = (ahead >= -1e-6) & there[:, None]
-        return beside.astype(float) @ terms.transpose(1, 2, 0)
+        return terms, there
+
+
+class _OfCells(NamedTuple):
+    """Points of which each cell has one at most: found by cell, in a quarter of a tree's time."""
+
+    # With a margin of empty cells: number, and x and y, which are infinite where there is none.
+    number: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    cells: Cells
+
+    @classmethod
+    def over(cls, cells: Cells, ground: Points) -> _OfCells:
+        """Return the points by cell."""
+        shape = cells.rows + 2 * _STENCIL, cells.columns + 2 * _STENCIL
+        number, (x, y) = np.zeros(shape, dtype=np.int64), np.full((2, *shape), np.inf)
+        row, column = cells_at(ground.x, ground.y, cells.size)
+        at = row + _STENCIL - cells.first_row, column + _STENCIL - cells.first_column
+        number[at], x[at], y[at] = np.arange(ground.count), ground.x, ground.y
+        return cls(number, x, y, cells)
+
+    @property
+    def certain(self) -> float:
+        """Metres within which no point is missed."""
+        return _STENCIL * self.cells.size
+
+    def nearest(self, places: Points, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return the distances and the numbers of points near places, shape (n, count), the
+        farthest one last.
+        """
+        width = self.x.shape[1]
+        steps = np.arange(2 * _STENCIL + 1)
+        row, column = cells_at(places.x, places.y, self.cells.size)
+        corner = (row - self.cells.first_row) * width + column - self.cells.first_column
+        there = corner[:, None] + (steps[:, None] * width + steps).ravel()
+        squared, north = self.x.take(there), self.y.take(there)
+        for beside, place in ((squared, places.x), (north, places.y)):
+            beside -= place[:, None]
+            beside *= beside
+        squared += north
+        some = np.argpartition(squared, count - 1, axis=1)[:, :count]
+        chosen = np.take_along_axis(there, some, axis=1)
+        return np.sqrt(np.take_along_axis(squared, some, axis=1)), self.number.take(chosen)
+
+
+def _beside(terms: np.ndarray, there: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """Return which neighbours lie on the sides in some directions, shape (sides, 16, n)."""
+    ahead = terms[1] * np.cos(angles)[:, None, None]
+    ahead += terms[2] * np.sin(angles)[:, None, None]
+    return (ahead >= -1e-6) & there
 
 
 def _planes(sums: np.ndarray) -> tuple[np.ndarray, ...]:
     """Return how far (0, 0, 0) lies above planes, their slopes and misfits, from sums over
     neighbours.
     """
-    count, *rest, zz = np.moveaxis(sums, -1, 0)
+    count, *rest, zz = sums
     total = np.maximum(count, 1.0)
     x, y, z, xx, xy, yy, xz, yz = means_and_moments(total, *rest)
     zz = zz / total - z * z

@@ -75,6 +75,11 @@ class Surface:
         heights = np.full(len(x), np.nan)
         if not len(x) or is_one_line(np.column_stack(self._vertices[:2])):
             return heights
+        inside = np.flatnonzero(self._depth(x, y) > -_ON_HULL)
+        if len(inside) < len(x):
+            # Walks to places outside lead along all of the hull.
+            heights[inside] = self.heights(x[inside], y[inside], max_edge, progress, cells)
+            return heights
         blocks = list(self._blocks(x, y))
         # A single block reports its own progress. Of several blocks, each is one step.
         within = progress if len(blocks) == 1 else SILENT
@@ -169,9 +174,7 @@ class Surface:
         progress(0.6)
         is_left = np.zeros(len(x), dtype=bool)
         if not is_one_block:
-            depth = self._depth(x, y)
-            is_left = (triangle < 0) & (depth >= _ON_HULL)
-            triangle[depth <= -_ON_HULL] = -1
+            is_left = (triangle < 0) & (self._depth(x, y) >= _ON_HULL)
         if not (is_one_block and are_all):
             inside = np.flatnonzero(triangle >= 0)
             in_circle = self._in_circles(tin, triangle[inside], borders if are_all else None)

@@ -77,7 +77,7 @@ def polygons_of(given: Any) -> Any:
 
 
 def lines_of(given: Any) -> Any:
-    """Return lines, likewise."""
+    """Return lines, whatever they are given as."""
     from ..survey.vector_files import shapes_of
 
     return shapes_of(given, "LineString")

@@ -37,7 +37,7 @@ class RasterGrid:
     """A north-up grid of square cells in the CRS of the survey."""
 
     west: float  # in units of the CRS, a multiple of the cell size, so that tiles fit together
-    north: float  # likewise
+    north: float  # as west
     cell_size: float  # in units of the CRS
     columns: int
     rows: int

@@ -354,7 +354,7 @@ TOOL = FileTool(
     " points, or a part of them. Type I error: the share of the reference's ground that was"
     " rejected. Type II error: the share of all other points that was accepted as ground. The"
     " report is a web page with a map.",
-    page="assess",
+    page="check#against-a-reference",
     words=(CLOUD, "ground,accuracy,quality,error,validation,kappa,confusion matrix,reference"),
     numbers=(
         ("POINT_COUNT", "Points"),

@@ -153,7 +153,7 @@ class Tool:
     section: str = "Products"  # of the toolbox
     summary: str = ""  # the tooltip
     about: str = ""  # first paragraphs of the help
-    page: str = ""  # in the folder docs
+    page: str = ""  # in the folder docs, perhaps with a section, as in "heights#model-key-points"
     words: tuple[str, ...] = ()  # for the search of the toolbox, separated by commas
     run_name: str = ""  # of the group of layers, if it is not the title
     # Outputs that are numbers: their names, in lower case those of fields of the summary, and

@@ -279,7 +279,7 @@ TOOL = PointTool(
     " HeightAboveGround, or replace z; nothing else in the file changes.\n"
     "With a terrain model, heights are measured above that raster, and the points need no"
     " classes.",
-    page="height-above-ground",
+    page="heights",
     words=(CLOUD, CANOPY, TIN, "height,extra bytes"),
     output_label="Point cloud with heights",
     output_help="The same points with their heights above ground.",

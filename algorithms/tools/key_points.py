@@ -177,7 +177,7 @@ TOOL = PointTool(
     " these key points than the tolerances. Key points get a class of their own, or the"
     " key-point flag; nothing else in the file changes.\n"
     "Lengths are metres, whatever the unit of the CRS.",
-    page="model-key-points",
+    page="heights#model-key-points",
     words=(CLOUD, TERRAIN, TIN, "ground,thin,thinning,generalize,keypoints,contours"),
     output_label="Point cloud with key points",
     output_help="The same points, with the key points marked.",

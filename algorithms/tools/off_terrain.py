@@ -211,7 +211,7 @@ TOOL = FileTool(
     " stands above the terrain around it, has steep edges on all sides and is not wider than the"
     " maximum object size. Fills the gaps smoothly. Hills and slopes stay.\n"
     "The output has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS.",
-    page="remove-off-terrain-objects",
+    page="relief#remove-off-terrain-objects",
     words=(
         TERRAIN,
         RASTER,

@@ -212,7 +212,7 @@ TOOL = PointTool(
     about="Ground points in polygons of water become water (9), and those within a distance of the"
     " shore ignored ground (20), as the Lidar Base Specification asks for. Nothing else in the"
     " file changes: points with other classes keep them.",
-    page="water",
+    page="water#classes-of-points-in-the-water",
     words=(
         CLOUD,
         "lake,river,pond,shore,breaklines,hydro-flattening,class 9,class 20,ignored ground,"

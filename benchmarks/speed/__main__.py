@@ -208,7 +208,7 @@ def _parser(known: Sequence[Contestant]) -> argparse.ArgumentParser:
         "--from", type=Path, dest="source", metavar="FILE",
         help="measure nothing: take what --json wrote",
     )  # fmt: skip
-    parser.add_argument("--write", action="store_true", help="write docs/performance.md")
+    parser.add_argument("--write", action="store_true", help="write results/performance.md")
     return parser
 
 

@@ -1,4 +1,4 @@
-"""The tables, the plot and docs/performance.md."""
+"""The tables, the plot and results/performance.md."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from .. import report
 from ..tables import NONE, number, table
 from .contestants import FLOOR, OURS, Contestant
 from .goals import goals
-from .process import ROOT, STOPPED
+from .process import STOPPED
 from .profiling import SHARES
 from .results import Results, Spread
 from .tiles import Tile
 
-PAGE = ROOT / "docs" / "performance.md"
+PAGE = report.RESULTS / "performance.md"
 TEMPLATE = Path(__file__).parent / "page.md"
 PLOT = "speed.png"
 BILLIONS = (1, 100)

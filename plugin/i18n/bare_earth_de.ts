@@ -904,10 +904,6 @@
         <translation>Grenze des Herunterladens [GB]</translation>
     </message>
     <message>
-        <source>Line of the profile</source>
-        <translation>Linie des Profils</translation>
-    </message>
-    <message>
         <source>Local dominance</source>
         <translation>Lokale Dominanz</translation>
     </message>
@@ -1940,8 +1936,8 @@
         <translation>Punkte nahe der Oberfläche</translation>
     </message>
     <message>
-        <source>preview,try,test,preset,parameters,compare,profile</source>
-        <translation>Vorschau,probieren,testen,Voreinstellung,Parameter,vergleichen,Profil</translation>
+        <source>preview,try,test,preset,parameters,compare</source>
+        <translation>Vorschau,probieren,testen,Voreinstellung,Parameter,vergleichen</translation>
     </message>
     <message>
         <source>ptd,axelsson,densification</source>

@@ -904,10 +904,6 @@
         <translation>Limite du téléchargement [Go]</translation>
     </message>
     <message>
-        <source>Line of the profile</source>
-        <translation>Ligne du profil</translation>
-    </message>
-    <message>
         <source>Local dominance</source>
         <translation>Dominance locale</translation>
     </message>
@@ -1940,8 +1936,8 @@
         <translation>points près de la surface</translation>
     </message>
     <message>
-        <source>preview,try,test,preset,parameters,compare,profile</source>
-        <translation>aperçu,essayer,tester,préréglage,paramètres,comparer,profil</translation>
+        <source>preview,try,test,preset,parameters,compare</source>
+        <translation>aperçu,essayer,tester,préréglage,paramètres,comparer</translation>
     </message>
     <message>
         <source>ptd,axelsson,densification</source>

@@ -41,7 +41,7 @@ _CLASSIFIED, _LINES = "ground:OUTPUT", "contours:OUTPUT"
 _WORDS = {
     "terraincontours": (CLOUD, GROUND, TERRAIN, "contours,workflow"),
     "cloudheights": (CLOUD, GROUND, CANOPY, "height,extra bytes"),
-    "twomethods": (CLOUD, GROUND, "preview,try,test,preset,parameters,compare,profile"),
+    "twomethods": (CLOUD, GROUND, "preview,try,test,preset,parameters,compare"),
 }
 _FOLDER = Path(__file__).parents[1] / "models"
 
@@ -51,7 +51,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
     is the second half of the id.
     """
 
-    page = "models"
+    page = "command-line#models"
     # The same methods as in the other algorithms.
     helpUrl = BareEarthAlgorithm.helpUrl
     shortHelpString = BareEarthAlgorithm.shortHelpString

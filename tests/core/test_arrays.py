@@ -8,6 +8,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+import stub
 from matrices import quick
 from realdata import real
 from surveys import ORIGIN, strip, write, write_points
@@ -321,7 +322,10 @@ arrays.ground(las, metod='slope')
 
 @pytest.fixture
 def script(tmp_path):
-    (tmp_path / "bare_earth").symlink_to(ROOT, target_is_directory=True)
+    package = tmp_path / "bare_earth"
+    package.mkdir()
+    (package / "algorithms").symlink_to(ROOT / "algorithms", target_is_directory=True)
+    stub.write(package)
     (tmp_path / "script.py").write_text(SCRIPT)
     return tmp_path / "script.py"
 

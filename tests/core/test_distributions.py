@@ -18,7 +18,7 @@ TEXT = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
 LISTED = TEXT.partition("[project.optional-dependencies]")[2].partition("\n[")[0]
 EXTRAS = re.findall(r"^(\w+) = \[", LISTED, re.M)
 # Those that are for the development of the package.
-OURS = {"mutants", "docs", "test"}
+OURS = {"docs", "test"}
 BEGIN = "import bare_earth; from bare_earth import arrays; import numpy as np, laspy\n"
 CHECKPOINTS = "laspy.read('ground.laz').xyz[::100]"
 # What each extra makes possible, in the folder of the files.
@@ -105,7 +105,9 @@ def test_wheel_and_sdist_are_as_pypi_wants_them(built, tools):
     assert run(tools, "-m", "twine", "check", "--strict", *files).count("PASSED") == 2
     names = zipfile.ZipFile(files[0]).namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"bare_earth"}
-    for name in ("py.typed", "__init__.pyi", "arrays.pyi", "algorithms/tools/check/words.ini"):
+    made = ("py.typed", "metadata.txt", "__init__.pyi", "arrays.pyi")
+    there = run("git", "ls-files", "algorithms", cwd=ROOT).split()
+    for name in (*made, *there):
         assert f"bare_earth/{name}" in names
     assert not [name for name in names if "/tests/" in name or "/plugin/" in name]
 

@@ -5,6 +5,7 @@ import re
 
 import pytest
 from shipped import ROOT, SHIPPED, name_of, tree_of
+from stub import stubs
 
 _DEFINITIONS = (ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 _SECTION = re.compile(r"^\s*-{3,}\s*$", re.MULTILINE)
@@ -19,11 +20,10 @@ def _file_of(module):
 
 def _exported():
     """Return the file and the name there of all that `bare_earth` exports or returns."""
-    places = ROOT / "__init__.pyi", ROOT / "arrays.pyi"
     return {
         (_file_of(ROOT.joinpath(*node.module.split("."))), name.name)
-        for place in places
-        for node in ast.parse(place.read_text(encoding="utf-8")).body
+        for text in stubs().values()
+        for node in ast.parse(text).body
         if isinstance(node, ast.ImportFrom) and node.level == 1
         for name in node.names
     }

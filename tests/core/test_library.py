@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from stub import stubs
+import stub
 
 import bare_earth
 from bare_earth.algorithms.library import names
@@ -66,12 +66,7 @@ def test_a_wrong_value_is_refused_as_by_the_command():
         bare_earth.classify("a.laz", "b.laz", dtm="dtm.tif", water="automatic")
 
 
-def test_the_stubs_are_what_the_tools_declare():
-    for name, text in stubs().items():
-        assert (ROOT / name).read_text(encoding="utf-8") == text, "run python tools/stub.py"
-
-
-def test_mypy_reads_the_stub(tmp_path):
+def test_mypy_reads_the_stubs(tmp_path):
     right, wrong = tmp_path / "right.py", tmp_path / "wrong.py"
     right.write_text(
         "import bare_earth\n"
@@ -81,7 +76,10 @@ def test_mypy_reads_the_stub(tmp_path):
         "bare_earth.relief('dtm.tif', 'relief.tif', kind='vat')\n"
     )
     wrong.write_text("import bare_earth\nbare_earth.heights('a.laz', 'b.laz', outputas='z')\n")
-    (tmp_path / "bare_earth").symlink_to(ROOT, target_is_directory=True)
+    package = tmp_path / "bare_earth"
+    package.mkdir()
+    (package / "algorithms").symlink_to(ROOT / "algorithms", target_is_directory=True)
+    stub.write(package)
     (tmp_path / "mypy.ini").write_text(
         f"[mypy]\nstrict = True\nfollow_imports = silent\nignore_missing_imports = True\n"
         f"mypy_path = {tmp_path}\ncache_dir = {ROOT / 'build' / 'mypy-user'}\n"

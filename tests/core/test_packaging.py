@@ -66,6 +66,8 @@ def test_metadata_has_what_qgis_and_its_plugin_site_require(metadata):
 
 def test_the_versions_agree(metadata):
     assert metadata["version"] == bare_earth.__version__
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {bare_earth.__version__}\n" in citation
     assert f"## {bare_earth.__version__}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     assert metadata["changelog"].startswith(bare_earth.__version__)
 
@@ -90,25 +92,6 @@ def test_the_recipe_for_conda_asks_for_what_pip_asks_for(metadata):
     assert re.search(r"setuptools ?>=(\d+)", recipe).group(1) == re.search(
         r"setuptools>=(\d+)", text
     ).group(1)
-
-
-def test_pip_gets_every_package_of_the_classifier():
-    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    listed = set(re.findall(r'"([\w.]+)"', re.search(r"packages = \[(.*?)\]", text, re.S).group(1)))
-    there = {
-        ".".join(("bare_earth", *path.parent.relative_to(ROOT).parts))
-        for path in (ROOT / "algorithms").rglob("__init__.py")
-    }
-    assert listed == there | {"bare_earth"}
-
-
-def test_pip_gets_every_list_of_words_of_the_classifier():
-    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    lists = [path.relative_to(ROOT) for path in (ROOT / "algorithms").rglob("*.ini")]
-    assert lists
-    for path in lists:
-        folder = ".".join(("bare_earth", *path.parts[:-1]))
-        assert f'"{folder}" = ["{path.name}"]' in text
 
 
 def test_the_zip_holds_one_folder_with_what_qgis_needs(names, package):

@@ -1,9 +1,10 @@
-"""The pages for contributors name files that are there, and their rule on private names is kept."""
+"""Pages name files that are there and parameters as declared; tests call no private function."""
 
 import ast
 import re
 from pathlib import Path
 
+import parameter_page
 import pytest
 
 ROOT = Path(__file__).parents[2]
@@ -23,6 +24,11 @@ def test_the_architecture_names_every_room():
     text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
     rooms = {path.parent.name for path in (ROOT / "algorithms").glob("*/__init__.py")}
     assert {room for room in rooms if f"`algorithms/{room}/`" not in text} == set()
+
+
+def test_the_page_of_all_parameters_is_what_is_declared():
+    page = parameter_page.PAGE.read_text(encoding="utf-8")
+    assert page == parameter_page.text(), "run tools/parameter_page.py"
 
 
 def test_a_page_explains_each_noun_of_the_engine_once():

@@ -133,7 +133,7 @@ def test_they_are_there_by_themselves(registry):
         assert model.canExecute() == (True, "")
         assert "Model" not in model.displayName() and model.group() == "Models"
         assert model.shortDescription() and model.tags() and not model.icon().isNull()
-        page = model.helpUrl().rpartition("/docs/")[2]
+        page = model.helpUrl().rpartition("/docs/")[2].partition("#")[0]
         assert (ROOT / "docs" / page).is_file()
         for field in model.parameterDefinitions():
             assert f"<b>{field.description()}</b>: " in model.shortHelpString()

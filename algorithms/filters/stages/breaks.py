@@ -75,8 +75,12 @@ class Plants(PointRule):
         above, allowed = z - mean.ravel()[cell], allowed.ravel()[cell]
         doubtful = np.flatnonzero((above - allowed > self.height) | (above + allowed < -self.depth))
         near = _near(cells, seeds, seeds[doubtful], reach)
+
+        def are_right(_: slice, rise: np.ndarray, *plane: np.ndarray) -> np.ndarray:
+            return (rise <= self.height) & (rise + plane[-1] >= -self.depth)
+
         rise, misfit = Sides(points.take(seeds[near]), reach).rises(
-            points.take(seeds[doubtful]), own=True
+            points.take(seeds[doubtful]), own=True, enough=are_right
         )
         # Seeds without neighbours on any side have no rise, and stay.
         plant = np.fmin.reduce(rise, axis=1) > self.height
@@ -138,12 +142,15 @@ class LevelSeeds(PointRule):
         low, high = in_threads(extreme, (1.0, -1.0))
         candidates = np.flatnonzero((z >= low - margin) & (z <= high + margin))
         near = _near(cells, seeds, waiting[candidates], _reach(spacing))
-        rise, misfit = Sides(points.take(seeds[near]), _reach(spacing)).rises(
-            points.take(waiting[candidates]), own=False
+
+        def fit(_: slice, rise: np.ndarray, *plane: np.ndarray) -> np.ndarray:
+            return (plane[-1] <= self.misfit) & (np.abs(rise) <= self.level)
+
+        planes = Sides(points.take(seeds[near]), _reach(spacing)).planes(
+            points.take(waiting[candidates]), enough=fit
         )
         joins = np.zeros(len(waiting), dtype=bool)
-        fits = (misfit <= self.misfit) & (np.abs(rise) <= self.level)
-        joins[candidates] = fits.any(axis=1)
+        joins[candidates] = fit(slice(None), *planes).any(axis=1)
         return joins
 
 

@@ -87,25 +87,31 @@ class Shrubs(PointRule):
         )
         middles = Points(x, y, blocks.interpolated(mean, x, y))
         lowest = seeds.take(blocks.lowest_points(seeds))
-        sides = Sides(lowest, _REACH * width, _APART * width)
+        sides = Sides(lowest, _REACH * width, _APART * width, blocks)
         ends = np.append(first, len(doubtful))
-        above = np.empty(len(doubtful))
+        above, limit = np.empty(len(doubtful)), allowed[doubtful]
 
         def judge(part: slice) -> None:
             some, places = slice(ends[part.start], ends[part.stop]), middles.take(part)
+            starts = ends[part.start : part.stop] - some.start
             inside = np.repeat(np.arange(places.count), np.diff(ends[part.start : part.stop + 1]))
-            rise, east, north, misfit = (found[inside] for found in sides.planes(places))
-            x, y, z = (
-                (seed[doubtful[some]] - place[inside])[:, None]
-                for seed, place in zip(seeds, places)
-            )
-            rises = rise + z - east * x - north * y - self.misfit * misfit
-            above[some] = np.fmin.reduce(rises, axis=1)
+            x, y, z = (seed[doubtful[some]] - place[inside] for seed, place in zip(seeds, places))
+
+            def rises(*planes: np.ndarray) -> np.ndarray:
+                rise, east, north, misfit = planes
+                return (rise - self.misfit * misfit).T.take(inside, axis=-1) + (
+                    z - east.T.take(inside, axis=-1) * x - north.T.take(inside, axis=-1) * y
+                )
+
+            def are_right(_: slice, *planes: np.ndarray) -> np.ndarray:
+                return np.logical_and.reduceat(rises(*planes) <= limit[some], starts)
+
+            above[some] = np.fmin.reduce(rises(*sides.planes(places, enough=are_right)), axis=0)
 
         # Planes of all seeds together would take more memory than all else.
         over_parts(judge, len(which), _AT_ONCE, SILENT)
         wrong = np.zeros(seeds.count, dtype=bool)
-        wrong[doubtful] = above > allowed[doubtful]
+        wrong[doubtful] = above > limit
         wrong[doubtful] &= in_wood[doubtful] | (above < self.tallest)
         return wrong
 

@@ -28,44 +28,39 @@ from ...grids.planes import plane_slopes
 # The highest point of each square of this side, in metres, stands for the roof there. More points
 # would tell more of the noise of the sensor than of the roof.
 _NODE = 0.5
-# So many nearest nodes are the surroundings of a node, if they are at most so many metres away, or
-# so many spacings of the points.
-_NEIGHBOURS, _REACH, _REACH_SPACINGS = 12, 2.5, 3.5
+_NEIGHBOURS = 12  # nearest nodes that are the surroundings of a node
+_REACH = 2.5  # their largest distance, m
+_REACH_SPACINGS = 3.5  # or in spacings of the points, if that is more
 # Least number of nodes on a plane, and of nodes of a face: three lie on a plane by chance.
 _LEAST_NODES = 5
 # A node is no roof if more of its surroundings than this share have several returns.
 _MOST_SEVERAL = 0.5
-# More of the surroundings must lie on the plane of a node than have several returns, by this share
-# of all; and this share must without return numbers.
-_LEAD, _SHARE_WITHOUT_RETURNS = 0.1, 0.6
+# The share of the surroundings on the plane of a node exceeds that with several returns by this.
+_LEAD = 0.1
+_SHARE_WITHOUT_RETURNS = 0.6  # the least share on the plane where there are no return numbers
 # A face is roof if the mean share of its surroundings on its planes exceeds two shares together by
-# at least the first number: that of points under it, and that with several returns, as a part of
-# the same share of leaves and times the second number.
-_LEAST_EVIDENCE, _RETURNS = 0.1, 0.6
-# Leaves are nodes with fewer than this share of their surroundings on a plane. Returns tell nothing
-# if a smaller share of leaves than this has several.
-_LEAVES, _LEAST_TOLD = 0.6, 0.05
-# Points so many metres under all nodes of their cell were seen through leaves.
-_DEPTH = 1.5
-# Nodes of a face have planes that differ by at most so many degrees. A crown curves more.
-_BEND = 15.0
-# Smaller planes are roof as well so many metres from a face, or so many spacings of the points.
-_JOIN, _JOIN_SPACINGS = 5.0, 2.5
-# So many planes that a node lies on make it roof without one of its own: edges, ridges.
-_VOTES = 2
-# Points within so many metres of the plane of a roof lie on it. Eaves, walls and gutters are at
-# most so many metres beside it.
-_ON, _BESIDE = 0.3, 1.0
-# Chimneys, dormers and plants on a roof are so many metres high. Lower than this above the
-# ground is no wall, but what lies in front of it.
-_ABOVE, _LEAST_WALL = 2.5, 0.5
+# this: that of points under it, and `_RETURNS` times that with several returns, as a part of the
+# same share of leaves.
+_LEAST_EVIDENCE = 0.1
+_RETURNS = 0.6
+_LEAVES = 0.6  # nodes with a smaller share of their surroundings on a plane are leaves
+_LEAST_TOLD = 0.05  # share of leaves with several returns from which returns tell something
+_DEPTH = 1.5  # depth under all nodes of the cell from which a point was seen through leaves, m
+_BEND = 15.0  # largest angle between planes of nodes of a face, degrees: a crown curves more
+_JOIN = 5.0  # distance from a face up to which smaller planes are roof as well, m
+_JOIN_SPACINGS = 2.5  # or in spacings of the points, if that is more
+_VOTES = 2  # planes of others through a node that make it roof: edges, ridges
+_ON = 0.3  # largest distance of points of a roof from its plane, m
+_BESIDE = 1.0  # largest distance of eaves, walls and gutters from a roof, m
+_ABOVE = 2.5  # largest height of chimneys, dormers and plants on a roof, m
+_LEAST_WALL = 0.5  # least height of a wall, m: what is lower lies in front of it
 # Gaps of a roof of up to about three cells are closed.
 _CLOSING = 1.5
 # Side of the cells in which the width of roofs is measured, in spacings of the points.
 _CELL_SPACINGS = 1.2
 # Planes to which a point is compared.
 _COMPARED = 4
-# Planes are tried through a point and two of so many nearest neighbours.
+# Nearest neighbours, of which two make a plane with a point that is tried.
 _TRIED = 8
 # Two neighbours in almost one direction do not fix a plane: least sine of their angle.
 _LEAST_SINE = 0.3

@@ -16,7 +16,6 @@ from ...report.units import Units
 from ...survey.files import Inputs
 from ..declaration import CLOUD, CRS, GROUND, TERRAIN, FileTool, Input, Output
 from .page import comparison, figures_of
-from .profile import Profile, line_across, line_between
 from .settings import SETTINGS, USUAL_CONTEXT, TrialOptions
 from .window import read_points
 
@@ -67,14 +66,12 @@ def compare(
             window.outcome(setting, resources, part, is_first=part is parts[0])
             for setting, part in zip(settings, parts)
         ]
-        ends, first = options.profile, outcomes[0]
-        line = line_between(window, ends) if ends else line_across(window, outcomes)
         figures = [
-            figures_of(window, outcome, first, outcome.setting.commands(sources))
+            figures_of(window, outcome, outcomes[0], outcome.setting.commands(sources))
             for outcome in outcomes
         ]
-        notes, profile = _notes(window.units, context, reach), Profile(window, line, first)
-        html = comparison(sources, notes, window, outcomes, figures, profile)
+        notes = _notes(window.units, context, reach)
+        html = comparison(sources, notes, window, outcomes, figures)
     page.write_text(html, encoding="utf-8")
     told = [one._asdict() for one in figures]
     counts = window.count, figures[0].point_count
@@ -130,17 +127,17 @@ TOOL = FileTool(
     json="the figures",
     command="compare-settings",
     command_about="Classifies a window of one or many files with each of the settings, and writes a"
-    " page that shows their terrain, a profile and where they differ. No point cloud is written. A"
+    " page that shows their terrain and where they differ. No point cloud is written. A"
     " setting is a method with a preset, such as slope:town.",
     identifier="comparesettings",
     title="Compare settings on a window",
     section="Quality",
     summary="Tries methods and presets on a part of a point cloud, and shows them side by side.",
     about="Classifies the points in a window with each of the settings, and makes a web page, which"
-    " opens from the Results Viewer. It shows the terrain of each setting, a profile, the share of"
+    " opens from the Results Viewer. It shows the terrain of each setting, the share of"
     " ground, where the settings differ, and how to run each of them on all points. No point cloud"
     " is written. Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is"
     " read as a whole.",
-    page="compare-settings",
-    words=(CLOUD, GROUND, TERRAIN, "preview,try,test,preset,parameters,compare,profile"),
+    page="which-method#compare-settings-on-a-window",
+    words=(CLOUD, GROUND, TERRAIN, "preview,try,test,preset,parameters,compare"),
 )

@@ -21,14 +21,12 @@ from ...report.page import (
     section,
     table,
 )
-from ...report.pictures import Picture, Relief, rgb
+from ...report.pictures import Picture, Relief
 from ...report.units import percent
-from .profile import Profile
 from .window import Outcome, Window
 
 # These colours differ for colour-blind people and in print.
 _LOST, _GAINED = "#d1157f", "#1b62c4"
-_PROFILE = "#e06c00"
 _NO_TERRAIN = (236, 236, 236)
 _LONGEST_SIDE = 400
 
@@ -38,8 +36,6 @@ body { max-width: 1320px; }
 .maps figure { flex: 1 1 280px; max-width: 500px; }
 td { white-space: nowrap; }
 figcaption { font-weight: 600; }
-svg { width: 100%; max-width: 976px; display: block; font-family: inherit; }
-svg image { image-rendering: pixelated; }
 pre { background: #f4f4f4; border: 1px solid #ddd; padding: .5em .8em; margin: .4em 0;
       white-space: pre-wrap; overflow-wrap: anywhere; max-width: 960px; box-sizing: border-box; }
 h3 { margin: 1.6em 0 .3em; font-size: 1.05em; }
@@ -91,7 +87,6 @@ def comparison(
     window: Window,
     outcomes: Sequence[Outcome],
     figures: Sequence[Figures],
-    profile: Profile,
 ) -> str:
     """Return the page."""
     label, cell = outcomes[0].setting.label, window.units.length(window.cell_size)
@@ -102,11 +97,10 @@ def comparison(
         *_table(window, figures),
         section(
             "Terrain",
-            maps(_terrain(window, outcome, profile) for outcome in outcomes),
+            maps(_terrain(window, outcome) for outcome in outcomes),
             paragraph(
                 "Hillshade of the terrain, lit from north-west; north is up, a pixel is"
-                f" {cell} wide. Light grey: no terrain.",
-                key(_PROFILE, "where the profile lies"),
+                f" {cell} wide. Light grey: no terrain."
             ),
         ),
         section(
@@ -123,9 +117,8 @@ def comparison(
             ),
         ),
         section(
-            "Profiles, and how to run each setting on all points",
-            paragraph(_about_profile(window, profile)),
-            *(_profile(profile, *both) for both in zip(outcomes, figures)),
+            "How to run each setting on all points",
+            *(_commands(one) for one in figures),
         ),
     ]
     return page("Settings compared on a window", parts, _STYLE)
@@ -165,12 +158,10 @@ def _table(window: Window, figures: Sequence[Figures]) -> tuple[Html, Html]:
     )
 
 
-def _terrain(window: Window, outcome: Outcome, profile: Profile) -> Html:
+def _terrain(window: Window, outcome: Outcome) -> Html:
     lit = np.maximum(hillshade(outcome.terrain, window.cell_size), 1)
     pixels = np.repeat(lit[..., None], 3, axis=2)
     pixels[np.isnan(outcome.terrain)] = _NO_TERRAIN
-    _, row, column = profile.cells()
-    pixels[row, column] = rgb(_PROFILE)
     picture = Picture(pixels, window.cell_size)
     return map_of(picture, outcome.setting.label, units=window.units)
 
@@ -186,25 +177,10 @@ def _differences(window: Window, outcomes: Sequence[Outcome]) -> list[Html]:
     return pictures
 
 
-def _profile(profile: Profile, outcome: Outcome, figures: Figures) -> Html:
+def _commands(figures: Figures) -> Html:
     parts = [
-        element("h3", outcome.setting.label),
-        profile.svg(outcome),
-        paragraph(profile.key(outcome)),
+        element("h3", figures.label),
         element("pre", figures.shell),
         element("pre", figures.qgis) if figures.qgis else "",
     ]
     return Html("\n".join(parts))
-
-
-def _about_profile(window: Window, profile: Profile) -> str:
-    units, more = window.units, profile.exaggeration
-    strip = units.length(float(f"{2.0 * profile.strip:.2g}"), 2)
-    (x0, y0), (x1, y1) = ((x / units.horizontal, y / units.horizontal) for x, y in profile.line)
-    unit = units.across
-    return (
-        f"The profile runs from {x0:.0f} {unit} east and {y0:.0f} {unit} north of the lower"
-        f" left corner of the window to {x1:.0f} {unit} east and {y1:.0f} {unit} north of it,"
-        f" and shows the points of a strip {strip} wide by class, but for noise. Heights are"
-        f" drawn {more:.2g} times as large as lengths."
-    )

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from ...core.commands import shell_line
-from ...core.errors import BareEarthError
 from ...core.files import split_name
 from ...core.parameters import ParameterSet, parameter
 from ...filters import METHODS
@@ -101,21 +100,3 @@ class TrialOptions(ParameterSet):
         " the window and beside large buildings. Empty: as far as the methods look, at most"
         f" {USUAL_CONTEXT:g} m.",
     )
-    profile: tuple[float, ...] | None = parameter(
-        None,
-        kind="numbers",
-        label="Line of the profile",
-        advanced=True,
-        empty="across the window where the terrains differ most",
-        help="X and Y of both ends, in the CRS of the points: X1 Y1 X2 Y2. Empty: straight across"
-        " the window where the terrains differ most, from west to east or from south to north.",
-    )
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.profile is not None and (
-            len(self.profile) != 4 or self.profile[:2] == self.profile[2:]
-        ):
-            raise BareEarthError(
-                "Line of the profile: give X1 Y1 X2 Y2, two places that are not the same."
-            )

@@ -43,7 +43,6 @@ class Outcome(NamedTuple):
     """The result of a setting."""
 
     setting: Setting
-    classes: np.ndarray  # uint8, (n,)
     ground: np.ndarray  # bool, (n,)
     terrain: np.ndarray  # float64, (rows, columns): metres, from north to south; NaN for none
     confidence: float  # mean probability in the window that the terrain is right, 0 to 1
@@ -122,7 +121,7 @@ class Window:
         selected = np.concatenate([its_marks.selected for its_marks in marks])
         ground = classes == step.selection.to_class
         sure = self._confidence(ground, selected)
-        return Outcome(setting, classes, ground, self._terrain(ground), sure)
+        return Outcome(setting, ground, self._terrain(ground), sure)
 
     def _terrain(self, ground: np.ndarray) -> np.ndarray:
         """Return the heights of the terrain, from north to south."""

@@ -221,7 +221,7 @@ TILES_TOOL = replace(
     summary="Finds the ground points of the many files of a survey, without seams between them.",
     about="Classifies the ground points of many files as if they were one file, and writes each"
     " file under its name into the output folder. A virtual point cloud (.vpc) lists the results.",
-    page="classify-tiles",
+    page="many-files",
     run_name="classified files",
     words=(CLOUD, GROUND, TERRAIN, TILES),
     shown=("method", "preset"),

@@ -218,9 +218,13 @@ def _surface(
     top, row, column = _highest(points, wide, view.corner, cell, progress.part(0.0, 0.35))
     heights = np.full(wide.shape, np.nan)
     heights[row, column] = points.z[top]
-    heights = heights[margin : margin + window.rows, margin : margin + window.columns]
+    inner = slice(margin, margin + window.rows), slice(margin, margin + window.columns)
+    # No cell farther from all vertices lies in a triangle that counts.
+    reach = math.ceil(step.longest_edge / math.sqrt(3.0) / cell) + 1
+    near = within_square(np.maximum, np.isfinite(heights), reach)[inner]
+    heights = heights[inner]
     progress(0.4)
-    row, column = np.nonzero(np.isnan(heights))
+    row, column = np.nonzero(np.isnan(heights) & near)
     start, part = view.start(window, cell), progress.part(0.4, 0.6)
     surface = DenseSurface(points.take(top), VERTICES_A_SIDE * cell, start, part)
     if len(row):

@@ -10,17 +10,18 @@ from ...grids.morphology import closing, dilation
 from ...survey.area import Area, Polygon
 from .grid import WaterGrid, Window, regions_of
 
-# Cells this near to a deck, in metres and at least in cells, have few returns from the water.
-_EDGE, _EDGE_CELLS = 2.0, 1.5
-# Pieces of water are joined by a disc whose radius is so many times half the width of the deck: it
-# hardly reaches between them from the land. Half the width in metres up to which decks join.
-_RADIUS, _MOST_HALF = 3.0, 25.0
-# Cells this near to a deck, in cells, are those of water at its side. The ends of two pieces of
-# water are their cells that are at most so many times as far apart as the nearest ones.
-_BESIDE, _STRAIGHT = 1.5, 1.5
+_EDGE = 2.0  # distance from a deck up to which cells have few returns from the water, m
+_EDGE_CELLS = 1.5  # the least of it, cells
+# Radius of the disc that joins pieces of water, in halves of the width of the deck: it hardly
+# reaches between them from the land.
+_RADIUS = 3.0
+_MOST_HALF = 25.0  # half the width up to which decks join, m
+_BESIDE = 1.5  # distance from a deck of the water at its side, cells
+# The ends of two pieces of water are cells at most this many times as far apart as the nearest.
+_STRAIGHT = 1.5
 _CORNERS = np.array([(-0.5, -0.5), (-0.5, 0.5), (0.5, -0.5), (0.5, 0.5)])
-# The ground this near to a deck, in metres and at least in cells, may be that of an abutment.
-_ABUTMENT, _ABUTMENT_CELLS = 4.0, 3.0
+_ABUTMENT = 4.0  # distance from a deck up to which the ground may be that of an abutment, m
+_ABUTMENT_CELLS = 3.0  # the least of it, cells
 
 
 def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:

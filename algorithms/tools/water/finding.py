@@ -35,28 +35,28 @@ from .levels import (
     surface_of,
 )
 
-# Radius in cells of the disc that closes single stray cells, and of that which cuts thin links.
-_CLOSE, _OPEN = 1.5, 1.5
+_CLOSE = 1.5  # radius of the disc that closes single stray cells, cells
+_OPEN = 1.5  # radius of the disc that cuts thin links, cells
 # Radius in cells of the disc that closes gaps between points of class 9 alone.
 _CLOSE_CLASS = 3.5
 # Fewest segments of a shore.
 _FEWEST = 3
 # Islands smaller than this, in square metres, belong to the water.
 _LEAST_ISLAND = 100.0
-# Spread in metres of a shore from its level, up to which it is water. In coarse cells, banks have
-# so many metres for each metre of a cell.
-_MOST_SPREAD, _SPREAD_A_METRE = 0.3, 0.12
+_MOST_SPREAD = 0.3  # spread of a shore from its level up to which it is water, m
+_SPREAD_A_METRE = 0.12  # spread of banks in coarse cells, m for each metre of a cell
 # Share of the shore from which the land rises if it is one of banks: in few points, twice that
 # spread is that of the places along the bank where these happen to lie.
 _RISING_FROM_BANKS = 0.8
-# Least share of the shore with ground, and of its segments from which the land rises by so much.
-_LEAST_KNOWN, _LEAST_RISING, _RISE = 0.2, 0.6, 0.05
+_LEAST_KNOWN = 0.2  # least share of the shore with ground
+_LEAST_RISING = 0.6  # least share of its segments from which the land rises
+_RISE = 0.05  # rise of the land that counts, m
 # The same share where a region goes on beyond the survey: its border on flat land is level, too.
 _LEAST_RISING_OUTSIDE = 0.75
 # Cells this near to the shore can hold its bank.
 _BANK = 2.0
-# Returns so many metres above the level are not water; most share of cells with such.
-_ABOVE, _MOST_ABOVE = 2.0, 0.05
+_ABOVE = 2.0  # height above the level from which returns are not water, m
+_MOST_ABOVE = 0.05  # largest share of cells with such returns
 # Most returns inside lie at most so far from the level, in metres, unless they are as few.
 _MOST_OFF = 0.5
 # Share of class 9 among the points from which a region needs no rising shore.
@@ -64,9 +64,9 @@ _CLASSIFIED = 0.5
 # A part of water beyond a step of its level, or of class 9 that the border of the survey cuts, has
 # at least this share of the smallest area.
 _LEAST_PART = 0.1
-# Most certainty where a part of the shore is farther from the level than the spread of water, or
-# the whole shore has such a spread, in metres.
-_MOST_MISFITTING, _CERTAIN_SPREAD = 0.7, 0.25
+# Most certainty where a part of the shore is farther from the level than the spread of water.
+_MOST_MISFITTING = 0.7
+_CERTAIN_SPREAD = 0.25  # spread of the whole shore that has the same effect, m
 # Least certainty of each grade.
 GRADES = {"certain": 0.75, "likely": 0.5, "doubtful": 0.0}
 

@@ -22,16 +22,17 @@ _SHARE_FOR_BORDERS = 0.99
 # Base Specification, 30 m, is six cells wide.
 _LARGEST_CELL = 5.0
 _MOST_COUNT = np.iinfo(np.uint16).max
-# A cell has about so many last returns on open land: an empty one is then hardly chance.
-_CELL_IN_SPACINGS, _LEAST_CELL, _STEP = 2.0, 1.0, 0.5
-# Side in cells of the squares in which the usual count is found, and how many squares on each side
-# of one take part.
-_SQUARE, _SQUARES = 32, 8
+# Side of a cell in spacings of the points: with four last returns, an empty one is hardly chance.
+_CELL_IN_SPACINGS = 2.0
+_LEAST_CELL = 1.0  # m
+_STEP = 0.5  # step to which the side is rounded, m
+_SQUARE = 32  # side of the squares in which the usual count is found, cells
+_SQUARES = 8  # squares on each side of one that take part
 # The usual count is at least this share of that of the whole survey.
 _OF_SURVEY = 0.35
-# A cell is sparse if it has at most the first share of the usual count, and the nine cells round it
-# have on average at most the second one: along a straight shore six of nine are land.
-_SPARSE, _SPARSE_ROUND = 0.25, 0.6
+_SPARSE = 0.25  # largest share of the usual count of a sparse cell
+# The same of the nine cells round it on average: along a straight shore six of nine are land.
+_SPARSE_ROUND = 0.6
 # Share of class 9 among the last returns from which a cell is water.
 _CLASS_SHARE = 0.5
 

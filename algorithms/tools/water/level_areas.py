@@ -14,25 +14,27 @@ from ...grids.morphology import closing, dilation
 from .grid import WaterGrid, Window, regions_of
 from .levels import MARGIN, spread_of, surface_of
 
-# Cells of the square in which the lowest returns differ by at most so much, as a standard deviation
-# in metres, and the share of its cells that have returns.
-_SQUARE, _EVEN, _FULL = 5, 0.045, 0.6
+_SQUARE = 5  # side of the square in which the lowest returns are compared, cells
+_EVEN = 0.045  # their largest standard deviation there, m
+_FULL = 0.6  # least share of its cells that have returns
 # Share of class 9 in an area that the file calls water.
 _CLASSIFIED = 0.5
 # Rows that are looked at together.
 _ROWS = 1024
 # An even area has at least this share of the smallest area, because its edges are left out.
 _LEAST_PART = 0.2
-# Returns of one level lie so near to it, in metres. It is found in steps of so many metres.
-_NEAR, _STEP = 0.06, 0.02
+_NEAR = 0.06  # largest distance of returns of one level from it, m
+_STEP = 0.02  # steps in which the level is found, m
 # Radius in cells of the disc that closes gaps between cells at the level.
 _CLOSE = 1.0
 # Most spread in metres of parts of the surface.
 _MOST_SPREAD = 0.02
-# Cells round an area that are its shore, and the least share of those with ground. So many of these
-# are higher than the surface and hardly any lower, by so many metres, and half of them by so much.
-_SHORE, _LEAST_KNOWN = 6.0, 0.4
-_HIGHER, _LOWER, _NEARLY, _RISE = 0.8, 0.025, 0.05, 0.15
+_SHORE = 6.0  # width of the shore of an area, cells
+_LEAST_KNOWN = 0.4  # least share of these cells with ground
+_HIGHER = 0.8  # least share of the shore with ground that is higher than the surface
+_LOWER = 0.025  # largest share that is lower
+_NEARLY = 0.05  # height that counts as higher or lower, m
+_RISE = 0.15  # least height of half of the shore, m
 
 
 def level_areas(grid: WaterGrid, outside: np.ndarray, least: float) -> np.ndarray:

@@ -14,42 +14,45 @@ from ...grids.morphology import dilation, erosion
 from .grid import regions_of
 from .reaches import Reaches, reaches_of
 
-# Cells round the water whose ground is its shore, and cells farther out that show whether the land
-# rises from it. So many cells round a region are needed.
-_SHORE, _BEYOND = 2, 6
-MARGIN = _BEYOND + 1
+_SHORE = 2  # cells round the water whose ground is its shore
+_BEYOND = 6  # cells round it that show whether the land rises from it
+MARGIN = _BEYOND + 1  # cells round a region that are needed
 # Rows of cells farther out whose lowest ground is compared with that of a segment.
 _ROWS = 2
 # Height in metres of an embankment.
 _EMBANKMENT = 0.5
-# Length of the segments of a shore in metres, and least in cells; fewest segments of a small shore.
-_SEGMENT, _SEGMENT_CELLS, _SEGMENTS = 20.0, 8.0, 12
+_SEGMENT = 20.0  # length of the segments of a shore, m
+_SEGMENT_CELLS = 8.0  # their least length, cells
+_SEGMENTS = 12  # fewest of a small shore
 # Share of the shore that is below its level: banks are higher.
 _PERCENTILE = 10.0
-# The lowest ground of a segment is so much lower than the level, in metres, because of noise.
+# Metres by which the lowest ground of a segment is lower than the level, because of noise.
 _NOISE = 0.1
 # Standard deviations in the distance between the 10th and the 90th percentile.
 _DEVIATIONS = 2.563
 # Segments that lie together, whose median must be near the level too.
 _TOGETHER = 7
-# Returns from the surface lie at most so far from the level of the shore, in metres. At least so
-# many decide the level, and so large a share of all returns inside.
-_SURFACE, FEW_RETURNS, _MOST_RETURNS = 0.5, 8, 0.6
+_SURFACE = 0.5  # largest distance of returns of the surface from the level of the shore, m
+FEW_RETURNS = 8  # fewest of these that decide the level
+_MOST_RETURNS = 0.6  # and their least share of all returns inside
 # Share of the reaches of each branch between the first and the last point of class 9 from which
 # these show that all of it is level.
 _SHOWN = 0.5
-# A river falls by so many metres, is so many times as long as wide, and its shore fits a falling
-# level so much better than one level.
-_FALL, _ELONGATED, _BETTER = 0.15, 3.0, 0.8
-# A step is at least so high in metres, within so many reaches, and so many times what the water
-# falls in as many of the reaches on either side of it. So many reaches count there, at least so
-# many.
-STEP, _WITHIN, _STEEPER, _BESIDE, _LEVEL_REACHES = 0.4, 3, 4.0, 4, 1
+_FALL = 0.15  # least fall of a river, m
+_ELONGATED = 3.0  # least length of a river, widths
+# Largest spread of the shore of a river from a falling level, as a share of that from one level.
+_BETTER = 0.8
+STEP = 0.4  # least height of a step, m: more than noise and waves
+_WITHIN = 3  # most reaches over which a step goes
+# A step is at least this many times the fall of the water in as many reaches on either side of it.
+_STEEPER = 4.0
+_BESIDE = 4  # reaches that count on either side
+_LEVEL_REACHES = 1  # fewest of these
 # Metres that a drop counts less for each reach over which it goes: few reaches say better where.
 _BLURRED = 0.1
-# The parts are so many cells from where the land says that the step is; cells of the banks.
-_GAP, _BANK = 1.0, 2.0
-# A step goes straight across if its ends are hardly so many cells apart along the water: single
+_GAP = 1.0  # distance of both parts from where the land says that the step is, cells
+_BANK = 2.0  # width of the banks, cells
+# A step goes straight across if its ends are fewer cells than this apart along the water: single
 # cells of a bank are too high.
 _SLANTED = 8.0
 # Cells this near to the other part are no shore: they may be its banks.

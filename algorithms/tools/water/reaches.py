@@ -14,10 +14,10 @@ from ...grids.descent import Network
 
 # Most cells in which the ways along a river are searched.
 _MOST_CELLS = 200_000
-# Length of a reach in mean depths, about half the width of a river; least in cells.
-_DEPTHS, _LEAST = 2.0, 2.0
-# A branch is so many times as long as wide, and has at least so many reaches. Others are bays.
-_ELONGATED, _FEWEST = 2.0, 3
+_DEPTHS = 2.0  # length of a reach, mean depths: about half the width of a river
+_LEAST = 2.0  # its least length, cells
+_ELONGATED = 2.0  # least length of a branch, widths; what is shorter is a bay
+_FEWEST = 3  # fewest reaches of a branch
 
 
 class Reaches(NamedTuple):

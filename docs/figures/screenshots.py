@@ -1,6 +1,6 @@
 """Makes the pictures of docs/images: the dialogs, and maps of what the algorithms make.
 
-    tools/environment qgis /usr/bin/python3 docs/screenshots.py TILE.laz [FOLDER [PICTURE ...]]
+    tools/environment qgis /usr/bin/python3 docs/figures/screenshots.py TILE [FOLDER [PICTURE ...]]
 
 It needs the widgets of QGIS but no screen. The names of the pictures hold the version of QGIS.
 Without PICTUREs all are made: dialog, map, map-one-step, ... Those from map-terrain on are of the
@@ -38,7 +38,7 @@ ALGORITHM = "bareearth:tindensification"
 ONE_STEP = "bareearth:pointcloudtoterrain"
 # Few pictures are kept in docs/images.
 WANTED = sys.argv[3:]
-IMAGES = Path(sys.argv[2]) if len(sys.argv) > 2 else Path(__file__).parent / "images"
+IMAGES = Path(sys.argv[2]) if len(sys.argv) > 2 else Path(__file__).parents[1] / "images"
 # What is no ground in the tile of `make demo`: the large building, with what stands round it.
 BUILDING = QgsRectangle(568_136.0, 5_931_179.0, 568_208.0, 5_931_233.0)
 VERSION = ".".join(Qgis.QGIS_VERSION.split(".")[:2])
@@ -195,7 +195,7 @@ def show_remote(tile: Path, folder: Path) -> None:
     from processing.gui.AlgorithmDialog import AlgorithmDialog
     from qgis import utils
 
-    sys.path.append(str(Path(__file__).parents[1] / "tests" / "core"))
+    sys.path.append(str(Path(__file__).parents[2] / "tests" / "core"))
     from remote_server import serving
 
     processing.run(ALGORITHM, {"INPUT": str(tile), "OUTPUT": str(folder / "tile.copc.laz")})

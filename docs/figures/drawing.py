@@ -1,6 +1,6 @@
 """What the figures of the pages share: colours, reliefs, and pictures that are small.
 
-tools/environment python docs/drawing.py PICTURE.png ...    makes other pictures small
+tools/environment python docs/figures/drawing.py PICTURE.png ...    makes other pictures small
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from PIL import Image
 
 from bare_earth.algorithms.grids.hillshade import hillshade
 
-IMAGES = Path(__file__).parent / "images"
+IMAGES = Path(__file__).parents[1] / "images"
 GROUND, OTHER, ADDED, LINE = "#a5692a", "#9aa5b1", "#d7263d", "#1565d8"
 # How many colours a picture has; reliefs side by side do with few.
 COLOURS, FEW_COLOURS = 96, 28

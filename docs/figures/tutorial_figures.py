@@ -17,7 +17,7 @@ from matplotlib.axes import Axes
 
 from demo.pages import commands_of, steps
 
-_PAGES = Path(__file__).parent / "tutorials"
+_PAGES = Path(__file__).parents[1] / "tutorials"
 _CLASSES = {
     1: (OTHER, "1 unclassified"), 2: (GROUND, "2 ground"), 3: ("#b5d46a", "3 low plants"),
     4: ("#6fae4f", "4 medium plants"), 5: ("#2f7d43", "5 high plants"), 6: (LINE, "6 building"),

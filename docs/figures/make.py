@@ -1,7 +1,7 @@
 """Makes the figures of the pages, by the project's own code on generated scenes.
 
-    tools/environment python docs/figures.py            all of them, in about two minutes
-    tools/environment python docs/figures.py slope      those whose names begin so
+    tools/environment python docs/figures/make.py            all of them, in about two minutes
+    tools/environment python docs/figures/make.py slope      those whose names begin so
 
 The same points come of the same seeds, so that the figures are the same on each run.
 """
@@ -23,7 +23,7 @@ from matplotlib import pyplot
 from matplotlib.cm import ScalarMappable
 from PIL import Image
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from above_ground_figure import above_ground
 from by_hand_figure import by_hand

@@ -1,0 +1,113 @@
+"""Writes docs/parameters.md, the table of all parameters, from what tools and filters declare.
+
+tools/environment python tools/parameter_page.py   writes it anew; a test tells when that is to be done
+"""  # noqa: E501
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Iterator
+
+from bare_earth.algorithms import tools
+from bare_earth.algorithms.core.parameters import Declaration, ParameterSet
+from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.filters import METHODS
+
+PAGE = Path(__file__).parents[1] / "docs" / "parameters.md"
+_UNITS = {"m": " m", "deg": "°", "GB": " GB"}
+# The sections of the page, each with the sets that it shows.
+_SECTIONS = {
+    "TIN densification": ("TinDensification",),
+    "Slope filter": ("SlopeFilter",),
+    "Grid minimum": ("GridMinimum",),
+    "Which points, which classes": ("Selection", "GroundClasses"),
+    "Written point clouds": ("Output", "HeightOutput"),
+    "Many files": ("TileMethod", "TileInput", "ShownTiles", "TileOutput"),
+    "Above the ground": ("AboveGround", "ThenAboveGround"),
+    "Rasters": (
+        "TerrainModel", "DeliveryTerrain", "RasterOutput", "SurfaceModel", "Gaps",
+    ),
+    "Contour lines": ("Contours",),
+    "Relief": ("FolderKinds", "ReliefPictures"),
+    "Water": ("Water", "WaterClasses"),
+    "Model key points": ("ModelKeyPoints", "KeyPointMark"),
+    "Deliveries": ("DeliveryChoice", "DeliveryOptions", "DeliveryWater"),
+    "Remote point clouds": ("Download",),
+    "Checkpoints": ("Accuracy", "CheckOptions"),
+    "Quality": ("QualityOptions",),
+    "Comparison with a reference": ("AssessmentOptions",),
+    "Compare settings": ("TrialOptions",),
+    "Remove off-terrain objects": ("OffTerrain",),
+    "Threads and memory": ("Resources",),
+}  # fmt: skip
+_HEAD = """\
+# Parameters
+
+All parameters, as dialogs, commands and functions have them. In QGIS models and `qgis_process`, their names are those in capitals.
+The command line has them in small letters with hyphens: `MAX_EDGE` is `--max-edge`. In Python, they are in small letters: `max_edge`.
+Lengths are metres and angles degrees, [whatever the unit of the CRS](crs-and-grids.md). *Adv.* are advanced ones, which dialogs fold
+away. This page is made by `tools/parameter_page.py`.
+
+Inputs that several tools share:
+
+| Input | In QGIS | Command |
+|---|---|---|
+| CRS of the points, if files state [none or a wrong one](crs-and-grids.md) | `CRS` | `--crs` |
+| Area: a rectangle, or [polygons](command-line.md#lines-and-polygons); with both, what lies in both | `EXTENT`, `BOUNDARY` | `--extent`, `--boundary` |
+| [What the terrain must respect](terrain-model.md#what-the-terrain-must-respect) | `BREAKLINES`, `WATER`, `RIVERS`, `NO_GROUND` | `--breaklines`, `--water`, `--rivers`, `--no-ground` |
+| [Corrections by hand](by-hand.md), and their attribute with the class | `CORRECTIONS`, `CORRECTIONS_FIELD` | `--corrections` |
+| A raster [whose grid is used](crs-and-grids.md#the-grid-of-a-given-raster), and the [extent of rasters](crs-and-grids.md#the-extent-of-rasters) | `LIKE`, `RASTER_EXTENT` | `--like`, `--raster-extent` |
+"""  # noqa: E501
+
+
+def text() -> str:
+    """Return the page."""
+    sets = _sets()
+    missing = {*sets} - {name for names in _SECTIONS.values() for name in names}
+    if missing:
+        raise ValueError(f"Name these sets in a section of tools/parameter_page.py: {missing}")
+    lines = [_HEAD]
+    for title, names in _SECTIONS.items():
+        lines += [f"## {title}", "", "| Parameter | Default | |", "|---|---|---|"]
+        lines += [*_rows([sets[name] for name in names]), ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _sets() -> dict[str, type[ParameterSet]]:
+    """Return the sets of all tools and filters, by the names of their classes."""
+    commands = tools.POINT_TOOLS, tools.MAP_TOOLS, tools.FILE_TOOLS, tools.COMPOSITIONS
+    found = {method.parameters for method in METHODS.values()} | {Resources}
+    for command in (command for listed in commands for command in listed):
+        tool = tools.any_tool(command)
+        found.update(tool.sets_of_dialog if tool.identifier else tool.sets)
+    return {kind.__name__: kind for kind in found}
+
+
+def _rows(sets: list[type[ParameterSet]]) -> Iterator[str]:
+    """Yield a row for each parameter; if sets have other defaults of one, it has these too."""
+    declared: dict[tuple[str, str], list[Declaration]] = {}
+    for one in (one for kind in sets for one in kind.declarations()):
+        declared.setdefault((one.name, one.label), []).append(one)
+    for (name, label), all_of_it in declared.items():
+        first = all_of_it[0]
+        defaults = " or ".join(dict.fromkeys(map(default, all_of_it)))
+        choices = f" One of {', '.join(f'`{c}`' for c in first.choices)}." if first.choices else ""
+        advanced = " *Adv.*" if first.advanced else ""
+        told = f"{first.help}{choices}{advanced}".replace("|", "\\|")
+        yield f"| **{label}** `{name.upper()}` | {defaults} | {told} |"
+
+
+def default(declared: Declaration) -> str:
+    """Return the default of a parameter as the page has it."""
+    value, unit = declared.default, _UNITS.get(declared.unit, "")
+    if value is None:
+        return declared.empty
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if isinstance(value, tuple):
+        return ", ".join(map(str, value)) + unit
+    return f"{value:g}{unit}" if isinstance(value, (int, float)) else str(value)
+
+
+if __name__ == "__main__":
+    PAGE.write_text(text(), encoding="utf-8")
