@@ -30,8 +30,8 @@ _STIFFNESS = 0.1
 _STENCIL, _MOST_VOID = 3, 8
 _ANGLES = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
 
-# Says of which points of a part the plane of one side (rise, slopes, misfit) decides enough: on
-# most land any side does.
+# Says of which points of a part the plane of one side (rise, slopes, misfit) decides enough: of
+# seeds that rules doubt, those of half to most, whichever side it is.
 Enough = Callable[..., np.ndarray]
 
 
