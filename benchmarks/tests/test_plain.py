@@ -40,7 +40,7 @@ HELD = (
 # Those that TIN densification alone holds.
 HELD_BY_TIN = "a-frame-16x10x8-slope0-8pm2-b", "polytunnels-60x8x3.5x1x8-slope3-4pm2-a"
 # How many rows of the matrix each method holds at least.
-LEAST = {"tin-densification": 267, "grid-minimum": 284, "slope": 267}
+LEAST = {"tin-densification": 347, "grid-minimum": 338, "slope": 342}
 ROWS = {row.name: row for row in rows()}
 
 
