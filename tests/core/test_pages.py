@@ -62,3 +62,25 @@ def test_tests_call_and_replace_no_private_function():
         call for path in sorted((ROOT / "tests").rglob("*.py")) for call in _private_calls(path)
     ]
     assert found == []
+
+
+def _rows(path, filters):
+    """Return the cells of the first rows of a page that begin with the names of filters."""
+    rows = {}
+    for line in (ROOT / path).read_text(encoding="utf-8").splitlines():
+        name, *values = [cell.strip() for cell in line.strip("|").split("|")]
+        if name in filters and name not in rows:
+            rows[name] = values
+    return rows
+
+
+def test_pages_tell_the_errors_that_the_report_has():
+    filters = "**TIN densification**", "**Grid minimum**", "**Slope filter**"
+    report = _rows("benchmarks/results/accuracy.md", filters)
+    page = _rows("docs/how-accurate.md", filters)
+    readme = _rows("README.md", filters)
+    for name in filters:
+        mean = report[name][-1]
+        assert page[name][0] == mean
+        assert readme[name][0] == f"{mean.split()[0]} %"
+        assert readme[name][1] == f"{page[name][3]} %"
