@@ -57,7 +57,7 @@ _TILES = {
     "house_slope": "a house and trees on a slope, 29 points/m²",
     "tall_crops": "a field of tall crops beside a wood, IGN, 20 points/m²",
     "pond_powerline": "a power line and a pond, AHN4, 17 points/m²",
-    "savanna_grass": "dry grass 0.3 to 1 m high and shrubs, from a drone, 950 points/m² on four plots",
+    "savanna_grass": "dry grass 0.3 to 1 m high, from a drone, 950 points/m² on four plots",
     "hillside_images": "a campus on a hillside in points from drone images, thinned to 1 point/m²",
     "city_court": "a city block with a court, 2.2 points/m², of which a ninth have labels",
     "rock_mountain": "a bare slope with outcrops of rock, 1.3 points/m²",
