@@ -185,7 +185,7 @@ class RaisedRegions(NamedTuple):
         return even_cells(self.filled).ravel()[self.cells]
 
     @property
-    def width(self) -> np.ndarray:
+    def mean_width(self) -> np.ndarray:
         """Mean width of each region in metres, that of a strip with its area and border."""
         sides = np.zeros(len(self.area))
         for kinds in self.borders:
@@ -347,7 +347,7 @@ class LowBanks(Rule):
         count = len(regions.area)
         region = regions.number
         share = np.bincount(region, regions.even, count) / np.bincount(region, minlength=count)
-        is_bank = (regions.area >= self.area) & (regions.width <= self.width)
+        is_bank = (regions.area >= self.area) & (regions.mean_width <= self.width)
         if self.most_in_row < 1.0:
             is_bank &= ~self._in_rows(regions)
         return is_bank & (regions.above <= self.height) & (share >= self.even_share)

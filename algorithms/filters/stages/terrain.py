@@ -136,7 +136,8 @@ class GentleBorder(Rule):
         many = np.where(cut, shares[0], np.interp(np.log(area), np.log(self.areas), self.shares))
         found = (level > 0) & (level >= few * border) & (area >= self.least_area)
         tall = (area <= self.small) & (regions.above > self.tall)
-        found &= ~(tall & (regions.above > self.steep * regions.width))
+        if tall.any():
+            found &= ~(tall & (regions.above > self.steep * regions.mean_width))
         doubtful = found & (level < many * border)
         if doubtful.any():
             found &= ~doubtful | (regions.widths(ground) >= self.width)
