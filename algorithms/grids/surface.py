@@ -75,11 +75,22 @@ class Surface:
         heights = np.full(len(x), np.nan)
         if not len(x) or is_one_line(np.column_stack(self._vertices[:2])):
             return heights
+        # Walks to places outside lead along all of the hull.
         inside = np.flatnonzero(self._depth(x, y) > -_ON_HULL)
-        if len(inside) < len(x):
-            # Walks to places outside lead along all of the hull.
-            heights[inside] = self.heights(x[inside], y[inside], max_edge, progress, cells)
-            return heights
+        if len(inside):
+            heights[inside] = self._inside(x[inside], y[inside], max_edge, progress, cells)
+        return heights
+
+    def _inside(
+        self,
+        x: np.ndarray,
+        y: np.ndarray,
+        max_edge: float | None,
+        progress: Progress,
+        cells: CellLattice | None,
+    ) -> np.ndarray:
+        """Return the heights at queries inside the hull."""
+        heights = np.full(len(x), np.nan)
         blocks = list(self._blocks(x, y))
         # A single block reports its own progress. Of several blocks, each is one step.
         within = progress if len(blocks) == 1 else SILENT
