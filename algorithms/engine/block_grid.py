@@ -21,7 +21,7 @@ from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.reading import read_cloud
 from ..survey.files import Survey
-from .blocks import Blocks
+from .blocks import Block, Blocks
 from .store import code_of, row_and_column
 
 # Boxes are read wider by so many metres. Later the points are chosen exactly.
@@ -73,6 +73,11 @@ class BlockGrid:
         metres = (np.array(box) - np.tile(self.frame.origin, 2)) * self.frame.horizontal_unit
         west, south, east, north = self.blocks.number(metres).astype(int).tolist()
         return range(west, east + 1), range(south, north + 1)
+
+    def holding(self, block: Block) -> BlockIndex:
+        """Return the index of the block that holds a smaller block, or is the same."""
+        share = round(self.blocks.side / block.side)
+        return BlockIndex(block.column // share, block.row // share)
 
     def among(self, places: Iterable[BlockIndex], box: Box) -> list[BlockIndex]:
         """Return those of some blocks that a box in units of the CRS touches."""

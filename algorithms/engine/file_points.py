@@ -8,7 +8,7 @@ import contextlib
 import dataclasses
 import itertools
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Sequence
+from typing import Any, Iterator, Sequence
 
 import numpy as np
 
@@ -42,9 +42,6 @@ _MOST_FOR_BLOCKS = GIGABYTE
 # Largest record length of which whole records are kept in memory. To read them again for
 # writing would take as long as the filter.
 _LONGEST_KEPT = 48
-
-# Some points with their indices in the file.
-Parts = Iterable[tuple[slice, PointCloud]]
 
 
 def fits_in_memory(count: int, resources: Resources, record_length: int = 0) -> bool:
@@ -180,27 +177,12 @@ class FilePoints:
         self._mapped.append(ValuesOnDisk(self._target, kind, self.count))
         return self._mapped[-1].values
 
-    def gathered(
-        self, steps: Sequence[tuple[Step, Any]], parts: Parts, progress: Progress = SILENT
-    ) -> list[Store]:
-        """Return a store of the points that each step, given with its counts, needs of the parts,
-        whose classes may have changed; refuse a step without points.
-        """
-        stores = [self._store(step) for step, _ in steps]
-        for where, part in parts:
-            # The classes need not stay in memory.
-            points = self.cloud.take(where) if self.is_in_memory else part
-            for (step, counts), store in zip(steps, stores):
-                store.append(points, step.marks(part, counts))
-        for (step, counts), store, share in zip(
-            steps, stores, progress.shares(*[1.0] * len(steps))
-        ):
-            step.tell(counts, self.path, progress)
-            store.finish(share)
-        return stores
+    def as_stored(self, where: slice, part: PointCloud) -> PointCloud:
+        """Return points as a store gets them, whose classes need not stay in memory."""
+        return self.cloud.take(where) if self.is_in_memory else part
 
-    def _store(self, step: Step) -> Store:
-        """Return an empty store for a step."""
+    def store_for(self, step: Step) -> Store:
+        """Return an empty store for the points that a step needs."""
         if self.is_in_memory:
             frame = survey_frame(self.cloud.crs, step.origin)
             return MemoryStore(frame, step.blocks, step.kind)

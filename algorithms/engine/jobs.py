@@ -11,7 +11,7 @@ from collections import defaultdict
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator, NamedTuple
+from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
@@ -29,10 +29,11 @@ from .disk_store import DiskStore
 from .file_points import FilePoints, TileResult, copies_all_else, memory_of_file
 from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
-from .memory_store import MemoryStore
+from .store import Store
 from .summary import JobCost
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, applied
+from .visits import Work
 
 
 class JobResult(NamedTuple):
@@ -74,7 +75,7 @@ class Job:
         raise NotImplementedError
 
     def run(self, share: Share, progress: Progress) -> Any:
-        """Do it, and return a summary of what it wrote."""
+        """Do the job, and return a summary of what it wrote."""
         raise NotImplementedError
 
 
@@ -102,7 +103,7 @@ class BlockJob(Job):
         """Return the bytes of memory that it takes at most, as far as is known before."""
         return min(memory_of(self.output.grid, self.count), resources.bytes)
 
-    def clouds(self, store: MemoryStore | DiskStore, progress: Progress) -> Iterator[PointCloud]:
+    def clouds(self, store: Store, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points of each file that the blocks need, with what was found before; part by
         part if they are to wait on disk.
         """
@@ -136,23 +137,18 @@ class BlockJob(Job):
             yield from (cloud for cloud in clouds if cloud.count)
 
     @contextlib.contextmanager
-    def store(self, share: Share) -> Iterator[MemoryStore | DiskStore]:
-        """Yield an empty store for the points: on disk if they do not fit into memory."""
+    def work(self, share: Share) -> Iterator[Work]:
+        """Yield the step with an empty store: on disk if the points do not fit into memory."""
         grid, (beside, *_) = self.output.grid, self.output.files.values()
         if memory_of(grid, self.count) <= share.resources.bytes:
-            yield MemoryStore(grid.frame, grid.blocks, grid.step.kind)
+            yield Work.in_memory(grid.step, grid.frame)
             return
         with DiskStore(beside, grid.frame, grid.blocks, grid.step.kind) as store:
-            yield store
+            yield Work(grid.step, store)
 
     def _is_wanted(self, block: Block) -> bool:
         """Return whether a block, or a part of one, is one of this job."""
-        return self._place(block) in self.output.files
-
-    def _place(self, block: Block) -> BlockIndex:
-        """Return the index of the block that holds a smaller block."""
-        share = round(self.output.grid.blocks.side / block.side)
-        return BlockIndex(block.column // share, block.row // share)
+        return self.output.grid.holding(block) in self.output.files
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,14 +156,16 @@ class PointJob(BlockJob):
     """A job that finds a value for each point of some blocks, and stores it by block and file."""
 
     def run(self, share: Share, progress: Progress) -> None:
-        """Do it."""
+        """Find the values, and write those of each block."""
         # Files, and for each of their points the number of its block, from 1 on, or 0.
         parts: list[tuple[Path, np.ndarray]] = []
-        with self.store(share) as store:
-            failure = self.find(
-                self.clouds(store, progress.part(0.0, 0.3)), store, share.resources,
-                progress.part(0.3, 0.95), lambda cloud, blocks: parts.append((cloud.path, blocks)),
-            )  # fmt: skip
+        with self.work(share) as work:
+            for cloud in self.clouds(work.store, progress.part(0.0, 0.3)):
+                parts.append((cloud.path, self._numbers(cloud)))
+                work.add(cloud, wanted=parts[-1][1] > 0)
+            working = progress.part(0.3, 0.95)
+            work.store.finish(working.part(0.0, 0.08))
+            failure = work.failure(share.resources, working.part(0.08, 1.0), self._is_wanted)
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
             for number, place in enumerate(self.output.files, start=1):
                 counts: dict[Path, int] = defaultdict(int)
@@ -177,42 +175,17 @@ class PointJob(BlockJob):
                 of_files = {path: np.zeros(count, dtype=kind) for path, count in counts.items()}
                 ends = dict.fromkeys(counts, 0)
                 for which, (path, blocks) in enumerate(() if failure else parts):
-                    values = store.values(which)[blocks == number]
+                    values = work.store.values(which)[blocks == number]
                     start, ends[path] = ends[path], ends[path] + len(values)
                     of_files[path][start : ends[path]] = values
                 self.output.write(place, of_files, failure)
 
-    def find(
-        self,
-        clouds: Iterable[PointCloud],
-        store: MemoryStore | DiskStore,
-        resources: Resources,
-        progress: Progress,
-        keep: Callable[[PointCloud, np.ndarray], None],
-    ) -> str:
-        """Find the values of points in a store, and return why there are none, if so; `keep` gets
-        the points of each file, and the numbers of their blocks.
-        """
-        grid, counts, has_work = self.output.grid, self.output.grid.step.counts(), False
-        for cloud in clouds:
-            codes = grid.codes(cloud)
-            blocks = np.zeros(cloud.count, dtype=np.uint8)
-            for number, place in enumerate(self.output.files, start=1):
-                blocks[codes == code(place)] = number
-            marks, wanted = grid.step.marks(cloud, counts), blocks > 0
-            if marks.wanted is not None:
-                wanted &= marks.wanted
-            has_work |= bool((wanted & marks.selected).any())
-            store.append(cloud, marks._replace(wanted=wanted))
-            keep(cloud, blocks)
-        store.finish(progress.part(0.0, 0.08))
-        if has_work:
-            try:
-                rest = progress.part(0.08, 1.0)
-                grid.step.work(store, resources, rest, self._is_wanted)
-            except BareEarthError as error:
-                return str(error)
-        return ""
+    def _numbers(self, cloud: PointCloud) -> np.ndarray:
+        """Return for each point the number of its block in this job, from 1 on, or 0."""
+        codes, numbers = self.output.grid.codes(cloud), np.zeros(cloud.count, dtype=np.uint8)
+        for number, place in enumerate(self.output.files, start=1):
+            numbers[codes == code(place)] = number
+        return numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,37 +193,22 @@ class SinkJob(BlockJob):
     """A job that finds the results of a sink for some blocks."""
 
     def run(self, share: Share, progress: Progress) -> None:
-        """Do it."""
-        with self.store(share) as store:
-            clouds = self.clouds(store, progress.part(0.0, 0.5))
-            found = self.find(clouds, store, share.resources, progress.part(0.5, 0.95))
+        """Find them, and write those of each block."""
+        grid = self.output.grid
+        with self.work(share) as work:
+            for cloud in self.clouds(work.store, progress.part(0.0, 0.5)):
+                work.add(cloud)
+            working = progress.part(0.5, 0.95)
+            work.store.finish(working.part(0.0, 0.2))
+            found: dict[BlockIndex, list[Any]] = defaultdict(list)
+            done = work.done(share.resources, working.part(0.2, 1.0), self._is_wanted)
+            for block, result in done or ():
+                found[grid.holding(block)].append(result)
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
             # Results may still wait in the store.
             for place, file in self.output.files.items():
                 with replacing(file) as temporary, temporary.open("wb") as stream:
-                    self.output.grid.step.save(found[place], stream)
-
-    def find(
-        self,
-        clouds: Iterable[PointCloud],
-        store: MemoryStore | DiskStore,
-        resources: Resources,
-        progress: Progress,
-    ) -> dict[BlockIndex, list[Any]]:
-        """Return the results of the blocks, or of their parts, of points in a store."""
-        step, has_points = self.output.grid.step, False
-        counts = step.counts()
-        found: dict[BlockIndex, list[Any]] = {place: [] for place in self.output.files}
-        for cloud in clouds:
-            marks = step.marks(cloud, counts)
-            has_points |= bool(marks.selected.any())
-            store.append(cloud, marks)
-        store.finish(progress.part(0.0, 0.2))
-        if has_points:
-            rest = progress.part(0.2, 1.0)
-            for block, result in step.work(store, resources, rest, self._is_wanted):
-                found[self._place(block)].append(result)
-        return found
+                    grid.step.save(found[place], stream)
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ from .file_points import FilePoints, TileResult, copies_all_else
 from .memory import Resources
 from .step import PointStep, Step, placed
 from .values import PointValues, StoreValues, with_values
-from .visits import visited
+from .visits import Work, visited
 
 # Share of reading in the progress, as the `weight` of steps, and of all before points are written.
 _READING, _BEFORE_WRITING = 1.5, 0.92
@@ -90,10 +90,10 @@ class FileRun:
         outputs: Outputs | None = None,
     ) -> None:
         self.steps: list[Any] = placed(steps, points.place, progress)
-        self.counts = [step.counts() for step in self.steps]  # by the steps, among the points
         self.points, self.outputs = points, outputs or Outputs()
         self.told: list[Any] = []  # what `finish` of the steps returned
         self._values: list[PointValues] = []
+        self._counts: list[Any] = []  # of the same steps, by `marks`
 
     def work(self, progress: Progress) -> None:
         """Run the steps, each of which sees what those before it have found."""
@@ -112,18 +112,28 @@ class FileRun:
 
     def _work_group(self, group: slice, progress: Progress) -> None:
         """Run steps that see the same points."""
-        points, steps = self.points, list(zip(self.steps[group], self.counts[group]))
+        points = self.points
+        works = [Work(step, points.store_for(step)) for step in self.steps[group]]
         reading = points.sparing(progress.part(0.0, 0.08))
-        parts = with_values(points.parts(reading, self._reads_once), self._values)
-        stores = points.gathered(steps, parts, progress.part(0.08, 0.12))
-        weights = [step.weight for step, _ in steps]
-        rests = [step.weight * step.weight_of_outputs for step, _ in steps]
+        for where, part in with_values(points.parts(reading, self._reads_once), self._values):
+            stored = points.as_stored(where, part)
+            for work in works:
+                work.add(part, stored)
+        shares = progress.part(0.08, 0.12).shares(*[1.0] * len(works))
+        for work, share in zip(works, shares):
+            work.step.tell(work.counts, points.path, progress)
+            work.store.finish(share)
+        weights = [work.step.weight for work in works]
+        rests = [work.step.weight * work.step.weight_of_outputs for work in works]
         working, *writing = progress.part(0.12, 1.0).shares(sum(weights), *rests)
-        works = [(self._seeing(step, working), store) for (step, _), store in zip(steps, stores)]
+        for work in works:
+            work.step = self._seeing(work.step, working)
         results = visited(works, points.resources, working)
-        for (step, store), result, part in zip(works, results, writing):
+        for work, result, part in zip(works, results, writing):
+            step = work.step
             if isinstance(step, PointStep):
-                self._values.append(StoreValues(step, store))
+                self._values.append(StoreValues(step, work.store))
+                self._counts.append(work.counts)
             else:
                 result = [found for _, found in result]
             frame = survey_frame(points.cloud.crs, step.origin)
@@ -145,9 +155,7 @@ class FileRun:
 
     def found(self, progress: Progress) -> TileResult:
         """Return what the steps found for each point."""
-        pairs = zip(self.steps, self.counts)
-        counts = [counted for step, counted in pairs if isinstance(step, PointStep)]
-        result = TileResult(self.points, self._values, counts)
+        result = TileResult(self.points, self._values, self._counts)
         for where, part in self.points.parts(self.points.sparing(progress)):
             result.add(where, part)
         result.end(progress)

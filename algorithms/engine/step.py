@@ -28,9 +28,8 @@ from ..survey.corrections import to_remember
 from ..survey.shapes import Geometry, Place
 from .block_grid import BlockGrid, BlockIndex
 from .blocks import Block, Blocks
-from .memory import Resources
 from .store import Marks, Store
-from .visits import Visit, visited
+from .visits import Visit
 
 # Returns an array of one value for each point of a file, given the type of the values.
 Allocate = Callable[[type], np.ndarray]
@@ -102,16 +101,6 @@ class Step:
         """Return the result, given what stayed of each block."""
         return results
 
-    def work(
-        self,
-        store: Store,
-        resources: Resources,
-        progress: Progress,
-        is_wanted: Callable[[Block], bool] | None = None,
-    ) -> Any:
-        """Compute the result from the points of a store, in all blocks or those that are wanted."""
-        return visited([(self, store)], resources, progress, is_wanted)[0]
-
     def finish(
         self,
         result: Any,
@@ -120,7 +109,7 @@ class Step:
         progress: Progress,
         tiles: Sequence[LasFile] | None = None,
     ) -> Any:
-        """Write what `outputs` named, given the result of `work` and the files of a survey; return
+        """Write what `outputs` named, given the result of `end` and the files of a survey; return
         what to tell of it.
         """
 

@@ -14,11 +14,15 @@ from typing import Any, Callable, NamedTuple, Sequence
 
 import numpy as np
 
+from ..core.errors import BareEarthError
+from ..core.points import Frame
 from ..core.progress import SILENT, Progress
+from ..las.cloud import PointCloud
 from .blocks import Block, Blocks
 from .blockwise import run_jobs
 from .memory import GIGABYTE, Cost, GivingBack, Resources, give_back
-from .store import BlockPoints, Corner, Store
+from .memory_store import MemoryStore
+from .store import BlockPoints, Corner, Marks, Store
 
 # Blocks that take so many bytes give their memory back to the system when they are done.
 _MUCH = 100_000_000
@@ -59,8 +63,60 @@ class Visit(NamedTuple):
         return count, self.blocks.memory(count, len(touched) * leaves.side**2)
 
 
-# A step, and the points that it needs.
-Work = tuple[Any, Store]
+class Work:
+    """A step, and the points that it needs, in a store."""
+
+    def __init__(self, step: Any, store: Store) -> None:
+        self.step, self.store = step, store
+        self.counts = step.counts()  # by the step, among the points
+        self.has_points = False  # whether any point that gets a value takes part
+
+    @classmethod
+    def in_memory(cls, step: Any, frame: Frame) -> Work:
+        """Return a step, and an empty store in memory."""
+        return cls(step, MemoryStore(frame, step.blocks, step.kind))
+
+    def add(
+        self,
+        part: PointCloud,
+        stored: PointCloud | None = None,
+        wanted: np.ndarray | None = None,
+    ) -> Marks:
+        """Store the next points that the step needs, and return their marks; `stored` are the same
+        points with less memory, and only those that are `wanted` get a value.
+        """
+        marks = self.step.marks(part, self.counts)
+        if wanted is not None:
+            wanted = wanted if marks.wanted is None else wanted & marks.wanted
+            marks = marks._replace(wanted=wanted)
+        taking_part = marks.selected if wanted is None else marks.selected & wanted
+        self.has_points = self.has_points or bool(taking_part.any())
+        self.store.append(part if stored is None else stored, marks)
+        return marks
+
+    def done(
+        self,
+        resources: Resources,
+        progress: Progress = SILENT,
+        is_wanted: Callable[[Block], bool] | None = None,
+    ) -> Any:
+        """Let the step work as `visited` does; return None if no point takes part."""
+        if not self.has_points:
+            return None
+        return visited([self], resources, progress, is_wanted)[0]
+
+    def failure(
+        self,
+        resources: Resources,
+        progress: Progress = SILENT,
+        is_wanted: Callable[[Block], bool] | None = None,
+    ) -> str:
+        """Let a step work that finds a value for each point; return why it found none, or ""."""
+        try:
+            self.done(resources, progress, is_wanted)
+        except BareEarthError as error:
+            return str(error)
+        return ""
 
 
 def visited(
@@ -73,7 +129,7 @@ def visited(
     for each.
     """
     alike = itertools.groupby(
-        works, lambda work: (replace(work[0].blocks, cost=Cost()), work[1].frame)
+        works, lambda work: (replace(work.step.blocks, cost=Cost()), work.store.frame)
     )
     groups = [list(group) for _, group in alike]
     pairs = zip(groups, progress.shares(*map(_weight, groups)))
@@ -81,7 +137,7 @@ def visited(
 
 
 def _weight(works: Sequence[Work]) -> float:
-    return sum(step.weight for step, _ in works)
+    return sum(work.step.weight for work in works)
 
 
 def _visited(
@@ -92,10 +148,11 @@ def _visited(
 ) -> list[Any]:
     """Do the same for steps with equal blocks."""
     todo: dict[Block, dict[int, Visit]] = defaultdict(dict)
-    for number, (step, store) in enumerate(works):
-        over = list(step.blocks.over(store))
+    for number, work in enumerate(works):
+        blocks, store = work.step.blocks, work.store
+        over = list(blocks.over(store))
         for block in over if is_wanted is None else filter(is_wanted, over):
-            todo[block][number] = Visit(block, step.blocks, store, len(over) == 1, {})
+            todo[block][number] = Visit(block, blocks, store, len(over) == 1, {})
     counts, memory = [], []
     for visits in todo.values():
         of_steps, bytes_of_steps = zip(*(visit.size for visit in visits.values()))
@@ -116,17 +173,19 @@ def _visited(
     running = GivingBack(progress) if is_tight else progress
     jobs = [partial(_in_block, works, visits) for visits in todo.values()]
     results: list[dict[Block, Any]] = [{} for _ in works]
-    blocks = list(todo)
+    order = list(todo)
     for place, found in run_jobs(jobs, counts, at_once, resources.thread_count, running):
         for number, result in found.items():
-            step, store = works[number]
-            results[number][blocks[place]] = step.keep(store, result)
+            work = works[number]
+            results[number][order[place]] = work.step.keep(work.store, result)
         if is_tight and memory[place] > _MUCH:
             give_back()
     # In the order of the blocks, whichever was done first.
     return [
-        step.end(store, [(block, found[block]) for block in blocks if block in found], progress)
-        for (step, store), found in zip(works, results)
+        work.step.end(
+            work.store, [(block, found[block]) for block in order if block in found], progress
+        )
+        for work, found in zip(works, results)
     ]
 
 
@@ -134,9 +193,9 @@ def _in_block(
     works: Sequence[Work], visits: dict[int, Visit], progress: Progress
 ) -> dict[int, Any]:
     """Let steps work on a block, given the visit of each by its number; return their results."""
-    shares = progress.shares(*(works[number][0].weight for number in visits))
+    shares = progress.shares(*(works[number].step.weight for number in visits))
     found: dict[Any, Any] = {}
     return {
-        number: works[number][0].in_block(visit._replace(found=found), share)
+        number: works[number].step.in_block(visit._replace(found=found), share)
         for (number, visit), share in zip(visits.items(), shares)
     }

@@ -19,12 +19,10 @@ from ..crs.measurable import require_measurable
 from ..crs.stated import how_to_state, stated_wkt
 from ..crs.system import Crs
 from ..engine.block_grid import BlockGrid, BlockIndex, code, places_of
-from ..engine.jobs import PointJob
 from ..engine.memory import Resources
-from ..engine.memory_store import MemoryStore
 from ..engine.options import TileInput
 from ..engine.step import placed
-from ..engine.values import BlockFiles
+from ..engine.visits import Work
 from ..las.cloud import PointCloud, survey_frame
 from ..las.opening import open_las
 from ..remote.addresses import shown
@@ -271,18 +269,22 @@ def points_of(
     if work.is_classified:
         inner = (cloud.take(np.flatnonzero(grid.codes(cloud) == number)) for cloud in clouds)
         return [(sources[which], cloud) for which, cloud in enumerate(inner)]
-    job = PointJob((), None, BlockFiles(grid, {work.place: Path()}), (), 0.0)
-    store = MemoryStore(grid.frame, grid.blocks, grid.step.kind)
+    working = Work.in_memory(grid.step, grid.frame)
     with SharedThreads(1).used():
-        failure = job.find(
-            clouds, store, ONE_THREAD, progress.part(0.3, 1.0), lambda *part: kept.append(part)
+        for cloud in clouds:
+            kept.append((cloud, grid.codes(cloud) == number))
+            working.add(cloud, wanted=kept[-1][1])
+        part = progress.part(0.3, 1.0)
+        working.store.finish(part.part(0.0, 0.08))
+        failure = working.failure(
+            ONE_THREAD, part.part(0.08, 1.0), lambda one: grid.holding(one) == work.place
         )
     if failure:
         progress.warning(failure)
     found = []
-    for which, (cloud, blocks) in enumerate(kept):
-        inside = np.flatnonzero(blocks)
-        values = store.values(which)[inside]
+    for which, (cloud, is_inside) in enumerate(kept):
+        inside = np.flatnonzero(is_inside)
+        values = working.store.values(which)[inside]
         values = np.zeros_like(values) if failure else values
         found.append((sources[which], grid.step.applied(cloud.take(inside), values)))
     return found

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from itertools import chain
-from pathlib import Path
 from typing import Any, Sequence
 
 import numpy as np
@@ -16,10 +15,8 @@ from ..core.points import Box, box_round
 from ..core.progress import SILENT
 from ..core.threads import SharedThreads
 from ..engine.block_grid import BlockGrid, BlockIndex
-from ..engine.jobs import SinkJob
-from ..engine.memory_store import MemoryStore
 from ..engine.step import placed
-from ..engine.values import BlockFiles
+from ..engine.visits import Work
 from ..grids.cell_window import CellWindow
 from ..las.cloud import PointCloud, survey_frame
 from ..rasters.writing import Band
@@ -117,11 +114,14 @@ def _layers_of(
     """Return the layers of a block, or of its parts, given the points of blocks round it."""
     area = Area(grid.window([index]))
     near = (cloud.take(np.flatnonzero(area.of(cloud))) for _, cloud in chain(*points))
-    job = SinkJob((), None, BlockFiles(grid, {index: Path()}), (), 0.0)
-    store = MemoryStore(grid.frame, grid.blocks, grid.step.kind)
+    work = Work.in_memory(grid.step, grid.frame)
     with SharedThreads(1).used():
-        found = job.find((cloud for cloud in near if cloud.count), store, ONE_THREAD, SILENT)
-    return found[index]
+        for cloud in near:
+            if cloud.count:
+                work.add(cloud)
+        work.store.finish()
+        found = work.done(ONE_THREAD, is_wanted=lambda block: grid.holding(block) == index)
+    return [layers for _, layers in found or ()]
 
 
 def _cells_of(

@@ -156,7 +156,7 @@ def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch
     def none(*arguments):
         raise BareEarthError("No ground was found.")
 
-    monkeypatch.setattr(LabelGround, "work", none)
+    monkeypatch.setattr(LabelGround, "in_block", none)
     progress, how = Heard(), {"extent": WINDOW, "settings": BOTH}
     summary = compare_settings(source, tmp_path / "p.html", progress=progress, **how)
     assert [setting["ground_count"] for setting in summary.settings] == [0, 0]

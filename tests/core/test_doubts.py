@@ -8,6 +8,7 @@ from surveys import cloud_of
 
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.visits import Work, visited
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.tools.ground.step import LabelGround
@@ -69,7 +70,7 @@ def test_the_same_warning_of_several_blocks_is_told_once(las):
     part = (cloud, np.ones(cloud.count, bool))
     store = memory_store([part], survey_frame(cloud.crs), blocks)
     step = LabelGround(METHODS["grid-minimum"].parameters(), cut=blocks)
-    step.work(store, Resources(), progress)
+    visited([Work(step, store)], Resources(), progress)
     (warning,) = progress.warnings
     assert EXTENT in warning and "blocks" not in warning
 

@@ -11,6 +11,7 @@ from surveys import cut, finished, points_of, strip, write
 
 from bare_earth import Progress, classify
 from bare_earth.algorithms.engine.memory import Resources
+from bare_earth.algorithms.engine.visits import Work, visited
 from bare_earth.algorithms.filters import METHODS, method_of
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
@@ -114,6 +115,7 @@ def test_quartering_crowded_blocks_changes_no_label_of_a_real_survey(method):
         every = (cloud, np.ones(cloud.count, dtype=bool))
         store = memory_store([every], survey_frame(cloud.crs), blocks)
         assert (len(list(blocks.over(store))) > 1) == (most == 4000)
-        LabelGround(parameters, cut=blocks).work(store, Resources(), Progress())
+        work = Work(LabelGround(parameters, cut=blocks), store)
+        visited([work], Resources(), Progress())
         labels.append(store.values(0))
     assert np.array_equal(*labels)

@@ -13,6 +13,7 @@ from surveys import cloud_of, cut, strip
 import bare_earth
 from bare_earth import Progress
 from bare_earth.algorithms.engine.memory import Resources, give_back
+from bare_earth.algorithms.engine.visits import Work, visited
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.tools.heights import MeasureHeights
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
@@ -42,7 +43,7 @@ def test_a_block_takes_about_as_much_as_is_reckoned(name):
     reckoned = step.blocks.memory(COUNT, (SIDE + 2.0 * step.blocks.buffer) ** 2)
     tracemalloc.start()
     try:
-        step.work(store, Resources(threads=1), Progress())
+        visited([Work(step, store)], Resources(threads=1), Progress())
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()

@@ -18,6 +18,7 @@ from bare_earth.algorithms.engine.blockwise import run_jobs
 from bare_earth.algorithms.engine.disk_store import DiskStore
 from bare_earth.algorithms.engine.memory import Cost, Resources, free_memory
 from bare_earth.algorithms.engine.store import Marks
+from bare_earth.algorithms.engine.visits import Work, visited
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.pipeline import Pipeline, PointRule, Stage
@@ -57,7 +58,7 @@ def labels_of(parts, parameters, blocks, threads=1, depth=1.0, known=None, progr
     store = memory_store([(part, np.ones(part.count, bool)) for part in parts], frame, blocks)
     selection = Selection(low_noise_class=depth is not None, low_noise_depth=depth or 1.0)
     step = LabelGround(parameters, selection, cut=blocks)
-    step.work(store, Resources(threads=threads), progress)
+    visited([Work(step, store)], Resources(threads=threads), progress)
     return [store.values(number) for number in range(len(parts))]
 
 
@@ -193,7 +194,8 @@ def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
         memory_store([(cloud, every, None, value)], cloud.frame, blocks) for value in (None, wanted)
     )
     for store in (whole, some):
-        LabelGround(GridMinimum(), cut=blocks).work(store, Resources(), Progress())
+        work = Work(LabelGround(GridMinimum(), cut=blocks), store)
+        visited([work], Resources(), Progress())
     assert np.array_equal(some.values(0), np.where(wanted, whole.values(0), 0))
 
 

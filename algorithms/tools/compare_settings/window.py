@@ -15,7 +15,7 @@ from ...core.progress import Progress
 from ...crs.measurable import require_measurable
 from ...crs.system import Crs
 from ...engine.memory import Resources
-from ...engine.memory_store import MemoryStore
+from ...engine.visits import Work
 from ...grids.confidence import confidence
 from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ...las.cloud import PointCloud, survey_frame
@@ -104,21 +104,17 @@ class Window:
         settings have in common are only reported for the first.
         """
         step = LabelGround(setting.parameters)
-        counts = step.counts()
-        marks = [step.marks(cloud, counts) for cloud in self.clouds]
-        step.tell(counts, self.clouds[0].path, progress if is_first else progress.quiet())
+        work = Work.in_memory(step, survey_frame(self.crs))
+        selected = np.concatenate([work.add(cloud).selected for cloud in self.clouds])
+        step.tell(work.counts, self.clouds[0].path, progress if is_first else progress.quiet())
         progress.info(f"{setting.label}:")
-        store = MemoryStore(survey_frame(self.crs), step.blocks, step.kind)
-        for cloud, its_marks in zip(self.clouds, marks):
-            store.append(cloud, its_marks)
-        store.finish(progress.part(0.0, 0.1))
-        try:
-            step.work(store, resources, progress.part(0.1, 1.0))
-        except BareEarthError as error:
-            progress.warning(f"{setting.label}: {error}")
-        found = [step.applied(cloud, store.values(n)) for n, cloud in enumerate(self.clouds)]
+        work.store.finish(progress.part(0.0, 0.1))
+        failure = work.failure(resources, progress.part(0.1, 1.0))
+        if failure:
+            progress.warning(f"{setting.label}: {failure}")
+        values = map(work.store.values, range(len(self.clouds)))
+        found = [step.applied(cloud, some) for cloud, some in zip(self.clouds, values)]
         classes = np.concatenate([cloud.classification for cloud in found])
-        selected = np.concatenate([its_marks.selected for its_marks in marks])
         ground = classes == step.selection.to_class
         sure = self._confidence(ground, selected)
         return Outcome(setting, ground, self._terrain(ground), sure)
