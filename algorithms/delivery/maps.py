@@ -65,7 +65,7 @@ def make_maps(
         done = run(tool, given, {**places, "output": target}, sets, progress)
     return MapSummary(
         Path(done.vpc or cloud),
-        done.point_count if sources.is_survey else done.area_count,
+        sum(done.class_counts.values()),
         done.ground_count,
         done.class_counts,
         done.drawn.get("contours"),

@@ -65,12 +65,11 @@ def _classify(job: DeliveryJob, row: Row, progress: Progress) -> None:
     done = job.run(row, progress, output=target)
     if job.is_survey:
         job.sources, job.files = Inputs(done.vpc), _files_of(done)
-        summary.point_count, summary.ground_count = done.point_count, done.ground_count
         summary.failures = dict(done.failures)
     else:
         job.sources, job.files = Inputs(target), [target]
-        summary.point_count, summary.ground_count = done.area_count, done.area_ground_count
     summary.cloud, summary.class_counts = str(job.cloud), done.class_counts
+    summary.point_count, summary.ground_count = sum(done.class_counts.values()), done.ground_count
 
 
 def _find_water(job: DeliveryJob, row: Row, progress: Progress) -> None:

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import itertools
 from pathlib import Path
 from typing import Any, Iterator, Sequence
 
@@ -201,16 +200,11 @@ def copies_all_else(las: LasFile, target: Path, steps: Sequence[PointStep]) -> b
 class TileResult:
     """What the steps of a run found for the points of a file, in the order of the steps."""
 
-    def __init__(
-        self, points: FilePoints, values: Sequence[PointValues], counts: Sequence[Any] = ()
-    ) -> None:
+    def __init__(self, points: FilePoints, values: Sequence[PointValues]) -> None:
         self._points, self._values = points, values
         steps = [found.step for found in values]
-        # what each step found beside the classes; `counts` are those of `PointStep.result`
-        self.results = [
-            step.result(points.path, points.allocate, counted)
-            for step, counted in itertools.zip_longest(steps, counts)
-        ]
+        # what each step found beside the classes
+        self.results = [step.result(points.path, points.allocate) for step in steps]
         self.classification: np.ndarray | None = None
         if any(step.gives_classes for step in steps):
             self.classification = points.allocate(np.uint8)
@@ -233,10 +227,10 @@ class TileResult:
         classes, kept = part.classification, self.results[0].kept
         self.class_counts += count_classes(classes if kept is None else classes[kept[where]])
 
-    def end(self, progress: Progress) -> None:
-        """Report what was found, or refuse to write a file without a result."""
+    def check(self, progress: Progress) -> None:
+        """Refuse to write one of many files without a result."""
         for result, found in zip(self.results, self._values):
-            result.end(progress, found.failure)
+            result.check(progress, found.failure)
 
     @property
     def is_empty(self) -> bool:

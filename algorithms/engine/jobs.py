@@ -242,7 +242,7 @@ class TileJob(Job):
                 result.add(where, part)
             for found in values:
                 found.check()
-            result.end(progress)
+            result.check(progress)
             if result.is_empty:
                 return None
             result.write(self.target, progress.part(0.4, 1.0))

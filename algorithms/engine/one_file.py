@@ -93,7 +93,6 @@ class FileRun:
         self.points, self.outputs = points, outputs or Outputs()
         self.told: list[Any] = []  # what `finish` of the steps returned
         self._values: list[PointValues] = []
-        self._counts: list[Any] = []  # of the same steps, by `marks`
 
     def work(self, progress: Progress) -> None:
         """Run the steps, each of which sees what those before it have found."""
@@ -133,7 +132,6 @@ class FileRun:
             step = work.step
             if isinstance(step, PointStep):
                 self._values.append(StoreValues(step, work.store))
-                self._counts.append(work.counts)
             else:
                 result = [found for _, found in result]
             frame = survey_frame(points.cloud.crs, step.origin)
@@ -155,8 +153,9 @@ class FileRun:
 
     def found(self, progress: Progress) -> TileResult:
         """Return what the steps found for each point."""
-        result = TileResult(self.points, self._values, self._counts)
+        result = TileResult(self.points, self._values)
         for where, part in self.points.parts(self.points.sparing(progress)):
             result.add(where, part)
-        result.end(progress)
+        for found in result.results:
+            found.tell(progress)
         return result

@@ -180,10 +180,8 @@ class PointStep(Step):
         """Return numbers of points of a part, before and after, that the summary has."""
         return {}
 
-    def result(self, path: Path, allocate: Allocate, counts: Any = None) -> PointResult:
-        """Return an object that collects the values of a file, given what `marks` counted in it;
-        None in a survey, in which that is not known by file.
-        """
+    def result(self, path: Path, allocate: Allocate) -> PointResult:
+        """Return an object that collects the values of a file."""
         return PointResult(self)
 
 
@@ -233,10 +231,13 @@ class PointResult:
         """
         self._numbers.update(point_count=before.count, **self._step.numbers(before, after, values))
 
-    def end(self, progress: Progress, why: str = "") -> None:
-        """Report what was found in a file, or refuse to write it without a result, of which `why`
+    def check(self, progress: Progress, why: str = "") -> None:
+        """Refuse one of many files, whose own points no step has told of, without a result; `why`
         is the reason, if it is known.
         """
+
+    def tell(self, progress: Progress) -> None:
+        """Report what was found in a file."""
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the changes of the file beside the classes, or refuse a file that cannot hold

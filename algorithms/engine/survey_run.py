@@ -229,7 +229,7 @@ class _SurveyRun:
             tile_count=len(self._inputs) - self._empty_count + len(unknown) + without,
             done_count=len(self._done) + without,
             kept_count=self._kept_count,
-            point_count=sum(summary.point_count for summary in self._done),
+            point_count=sum(sum(summary.class_counts.values()) for summary in self._done),
             ground_count=sum(getattr(summary, "ground_count", 0) for summary in self._done),
             failures=reasons,
             vpc=str(self._vpc),

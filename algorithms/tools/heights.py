@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -138,7 +137,7 @@ class MeasureHeights(PointStep):
         points = Points(*map(np.concatenate, zip(*(points for _, points in found))))
         return positions, surface.heights_above(points, progress.part(0.45, 1.0))
 
-    def result(self, path: Path, allocate: Allocate, counts: Any = None) -> HeightsOfPoints:
+    def result(self, path: Path, allocate: Allocate) -> HeightsOfPoints:
         """Return an object that collects the heights of a file."""
         return HeightsOfPoints(self, allocate)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -138,7 +137,7 @@ class FindKeyPoints(PointStep):
             "key_point_count": int(np.count_nonzero(values == _KEY)),
         }
 
-    def result(self, path: Path, allocate: Allocate, counts: Any = None) -> PointResult:
+    def result(self, path: Path, allocate: Allocate) -> PointResult:
         """Return an object that counts the key points of a file, and collects their flags."""
         return PointResult(self) if self.gives_classes else _Flags(self, allocate)
 

@@ -207,12 +207,17 @@ def test_json_is_the_counts_and_nothing_else(file, out, scene, capsys):
     counts = json.loads(capsys.readouterr().out)
     found = classes_of(out)
     assert counts == {
+        "name": out.name,
         "point_count": scene[0].count,
         "area_count": scene[0].count,
         "selected_count": scene[0].count,
         "ground_count": int((found == 2).sum()),
         "area_ground_count": int((found == 2).sum()),
+        "by_hand_count": 0,
+        "overlap_count": 0,
+        "input_class_counts": {"1": scene[0].count},
         "class_counts": {"1": int((found == 1).sum()), "2": int((found == 2).sum())},
+        "found_ground": True,
     }
 
 
@@ -263,7 +268,7 @@ def steps_of_runs(monkeypatch):
 
     def work(run, *_):
         calls.append({type(step): step for step in run.steps})
-        return Summary(1, 1, 1, 1, 1, {2: 1})
+        return Summary("out.las", 1, 1, 1, 1, 1)
 
     monkeypatch.setattr(Run, "work", work)
     return calls

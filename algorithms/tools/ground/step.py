@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import InitVar, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, ClassVar, Sequence
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ...core.words import counted
 from ...engine.blocks import Block, Blocks
 from ...engine.step import Allocate, PointResult, PointStep, with_classes
 from ...engine.store import Marks, Store
-from ...engine.summary import FileSummary, TileSummary
+from ...engine.summary import TileSummary
 from ...engine.visits import Visit
 from ...filters import method_of
 from ...las.cloud import PointCloud
@@ -28,51 +28,28 @@ from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...rasters.writing import raster_file
 from ...survey.area import Area
 from ...survey.corrections import NO_CORRECTIONS, ByHand, Corrections
-from ...survey.kept_classes import overlapping
 from ...survey.point_chooser import PointChooser
-from ...survey.point_counts import PointCounts, by_class, count_classes
+from ...survey.point_counts import PointCounts, by_class
 from ...survey.selection import Selection
 from .explanation import ExplainedCells, write_explanation
 from .labelling import Label, blocks_of, labelled, tell
 from .output import Output
 
 
-@dataclass(frozen=True)
-class Summary(FileSummary):
+@dataclass(frozen=True, order=True)
+class Summary(TileSummary):
     """The result of a classification; without an area, all points are in it."""
 
-    point_count: int
-    area_count: int
+    name: str  # of the output
+    point_count: int  # of the input
+    area_count: int  # in the area
     selected_count: int  # in the area, took part in the filter
     ground_count: int  # of the target class in the output, also outside
     area_ground_count: int  # of the target class in the area
-    class_counts: dict[int, int] = field(default_factory=dict)  # in the output, also outside
-    where: InitVar[str] = ""  # " in the area" if there is one
-    _where: ClassVar[str] = ""
-
-    def __post_init__(self, where: str) -> None:
-        object.__setattr__(self, "_where", where)
-
-    @property
-    def text(self) -> str:
-        """The share of the ground in words."""
-        ground, count = self.area_ground_count, self.area_count
-        share = 100 * ground / max(count, 1)
-        return f"{ground:,} of {count:,} points{self._where} are ground ({share:.1f} %)"
-
-
-@dataclass(frozen=True, order=True)
-class ClassifiedSummary(TileSummary):
-    """The result for one file of a survey."""
-
-    name: str  # of the output
-    point_count: int  # only points in the area if only it is written
-    ground_count: int  # points of the target class; as point_count
-    area_count: int = 0
-    by_hand_count: int = 0  # points whose class is known by hand
+    by_hand_count: int = 0  # in the area, whose class is known by hand
     overlap_count: int = 0
     input_class_counts: dict[int, int] = field(default_factory=dict)
-    class_counts: dict[int, int] = field(default_factory=dict)
+    class_counts: dict[int, int] = field(default_factory=dict)  # in the output, also outside
     found_ground: bool = True
 
     def __post_init__(self) -> None:
@@ -83,9 +60,11 @@ class ClassifiedSummary(TileSummary):
 
     @property
     def text(self) -> str:
-        """The summary as a sentence."""
-        share = self.ground_count / max(self.point_count, 1)
-        return f"{self.name}: {self.point_count:,} points, {share:.1%} ground"
+        """The share of the ground in words."""
+        ground, count = self.area_ground_count, self.area_count
+        where = " in the area" if count < self.point_count else ""
+        share = 100 * ground / max(count, 1)
+        return f"{self.name}: {ground:,} of {count:,} points{where} are ground ({share:.1f} %)"
 
 
 @dataclass(frozen=True)
@@ -103,7 +82,7 @@ class LabelGround(PointStep):
     counts = PointCounts
     weight = 5.0
     imports = "scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph"
-    summary_type = ClassifiedSummary
+    summary_type = Summary
 
     @property
     def blocks(self) -> Blocks:
@@ -160,7 +139,7 @@ class LabelGround(PointStep):
             return False
         return not self.area.may_touch(tile.outer_box)
 
-    def tell_of_survey(self, done: Sequence[ClassifiedSummary], progress: Progress) -> None:
+    def tell_of_survey(self, done: Sequence[Summary], progress: Progress) -> None:
         """Tell which classes stay, warn if no point lies in the area or in the corrections, and
         refuse files none of which has points that can be ground.
         """
@@ -218,11 +197,9 @@ class LabelGround(PointStep):
         if self.explain is not None:
             write_explanation(raster_file(outputs, self.explain), result, frame, progress)
 
-    def result(
-        self, path: Path, allocate: Allocate, counts: PointCounts | None = None
-    ) -> ClassifiedPoints:
+    def result(self, path: Path, allocate: Allocate) -> ClassifiedPoints:
         """Return an object that counts the classified points of a file."""
-        return ClassifiedPoints(self, path, allocate, counts)
+        return ClassifiedPoints(self, path, allocate)
 
 
 class ClassifiedPoints(PointResult):
@@ -230,29 +207,22 @@ class ClassifiedPoints(PointResult):
     written; `allocate` returns an array of one value for each point.
     """
 
-    def __init__(
-        self, step: LabelGround, path: Path, allocate: Allocate, counts: PointCounts | None
-    ) -> None:
+    def __init__(self, step: LabelGround, path: Path, allocate: Allocate) -> None:
         super().__init__(step)
-        self._path, output = path, step.output
-        self._counts, self._is_tile = counts or PointCounts(), counts is None
+        self._path, self._counts, output = path, PointCounts(), step.output
         # bool, (n,); None for all
         self.kept = allocate(bool) if output.ground_only or output.area_only else None
-        # with the class of the ground
-        self.area_count = self.area_ground_count = self.area_low_count = 0
-        self.area_deck_count = self.area_high_count = 0
-        self._count = self._ground_count = self._by_hand_count = self._overlap_count = 0
-        self._counts_before = np.zeros(256, dtype=np.int64)
+        self._ground_count = 0  # with the class of the ground
+        # in the area
+        self._area_ground_count = self._by_hand_count = 0
+        self._low_count = self._deck_count = self._high_count = 0
         self._has_ground = False
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their new classes, and keep what `add` needs as well."""
         chooser = self._step.chooser
         # To find points in polygons takes long.
-        if self._is_tile:
-            self._inside, _, _ = chooser.choose(part, self._counts)
-        else:
-            self._inside = chooser.inside(part)
+        self._inside, _, _ = chooser.choose(part, self._counts)
         self._by_hand = chooser.by_hand(part)
         return self._step.decided(part, values, self._inside, self._by_hand)
 
@@ -265,32 +235,24 @@ class ClassifiedPoints(PointResult):
             if self._step.output.ground_only:
                 self.kept[where] &= ground
         self._has_ground |= bool((values == Label.GROUND).any())
-        self._counts_before += count_classes(before.classification)
-        self._overlap_count += int(np.count_nonzero(overlapping(before)))
         if by_hand is not None:
             self._by_hand_count += int(np.count_nonzero(by_hand.known & inside))
-        self._count += before.count
         self._ground_count += int(np.count_nonzero(ground))
-        self.area_count += int(np.count_nonzero(inside))
-        self.area_ground_count += int(np.count_nonzero(ground & inside))
-        self.area_low_count += int(np.count_nonzero((values == Label.LOW) & inside))
-        self.area_deck_count += int(np.count_nonzero((values == Label.BRIDGE) & inside))
-        self.area_high_count += int(np.count_nonzero((values == Label.HIGH) & inside))
+        self._area_ground_count += int(np.count_nonzero(ground & inside))
+        self._low_count += int(np.count_nonzero((values == Label.LOW) & inside))
+        self._deck_count += int(np.count_nonzero((values == Label.BRIDGE) & inside))
+        self._high_count += int(np.count_nonzero((values == Label.HIGH) & inside))
 
     @property
     def is_empty(self) -> bool:
         """Whether no point is to be written."""
         if not self._step.output.area_only:
             return False
-        return not (self.area_ground_count if self._step.output.ground_only else self.area_count)
+        in_area = self._area_ground_count if self._step.output.ground_only else self._counts.inside
+        return not in_area
 
-    def end(self, progress: Progress, why: str = "") -> None:
-        """Report the numbers of outliers and of points on bridges in the area; of one of many
-        files, how many points took part, or refuse it without ground.
-        """
-        if not self._is_tile:
-            self._tell_of_found(progress)
-            return
+    def check(self, progress: Progress, why: str = "") -> None:
+        """Tell how many points of one of many files took part, or refuse it without ground."""
         step, counts = self._step, self._counts
         # If an area is given, a file need not have points in it. Others need not have points that
         # can be ground, such as a file of water only.
@@ -303,34 +265,36 @@ class ClassifiedPoints(PointResult):
             return
         if step.area is None or counts.of_returns:
             step.selection.tell(counts, self._path, progress)
-        if not self._has_ground and (step.area is None or (why and self.area_count)):
+        if not self._has_ground and (step.area is None or (why and counts.inside)):
             raise BareEarthError(why or f"No ground was found in {self._path}.")
 
-    def _tell_of_found(self, progress: Progress) -> None:
+    def tell(self, progress: Progress) -> None:
+        """Report the numbers of outliers and of points on bridges in the area."""
         selection = self._step.selection
         if selection.low_noise_class:
             progress.info(
-                f"{counted(self.area_low_count, 'point lies', 'points lie')} more than"
+                f"{counted(self._low_count, 'point lies', 'points lie')} more than"
                 f" {selection.low_noise_depth:g} m below the ground, or in groups below ground all"
                 " round them: low noise."
             )
         if selection.high_noise_class:
             progress.info(
-                f"{counted(self.area_high_count, 'point hangs', 'points hang')}"
+                f"{counted(self._high_count, 'point hangs', 'points hang')}"
                 f" {selection.high_noise_height:g} m and more above all others of their place: high"
                 " noise."
             )
-        if self.area_deck_count:
+        if self._deck_count:
             words = "point on a deck of a bridge is", "points on decks of bridges are"
-            progress.info(f"{counted(self.area_deck_count, *words)} not ground.")
+            progress.info(f"{counted(self._deck_count, *words)} not ground.")
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return which points are written; refuse none, and heights not to be measured."""
-        output, count, ground = self._step.output, self._count, self._ground_count
+        output, counts = self._step.output, self._counts
+        count, ground = counts.points, self._ground_count
         if output.area_only:
-            count, ground = self.area_count, self.area_ground_count
+            count, ground, left_out = counts.inside, self._area_ground_count, count - counts.inside
             words = "point outside of the area is", "points outside of the area are"
-            progress.info(f"{counted(self._count - count, *words)} left out of the output.")
+            progress.info(f"{counted(left_out, *words)} left out of the output.")
         # Without an area, only files come here without ground whose points are written as they are.
         is_needed = output.ground_only or self._step.area is not None
         if output.needs_ground and is_needed and not ground:
@@ -344,23 +308,19 @@ class ClassifiedPoints(PointResult):
             progress.info(f"{counted(count - ground, *words)} left out of the output.")
         return Edits(kept=self.kept)
 
-    def summary(self, name: str, class_counts: dict[int, int]) -> Summary | ClassifiedSummary:
+    def summary(self, name: str, class_counts: dict[int, int]) -> Summary:
         """Return the numbers of points."""
-        step, counts = self._step, self._counts
-        ground_count = class_counts.get(step.selection.to_class, 0)
-        if not self._is_tile:
-            return Summary(
-                counts.points, counts.inside, counts.wanted, ground_count, self.area_ground_count,
-                class_counts, "" if step.area is None else " in the area",
-            )  # fmt: skip
-        return ClassifiedSummary(
+        counts, to_class = self._counts, self._step.selection.to_class
+        return Summary(
             name,
-            self.area_count if step.output.area_only else self._count,
-            ground_count,
-            self.area_count,
+            counts.points,
+            counts.inside,
+            counts.wanted,
+            class_counts.get(to_class, 0),
+            self._area_ground_count,
             self._by_hand_count,
-            self._overlap_count,
-            by_class(self._counts_before),
+            counts.overlap,
+            by_class(counts.classes),
             class_counts,
             self._has_ground,
         )
