@@ -112,9 +112,7 @@ class FilePoints:
         if self.is_in_memory:
             box = self.cloud.box if self.count else None
             return Place(str(self.path), self.cloud.crs, box)
-        las = self.file
-        # The header of one file can be wrong: without a sound extent nothing is refused.
-        return Place(str(self.path), read_crs(las), las.outer_box if las.states_extent else None)
+        return place_of(self.file)
 
     @property
     def memory_left(self) -> int:
@@ -190,6 +188,12 @@ class FilePoints:
         return self._files.enter_context(store)
 
 
+def place_of(las: LasFile) -> Place:
+    """Return where the points of a file lie, according to its header."""
+    # The header of one file can be wrong: without a sound extent nothing is refused.
+    return Place(str(las.path), read_crs(las), las.outer_box if las.states_extent else None)
+
+
 def copies_all_else(las: LasFile, target: Path, steps: Sequence[PointStep]) -> bool:
     """Return whether only the layers of classes are written anew, and all other bytes copied."""
     if remembers(las) or not all(step.only_classes for step in steps):
@@ -212,7 +216,19 @@ class TileResult:
         # int64, (256,): points of each class in the output
         self.class_counts = np.zeros(256, dtype=np.int64)
 
-    def add(self, where: slice, part: PointCloud) -> None:
+    @classmethod
+    def found(
+        cls, points: FilePoints, values: Sequence[PointValues], progress: Progress = SILENT
+    ) -> TileResult:
+        """Return what was found for all points, which are read once more."""
+        result = cls(points, values)
+        for where, part in points.parts(points.sparing(progress), is_last=True):
+            result._add(where, part)
+        for found in values:
+            found.check()
+        return result
+
+    def _add(self, where: slice, part: PointCloud) -> None:
         """Add the next points of the file."""
         for result, found in zip(self.results, self._values):
             before, values = part, found.of(where, part)
@@ -231,6 +247,11 @@ class TileResult:
         """Refuse to write one of many files without a result."""
         for result, found in zip(self.results, self._values):
             result.check(progress, found.failure)
+
+    def tell(self, progress: Progress) -> None:
+        """Report what the steps found."""
+        for result in self.results:
+            result.tell(progress)
 
     @property
     def is_empty(self) -> bool:

@@ -237,11 +237,7 @@ class TileJob(Job):
         needs_records = not copies_all_else(las, self.target, steps)
         reading, resources = progress.part(0.3, 0.4).quiet(), share.resources
         with FilePoints.opened(las, self.target, resources, needs_records, reading) as points:
-            result = TileResult(points, values)
-            for where, part in points.parts(is_last=True):
-                result.add(where, part)
-            for found in values:
-                found.check()
+            result = TileResult.found(points, values)
             result.check(progress)
             if result.is_empty:
                 return None

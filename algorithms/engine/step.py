@@ -60,8 +60,9 @@ class Step:
         """Whether `seeing` reads the points."""
         return False
 
-    def outputs(self, is_survey: bool) -> list[tuple[str, Path]]:
-        """Return the kinds and paths of the files that it writes beside points."""
+    @property
+    def outputs(self) -> list[tuple[str, Path]]:
+        """The kinds and paths of the files that it writes beside points."""
         return []
 
     @property

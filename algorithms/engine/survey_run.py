@@ -62,7 +62,7 @@ def _work_sinks(steps: Sequence[Any], inputs: Inputs, progress: Progress, worker
     """Let sinks work on many files, each of which writes all of its outputs or none; return what
     the last tells.
     """
-    own = [output for step in steps for output in step.outputs(is_survey=True)]
+    own = [output for step in steps for output in step.outputs]
     survey = open_survey(inputs, progress.part(0.0, 0.05))
     require_measurable("The survey", survey.crs, survey.box)
     check_own(own, survey, [tile.path for tile in survey.tiles])
@@ -144,7 +144,7 @@ class _SurveyRun:
         self._targets = targets_of(survey, self._folder, self._output.format)
         for step in self._sinks:
             others = self._vpc, *self._targets, *self._targets.values()
-            check_own(step.outputs(is_survey=True), survey, others, self._folder)
+            check_own(step.outputs, survey, others, self._folder)
         self._inputs = {tile.path.name: tile.path for tile in survey.tiles}
         self._failures = {tile.path.name: (tile.path, tile.reason) for tile in survey.broken}
 

@@ -37,6 +37,9 @@ class PointValues:
         """Return the values of the next points, given their indices in the file."""
         raise NotImplementedError
 
+    def check(self) -> None:
+        """Refuse a file if some values were not used."""
+
 
 def numbered(parts: Iterable[PointCloud]) -> Iterator[tuple[slice, PointCloud]]:
     """Yield the parts of a file with their indices in it."""

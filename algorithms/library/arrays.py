@@ -21,8 +21,8 @@ from ..core.progress import Progress
 from ..core.threads import may_use
 from ..engine.file_points import FilePoints, TileResult
 from ..engine.memory import Resources
-from ..engine.one_file import FileRun
 from ..engine.options import TileInput
+from ..engine.run import FileRun
 from ..engine.step import Step
 from ..las.cloud import PointCloud
 from ..survey.files import Inputs
@@ -164,7 +164,7 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
         raise BareEarthError("Water is found in files only: give polygons of water.")
     sets = [TerrainModel(**vars(one)) if type(one) is ArrayTerrain else one for one in sets]
     inputs = {
-        "area": area_of(values), "constraints": constraints_of(values),
+        "input": _NO_FILES, "area": area_of(values), "constraints": constraints_of(values),
         "raster_target": target_of(values),
     }  # fmt: skip
     made: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]

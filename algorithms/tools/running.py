@@ -71,7 +71,7 @@ def _run_on_points(
         target = own.get("output")
         vpc = own.get("vpc") or (target and target / tool.list_name)
         done = work.work(points, target, working, workers, vpc)
-        written = [raster for step in steps for raster in step.outputs(points.is_survey)]
+        written = [raster for step in steps for raster in step.outputs]
         for output, part in zip(drawn, drawing):
             source, lines = own[output.drawn_of], {"output": outputs[output.name]}
             if ("raster set", source) in written:

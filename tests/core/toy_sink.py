@@ -21,7 +21,8 @@ class CountPoints(Sink):
     counts = GroundCounts
     blocks = Blocks(40.0, 5.0)
 
-    def outputs(self, is_survey):
+    @property
+    def outputs(self):
         return [("table", self.target)]
 
     def marks(self, part, counts):

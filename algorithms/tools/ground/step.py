@@ -161,8 +161,9 @@ class LabelGround(PointStep):
         elif not any(summary.by_hand_count for summary in done):
             self.chooser.tell_of_corrections(progress)
 
-    def outputs(self, is_survey: bool) -> list[tuple[str, Path]]:
-        """Return the raster of rules, if it is wanted."""
+    @property
+    def outputs(self) -> list[tuple[str, Path]]:
+        """The raster of rules, if it is wanted."""
         return [] if self.explain is None else [("raster", self.explain)]
 
     def in_block(self, visit: Visit, progress: Progress) -> tuple[Any, ...]:

@@ -75,9 +75,10 @@ class MakeRasters(Drawing, Sink):
         """Whether all points are read to find the heights of the constraints."""
         return self.constraints.any
 
-    def outputs(self, is_survey: bool) -> list[tuple[str, Path]]:
-        """Return the kinds and paths of the rasters."""
-        return self.files.outputs(self.per_file and is_survey)
+    @property
+    def outputs(self) -> list[tuple[str, Path]]:
+        """The kinds and paths of the rasters."""
+        return self.files.outputs(self.per_file)
 
     @property
     def needs_ground(self) -> bool:
