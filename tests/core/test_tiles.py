@@ -144,7 +144,7 @@ def test_processes_give_the_same_bytes_as_threads(many, out, las):
     summary = classify_tiles([many[0]], out, FAST, progress=progress, workers=workers)
     assert summary.done_count == 16 and progress.fractions == sorted(progress.fractions)
     assert bytes_of(out) == many[1]
-    assert sum(": " in text and "% ground" in text for text in progress.infos) == 16
+    assert sum(": " in text and "points are ground" in text for text in progress.infos) == 16
 
 
 def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, out, las):
