@@ -19,11 +19,9 @@ from typing import Any, Callable, NamedTuple
 
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.delivery.maps import make_maps
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.survey.files import Inputs
-from bare_earth.algorithms.tools import any_tool, map_tool
+from bare_earth.algorithms.tools import any_tool
 from bare_earth.algorithms.tools.assess import assess_files
 from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.rasters.parameters import MapTerrain
@@ -144,13 +142,10 @@ def runs(source: Path, folder: Path, resources: Resources) -> dict[str, Callable
     found["Model key points"] = doing("key-points", ground, {"output": folder / "k.laz"})
     pages = folder / "report.html", folder / "errors.tif"
     found["Assess"] = lambda progress: assess_files(ground, ground, *pages, progress=progress)
-    maps = {"cloud": folder / "maps.laz", **rasters, "relief": folder / "relief.tif"}
+    maps = {"output": folder / "maps.laz", **rasters, "relief": folder / "relief.tif"}
     if importlib.util.find_spec("osgeo"):
         maps["contours"] = folder / "lines.gpkg"
-    limits = {declared.name: None for declared in map_tool("classify").all_inputs}
-    found["Point cloud to terrain"] = lambda progress: make_maps(
-        Inputs(source), maps, [MapTerrain(), resources], limits, progress
-    )
+    found["Point cloud to terrain"] = doing("classify", source, maps, MapTerrain())
     return found
 
 

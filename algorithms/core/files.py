@@ -157,6 +157,13 @@ class Outputs(contextlib.ExitStack):
             folder = make_temporary_folder(target.parent)
         return self._add(folder, target, outdated) / target.name
 
+    def waiting(self, target: Path) -> Path:
+        """Return where an output waits for its name; the target itself if it does not."""
+        for temporary, name, _ in self._unnamed:
+            if name == target:
+                return temporary / target.name if temporary.is_dir() else temporary
+        return target
+
     def _add(self, temporary: Path, target: Path, outdated: Iterable[str]) -> Path:
         self.callback(remove_temporary, temporary)
         self._unnamed.append((temporary, target, tuple(outdated)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import MISSING, dataclass, field, fields
 from pathlib import Path
 from typing import Any, Iterator, Sequence
@@ -43,24 +44,30 @@ class Run:
         progress: Progress = SILENT,
         workers: Workers | None = None,
         vpc: Path | None = None,
+        outputs: Outputs | None = None,
     ) -> Any:
         """Let the steps work, and write the points into a file, those of a survey into a folder;
         return the summary.
         """
         # `target`, and the virtual point cloud of a survey, are None if no step finds a value for
-        # each point. The workers are by default threads of this process.
+        # each point. The workers are by default threads of this process. All but the files of a
+        # survey get their names when `outputs` ends, or else at the end of the run.
         if inputs.is_survey:
             workers = workers or Threads(self.resources)
-            return work_on_survey(self.steps, inputs, target, self.output, progress, workers, vpc)
+            return work_on_survey(
+                self.steps, inputs, target, self.output, progress, workers, vpc, outputs
+            )
         try:
             las = inputs.open_file()
         except NoPoints as empty:
             if target is None:
                 raise
             return self._write_without_points(empty.layouts[0], target, progress)
-        return self._work_on_file(las, target, progress)
+        return self._work_on_file(las, target, progress, outputs)
 
-    def _work_on_file(self, las: LasFile, target: Path | None, progress: Progress) -> Any:
+    def _work_on_file(
+        self, las: LasFile, target: Path | None, progress: Progress, outputs: Outputs | None
+    ) -> Any:
         """Write the points of a file with what the steps find, and nothing else changed; all
         outputs or none.
         """
@@ -74,10 +81,11 @@ class Run:
         needs_records = bool(for_points) and not copies_all_else(las, beside, for_points)
         before = progress.part(0.0, _BEFORE_WRITING) if target else progress
         reading, working = before.shares(_READING, sum(step.weight for step in steps))
-        with Outputs() as outputs:
-            outputs.enter_context(may_use(resources.thread_count))
+        with contextlib.ExitStack() as opened:
+            outputs = outputs or opened.enter_context(Outputs())
+            opened.enter_context(may_use(resources.thread_count))
             points = FilePoints.opened(las, beside, resources, needs_records, reading)
-            run = FileRun(outputs.enter_context(points), steps, progress, outputs)
+            run = FileRun(opened.enter_context(points), steps, progress, outputs)
             run.work(working)
             if target is None:
                 return run.told[-1]

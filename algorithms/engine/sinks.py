@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections import Counter
 from dataclasses import replace
 from functools import partial
@@ -33,6 +34,7 @@ def run_sink(
     progress: Progress = SILENT,
     results: Results | None = None,
     unpacking: Unpacking | None = None,
+    outputs: Outputs | None = None,
 ) -> Any:
     """Run a sink on a survey, or on `results` for its points, and return what it tells; an error
     says if a block fails, and the workers are stopped.
@@ -74,7 +76,8 @@ def run_sink(
         if queue.lost:
             raise BareEarthError(f"The {step.title} cannot be made. {queue.lost[0]}")
         found = [result for file in files.values() for result in step.load(file)]
-        with Outputs() as outputs:
+        with contextlib.ExitStack() as own:
+            outputs = outputs or own.enter_context(Outputs())
             return step.finish(found, frame, outputs, progress.part(0.8, 1.0), survey.tiles)
     except Cancelled:
         is_cancelled = True

@@ -7,7 +7,13 @@ from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
-from ..core.files import is_same_file, make_work_folder, temporary_folder, write_errors_told
+from ..core.files import (
+    Outputs,
+    is_same_file,
+    make_work_folder,
+    temporary_folder,
+    write_errors_told,
+)
 from ..core.locks import alone_in
 from ..core.progress import Progress
 from ..core.temporary import remove, remove_leftovers
@@ -39,6 +45,7 @@ def work_on_survey(
     progress: Progress,
     workers: Workers,
     vpc: Path | None,
+    outputs: Outputs | None = None,
 ) -> Any:
     """Let steps work on many files as one survey, each on what those before it found, and write the
     files with the results into a folder, with the names of the inputs.
@@ -47,8 +54,8 @@ def work_on_survey(
     # stop the others, but an error says if none can be processed, and `FinishedFilesStay` if the
     # user asked to stop.
     if folder is None or vpc is None:
-        return _work_sinks(steps, inputs, progress, workers)
-    run = _SurveyRun(folder, steps, output, vpc)
+        return _work_sinks(steps, inputs, progress, workers, outputs)
+    run = _SurveyRun(folder, steps, output, vpc, outputs)
     with _finished_files_stay():
         try:
             run.open(inputs, progress)
@@ -58,7 +65,13 @@ def work_on_survey(
         return run.finish(progress)
 
 
-def _work_sinks(steps: Sequence[Any], inputs: Inputs, progress: Progress, workers: Workers) -> Any:
+def _work_sinks(
+    steps: Sequence[Any],
+    inputs: Inputs,
+    progress: Progress,
+    workers: Workers,
+    outputs: Outputs | None,
+) -> Any:
     """Let sinks work on many files, each of which writes all of its outputs or none; return what
     the last tells.
     """
@@ -72,7 +85,9 @@ def _work_sinks(steps: Sequence[Any], inputs: Inputs, progress: Progress, worker
     with temporary_folder(own[0][1].parent) as working:
         unpacking = _unpacking(working, survey, workers, is_whole=False)
         for step, part in zip(placed(steps, survey.place, progress), parts):
-            told = run_sink(survey, working, step, workers, part, unpacking=unpacking)
+            told = run_sink(
+                survey, working, step, workers, part, unpacking=unpacking, outputs=outputs
+            )
     return told
 
 
@@ -114,8 +129,15 @@ def _finished_files_stay() -> Iterator[None]:
 class _SurveyRun:
     """A run of steps on many files; the parameters are those of `work_on_survey`."""
 
-    def __init__(self, folder: Path, steps: Sequence[Step], output: TileOutput, vpc: Path) -> None:
-        self._folder, self._output = folder, output
+    def __init__(
+        self,
+        folder: Path,
+        steps: Sequence[Step],
+        output: TileOutput,
+        vpc: Path,
+        outputs: Outputs | None,
+    ) -> None:
+        self._folder, self._output, self._outputs = folder, output, outputs
         # Steps that find values for points, and then what is made of these.
         self._steps: list[Any] = [step for step in steps if isinstance(step, PointStep)]
         self._sinks: list[Any] = [step for step in steps if not isinstance(step, PointStep)]
@@ -183,7 +205,7 @@ class _SurveyRun:
             written = open_survey(Inputs(paths).read_as(self._survey.stated), progress.quiet())
             results, rest = plan.results(written), progress.part(end, 1.0)
             for step, part in zip(self._sinks, rest.shares(*(s.weight for s in self._sinks))):
-                run_sink(written, waiting, step, workers, part, results, unpacking)
+                run_sink(written, waiting, step, workers, part, results, unpacking, self._outputs)
 
     def _tell(self, done: Sequence[Any], progress: Progress) -> None:
         """Report on all files; remove the outputs of this run if they are refused together."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import inspect
+import tempfile
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
 
@@ -54,33 +55,50 @@ def _run_on_points(
     progress: Progress,
     workers: Workers | None,
 ) -> Any:
-    """Let the steps of a tool work, and then the tools that draw further outputs of theirs."""
+    """Let the steps of a tool work, and then the tools that draw further outputs of theirs; all but
+    the folder of many files are written, or none.
+    """
     points = Inputs(inputs["input"]).read_as(inputs.get("crs"), TileInput.among(sets).recursive)
     check_outputs(_kinds(tool, points, outputs), points)
     given, progress = _with_found(tool, {**inputs, "input": points}, sets, progress)
     drawn = [output for output in tool.all_outputs if output.drawn_by and output.name in outputs]
     working, *drawing = progress.shares(9.0, *(1.0 for _ in drawn)) if drawn else [progress]
-    with contextlib.ExitStack() as folders:
+    with contextlib.ExitStack() as opened:
         own, told = dict(outputs), {}
+        # What nobody asks for, but others need, is a temporary file.
+        needed = {output.drawn_of: f"{output.drawn_of}.tif" for output in drawn}
+        if getattr(tool, "classifies", False):
+            needed["output"] = "cloud.las"
+        for name in needed.keys() - own.keys():
+            folder = opened.enter_context(temporary_folder(_folder_among(outputs)))
+            own[name] = folder / needed[name]
         for output in drawn:
-            # If nobody asks for what it is drawn of, that is a temporary file.
-            folder = folders.enter_context(temporary_folder(own.pop(output.name).parent))
-            own.setdefault(output.drawn_of, folder / f"{output.drawn_of}.tif")
+            del own[output.name]
         steps = tool.steps(sets, given, own)
         work = Run(steps, TileOutput.among(sets), Resources.among(sets))
         target = own.get("output")
         vpc = own.get("vpc") or (target and target / tool.list_name)
-        done = work.work(points, target, working, workers, vpc)
-        written = [raster for step in steps for raster in step.outputs]
+        # A virtual raster can only be read when its rasters have their names.
+        written = [output for step in steps for output in step.outputs]
+        virtual = {path: virtual_of(path) for kind, path in written if kind == "raster set"}
+        pending = None if virtual else opened.enter_context(Outputs())
+        done = work.work(points, target, working, workers, vpc, pending)
         for output, part in zip(drawn, drawing):
-            source, lines = own[output.drawn_of], {"output": outputs[output.name]}
-            if ("raster set", source) in written:
-                source = virtual_of(source)
+            path, lines = own[output.drawn_of], {"output": outputs[output.name]}
+            source = virtual[path] if pending is None else pending.waiting(path)
             drawing_tool = file_tool(output.drawn_by)
-            told[output.name] = _run_on_files(drawing_tool, {"source": source}, lines, sets, part)
+            told[output.name] = _run_on_files(
+                drawing_tool, {"source": source}, lines, sets, part, pending
+            )
     if told:
         object.__setattr__(done, "drawn", told)  # it is a frozen dataclass
     return done
+
+
+def _folder_among(outputs: Mapping[str, Path]) -> Path:
+    """Return the first folder of outputs that is there."""
+    folders = (path.parent for path in outputs.values())
+    return next((folder for folder in folders if folder.is_dir()), Path(tempfile.gettempdir()))
 
 
 def _kinds(tool: Tool, points: Inputs, outputs: Mapping[str, Path]) -> Iterator[tuple[str, Path]]:
@@ -117,8 +135,11 @@ def _run_on_files(
     paths: Mapping[str, Path],
     sets: Sequence[ParameterSet],
     progress: Progress,
+    pending: Outputs | None = None,
 ) -> Any:
-    """Check the outputs, and let the tool write them: all of them or none; return what it found."""
+    """Check the outputs, and let the tool write them: all of them or none, together with those that
+    are `pending`; return what it found.
+    """
     given: dict[str, Any] = {declared.name: None for declared in tool.inputs}
     given.update({output.name: None for output in tool.outputs}, **inputs)
     for declared in tool.inputs:
@@ -130,7 +151,8 @@ def _run_on_files(
         for output in tool.outputs
         if output.name in paths
     ]
-    with Outputs() as pending:
+    with contextlib.ExitStack() as opened:
+        pending = pending or opened.enter_context(Outputs())
         for _, path, files in wanted:
             if path not in files.values():
                 pending.enter_context(new_folder(path))

@@ -7,6 +7,7 @@ from typing import Any, Iterator, Sequence
 
 from qgis.core import QgsProcessingContext
 
+from ...algorithms.core.files import split_name
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.delivery.deliveries import DELIVERIES
 from ...algorithms.delivery.folder import DeliveryFolder
@@ -16,9 +17,11 @@ from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileOutput
 from ...algorithms.survey.kept_classes import GROUND
 from ...algorithms.survey.selection import Selection
+from ...algorithms.tools import map_tool
 from ...algorithms.tools.contours import Contours
 from ...algorithms.tools.declaration import Composition
 from ...algorithms.tools.ground.method import TileMethod
+from ...algorithms.tools.ground.output import Output as Written
 from ...algorithms.tools.rasters.parameters import MapTerrain, SurfaceModel, TerrainModel
 from .. import compat
 from ..i18n import mark
@@ -33,6 +36,17 @@ from .tools import ToolAlgorithm
 DELIVERY, FOLDER = TOOL.chosen.upper(), "DELIVERY_FOLDER"
 # Cell size of rasters that are not a delivery, in metres.
 _USUAL_CELL = 1.0
+
+
+def _written(cloud: str, is_survey: bool) -> tuple[str, TileOutput]:
+    """Return where the points of an output are written, those of many files into a folder of this
+    name without its ending, and how.
+    """
+    if not cloud or not is_survey:
+        return cloud, TileOutput()
+    name, ending = split_name(Path(cloud))
+    tiles = TileOutput(ending[1:].lower() or "same", overview=True)
+    return str(Path(cloud).with_name(name)), tiles
 
 
 class CompositionAlgorithm(ToolAlgorithm):
@@ -173,36 +187,40 @@ class CompositionAlgorithm(ToolAlgorithm):
 
     def _make_own(self, request: Request, progress: FeedbackProgress) -> dict[str, Any]:
         """Make the outputs that the user chose, and set the looks of their layers."""
-        from ...algorithms.delivery.maps import make_maps
+        # Imported here, so that QGIS starts faster.
+        from ...algorithms.tools.running import run
 
         _, parameters, context, _ = request
+        given = {name: found.value for name, found in self._given.items()}
         chosen = [
             values.with_cells(_USUAL_CELL) if isinstance(values, DeliveryTerrain) else values
             for values in self.chosen(parameters, context)
             if not isinstance(values, (DeliveryChoice, *OF_DELIVERIES))
         ]
         cloud = self.point_cloud_destination(parameters, "OUTPUT", context)
+        target, tiles = _written(cloud, self.inputs.is_survey)
+        chosen += Written(area_only=given["area"] is not None), tiles
         paths = {
             output.name: self._path(request, output)
             for output in self._outputs
             if output.kind in ("raster", "features")
         }
         results: dict[str, Any] = {name.upper(): path for name, path in paths.items() if path}
-        wanted = {name: Path(path) for name, path in {"cloud": cloud, **paths}.items() if path}
-        given = {name: found.value for name, found in self._given.items()}
-        done = make_maps(self.inputs, wanted, chosen, given, progress)
-        written = str(cloud and done.cloud)
+        given["input"] = self.inputs
+        done = run(map_tool("classify"), given, {**paths, "output": target}, chosen, progress)
+        written = cloud and str(done.vpc or cloud)
         for line in self._commands(written, results, chosen):
             progress.command(line)
-        progress.share(done.ground_count, done.point_count, bool(given["area"]))
-        if done.contour_interval is not None:
-            self.show(paths["contours"], layers.contours(done.contour_interval))
+        point_count = sum(done.class_counts.values())
+        progress.share(done.ground_count, point_count, bool(given["area"]))
+        if interval := done.drawn.get("contours"):
+            self.show(paths["contours"], layers.contours(interval))
         if cloud:
             results["OUTPUT"] = written
             do_not_load(context, {cloud} - {written})
             size = MapTerrain.among(chosen).dtm_cell_size
             self._show_cloud(written, done.class_counts, chosen, size, context, progress)
-        return {**results, "POINT_COUNT": done.point_count, "GROUND_COUNT": done.ground_count}
+        return {**results, "POINT_COUNT": point_count, "GROUND_COUNT": done.ground_count}
 
     def _commands(
         self, cloud: str, layers: dict[str, str], chosen: Sequence[ParameterSet]
