@@ -2,35 +2,35 @@
 
 from __future__ import annotations
 
+import os
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Callable, Iterable, Mapping, NamedTuple, Sequence, TypeVar
+from typing import Any, Callable, Iterable, Mapping, NamedTuple, Sequence, cast
 
 from ..core.errors import BareEarthError
+from ..core.files import make_work_folder, split_name
 from ..core.parameters import ParameterSet
 from ..core.progress import Progress
-from ..engine.memory import Resources
-from ..engine.options import TileInput, TileOutput
+from ..core.temporary import patiently, remove
+from ..engine.manifest import folders_of
+from ..engine.options import TileOutput
 from ..engine.unpacking import Unpacking
 from ..engine.workers import Workers
-from ..filters import DEFAULT_METHOD, METHODS
+from ..report.units import Units
 from ..survey.feature_files import feature_writer
 from ..survey.files import Inputs, open_survey
-from ..survey.ground_classes import GroundClasses
+from ..survey.overview import overview_of
 from ..survey.selection import Selection
 from ..tools import any_tool
-from ..tools.declaration import FileTool, MapTool, Tool
-from ..tools.ground.method import TileMethod
+from ..tools.rasters.parameters import TerrainModel
 from ..tools.running import run
 from ..tools.water.tool import SurveyWater
 from .deliveries import Delivery
 from .folder import DeliveryFolder
-from .parameters import AS_DELIVERY, DeliveryOptions
+from .parameters import AS_DELIVERY, DeliveryOptions, DeliveryTerrain, GivenSet, Settings
 from .summary import DeliverySummary
 
-_Set = TypeVar("_Set", bound=ParameterSet)
-_METHODS = tuple(method.parameters for method in METHODS.values())
 # Contour lines in a CRS whose heights are feet: so many feet are about half a metre.
 _FEET_A_METRE = 4.0
 _ENDINGS = {"raster": ".tif", "page": ".html", "table": ".csv", "folder": ""}
@@ -46,46 +46,10 @@ class Row(NamedTuple):
     inputs: Mapping[str, str] = {}  # what is known, by the names of the tool's inputs
     outputs: Mapping[str, str] = {}  # names of files, by the names of the tool's outputs
     tells: str = ""  # the field of the summary for what the tool returns
+    told: Callable[[Any], Any] = lambda done: done  # the value of this field
+    values: Mapping[str, Any] = {}  # of parameters, by their names, whatever the user gave
+    kept: Sequence[str] | None = None  # names of the rasters in its folder; None for all
     work: Callable[..., Any] = lambda job, row, progress: job.run(row, progress)
-
-
-class Settings:
-    """The parameters of a delivery: what the user gave, and values of the table for the rest."""
-
-    def __init__(self, sets: Iterable[ParameterSet], values: Mapping[str, Any]) -> None:
-        self.values = dict(values)  # of parameters that the user left at their defaults, by name
-        named = (one.parameters if isinstance(one, TileMethod) else one for one in sets)
-        self.sets: list[ParameterSet] = [*named, METHODS[DEFAULT_METHOD].parameters()]
-        self.sets.append(GroundClasses.of_selection(self.set_of(Selection)))
-
-    def sets_of(self, tool: Tool) -> list[ParameterSet]:
-        """Return the parameters of a tool."""
-        kinds = tool.sets
-        if isinstance(tool, MapTool) and tool.classifies:
-            kinds = type(self.method), *kinds
-        if not isinstance(tool, (FileTool, MapTool)):
-            kinds = *kinds, TileInput, TileOutput, Resources
-        return [self.set_of(kind) for kind in kinds]
-
-    def set_of(self, kind: type[_Set]) -> _Set:
-        """Return parameters with the values of the table where the user left the defaults."""
-        values: dict[str, Any] = {}
-        given = next((known for known in self.sets if isinstance(known, kind)), kind())
-        for declared in given.declarations():
-            value, name = getattr(given, declared.name), declared.name
-            if value == declared.default:
-                value = self.values.get(name, value)
-                if declared.choices and value not in declared.choices:
-                    value = declared.default
-            # What was left open, and only in the table, has the default of the tool.
-            if value is not None or declared.default is not None:
-                values[name] = value
-        return kind(**values)
-
-    @property
-    def method(self) -> ParameterSet:
-        """The parameters of the ground filter, without values of the table."""
-        return next(values for values in self.sets if isinstance(values, _METHODS))
 
 
 class DeliveryJob(Settings):
@@ -103,7 +67,7 @@ class DeliveryJob(Settings):
         unpacked: Path,  # a folder for records that are decompressed
         workers: Workers | None,  # for many files
     ) -> None:
-        self.content, self.is_survey = content, sources.is_survey
+        self.content, self.is_survey, self.summary = content, sources.is_survey, summary
         self.survey = open_survey(sources)  # of the raw files
         self.working, self.folder, self.unpacked = working, folder, unpacked
         self.files: list[Path] = []  # of points, at their places
@@ -129,7 +93,7 @@ class DeliveryJob(Settings):
         self.sources = sources  # the points that the next row reads
         # By name: inputs of the user, what is wanted, and what rows have written and found.
         self.known = {**inputs, **wanted, "roads": self.set_of(Selection).roads}
-        self.summary, self.workers = summary, workers
+        self.workers = workers
         self.seconds: dict[str, float] = {}  # that rows took, by their titles
         if not wanted["find water"]:
             self.know_water()
@@ -143,11 +107,87 @@ class DeliveryJob(Settings):
                 begun = time.perf_counter()
                 done = row.work(self, row, part)
                 if row.tells:
-                    setattr(self.summary, row.tells, done)
+                    setattr(self.summary, row.tells, row.told(done))
                 took = self.seconds.get(row.title, 0.0) + time.perf_counter() - begun
                 self.seconds[row.title] = round(took, 2)
+        model, crs = self.set_of(TerrainModel), self.survey.crs
+        units = Units(crs.horizontal_unit, crs.vertical_unit)
+        self.summary.cell_size = model.dtm_cell_size
+        self.summary.cell_text = units.length(model.cells(units.horizontal).metres)
 
-    def run(self, row: Row, progress: Progress, **outputs: Path) -> Any:
+    def given(self, kind: type[GivenSet]) -> GivenSet:
+        """Return parameters as the user gave them; a cell size that is left open follows from the
+        density of the ground, as soon as it is measured.
+        """
+        values, quality = super().given(kind), self.summary.quality
+        if quality is None or not isinstance(values, DeliveryTerrain):
+            return values
+        size = self.content.cell_size(quality.ground_density, self.specification)
+        return cast(GivenSet, values.with_cells(size))
+
+    def run(self, row: Row, progress: Progress) -> Any:
+        """Let the tool of a row work."""
+        if not any_tool(row.tool).writes_points:
+            done = self._run(row, progress)
+        elif self.is_survey:
+            done = self._write_many(row, progress)
+        else:
+            done = self._write_one(row, progress)
+        if row.kept is not None:
+            for name in row.outputs.values():
+                for path in (self.working.path / name).glob("*.tif"):
+                    if path.stem not in row.kept:
+                        remove(path)
+        return done
+
+    def _write_one(self, row: Row, progress: Progress) -> Any:
+        """Let a tool write the points of one file, or change those that are written."""
+        source, is_first = self.sources[0], not self.files
+        if is_first:
+            kind = self.set_of(TileOutput).format
+            name = source.name if kind == "same" else f"{split_name(source)[0]}.{kind}"
+            target = self.working.points / name
+        else:
+            target = self.working.waiting / source.name
+        target.parent.mkdir(exist_ok=True)
+        done = self._run(row, progress, output=target)
+        if not is_first:
+            patiently(os.replace, target, source)
+            target = source
+        self.sources, self.files = Inputs(target), [target]
+        self._tell_of_points(done)
+        return done
+
+    def _write_many(self, row: Row, progress: Progress) -> Any:
+        """Let a tool write the points of many files, or change those that are written, in a folder
+        of its own until all outputs are made, so that a run can be continued.
+        """
+        if not self.files:
+            done = self._run(row, progress, output=self.folder.points)
+            self.files, self.summary.failures = _files_of(done), dict(done.failures)
+        else:
+            target = self.folder.waiting / row.tool
+            if not self.set_of(TileOutput).resume:
+                remove(target)
+            make_work_folder(target.parent)
+            done = self._run(row, progress, output=target, vpc=target / self.cloud.name)
+            for path, why in done.failures.items():
+                raise BareEarthError(f"{path} cannot be changed. {why}")
+            self.waiting = _files_of(done)
+            moved = (self.folder.points / path.relative_to(target) for path in self.waiting)
+            self.files = sorted({*self.files, *moved})
+        self.sources = Inputs(done.vpc)
+        self._tell_of_points(done)
+        return done
+
+    def _tell_of_points(self, done: Any) -> None:
+        """Tell how many points are written, and of which classes."""
+        counts, summary = done.class_counts, self.summary
+        summary.cloud = summary.cloud or str(self.cloud)
+        summary.class_counts, summary.point_count = counts, sum(counts.values())
+        summary.ground_count = counts.get(self.set_of(Selection).to_class, 0)
+
+    def _run(self, row: Row, progress: Progress, **outputs: Path) -> Any:
         """Let the tool of a row work, with further outputs that are given here."""
         tool, paths = any_tool(row.tool), dict(outputs)
         inputs = {name: self.known.get(value) for name, value in row.inputs.items()}
@@ -164,7 +204,11 @@ class DeliveryJob(Settings):
                 inputs[declared.name] = self.sources
             elif declared.kind == "clouds":
                 inputs[declared.name], progress = self.opened(progress)
-        return run(tool, inputs, paths, self.sets_of(tool), progress, self.workers)
+        sets = [
+            replace(one, **{name: row.values[name] for name in row.values if hasattr(one, name)})
+            for one in self.sets_of(tool)
+        ]
+        return run(tool, inputs, paths, sets, progress, self.workers)
 
     @property
     def cloud(self) -> Path:
@@ -197,6 +241,15 @@ class DeliveryJob(Settings):
         if kind in ("raster", "features"):
             self.known[name] = self.summary.layers[name] = str(path)
         return path
+
+
+def _files_of(done: Any) -> list[Path]:
+    """Return the files of points, their lists, and the records of what they were made of."""
+    vpc = Path(done.vpc)
+    names = {vpc.name, overview_of(vpc).name, *(tile.name for tile in done.tiles)}
+    records = folders_of(vpc.parent)[1]
+    paths = sorted(path for path in vpc.parent.rglob("*") if path.is_file())
+    return [path for path in paths if path.name in names or records in path.parents]
 
 
 def _ending_of_features() -> str:

@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, Iterable, Mapping, TypeVar
 
 from ..core.parameters import ParameterSet, parameter, parameter_of
+from ..engine.memory import Resources
+from ..engine.options import TileInput, TileOutput
+from ..filters import DEFAULT_METHOD, METHODS
+from ..survey.ground_classes import GroundClasses
+from ..survey.selection import Selection
+from ..tools.declaration import FileTool, MapTool, Tool
+from ..tools.ground.method import TileMethod
 from ..tools.quality.specifications import SPECIFICATIONS
 from ..tools.rasters.parameters import MapTerrain
 from ..tools.water.finding import Water
 from .deliveries import DELIVERIES
 
+GivenSet = TypeVar("GivenSet", bound=ParameterSet)
+_METHODS = tuple(method.parameters for method in METHODS.values())
 # No delivery but outputs that the user chooses, and the specification that a delivery has.
 NO_DELIVERY, AS_DELIVERY = "own", "as-delivery"
 
@@ -116,3 +126,46 @@ class DeliveryWater(Water):
         " 5 m for a flood model.",
     )
     water_cell: float | None = parameter_of(Water, "water_cell", label="Cell size of the water")
+
+
+class Settings:
+    """The parameters of a delivery: what the user gave, and values of the table for the rest."""
+
+    def __init__(self, sets: Iterable[ParameterSet], values: Mapping[str, Any]) -> None:
+        self.values = dict(values)  # of parameters that the user left at their defaults, by name
+        named = (one.parameters if isinstance(one, TileMethod) else one for one in sets)
+        self.sets: list[ParameterSet] = [*named, METHODS[DEFAULT_METHOD].parameters()]
+        self.sets.append(GroundClasses.of_selection(self.set_of(Selection)))
+
+    def sets_of(self, tool: Tool) -> list[ParameterSet]:
+        """Return the parameters of a tool."""
+        kinds = tool.sets
+        if isinstance(tool, MapTool) and tool.classifies:
+            kinds = type(self.method), *kinds
+        if not isinstance(tool, (FileTool, MapTool)):
+            kinds = *kinds, TileInput, TileOutput, Resources
+        return [self.set_of(kind) for kind in kinds]
+
+    def set_of(self, kind: type[GivenSet]) -> GivenSet:
+        """Return parameters with the values of the table where the user left the defaults."""
+        values: dict[str, Any] = {}
+        given = self.given(kind)
+        for declared in given.declarations():
+            value, name = getattr(given, declared.name), declared.name
+            if value == declared.default:
+                value = self.values.get(name, value)
+                if declared.choices and value not in declared.choices:
+                    value = declared.default
+            # What was left open, and only in the table, has the default of the tool.
+            if value is not None or declared.default is not None:
+                values[name] = value
+        return kind(**values)
+
+    def given(self, kind: type[GivenSet]) -> GivenSet:
+        """Return parameters as the user gave them."""
+        return next((known for known in self.sets if isinstance(known, kind)), kind())
+
+    @property
+    def method(self) -> ParameterSet:
+        """The parameters of the ground filter, without values of the table."""
+        return next(values for values in self.sets if isinstance(values, _METHODS))

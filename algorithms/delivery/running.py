@@ -59,7 +59,7 @@ def deliver(
         job = DeliveryJob(content, files, sets, inputs, summary, *folders, workers)
         summary.seconds = job.seconds
         try:
-            job.work(rows_of(content), messages.part(0.01, 0.97))
+            job.work(rows_of(job), messages.part(0.01, 0.97))
         except BareEarthError as error:
             raise BareEarthError(str(error).replace(str(working), str(place.path))) from error
         remove(folders[0].waiting)

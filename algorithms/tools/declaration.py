@@ -175,6 +175,11 @@ class Tool:
         return self.dialog_sets or self.sets
 
     @property
+    def writes_points(self) -> bool:
+        """Whether it writes the points, those of many files into a folder."""
+        return False
+
+    @property
     def all_inputs(self) -> tuple[Input, ...]:
         """The inputs with those that all tools of its kind have."""
         return self.inputs
@@ -193,6 +198,7 @@ class PointTool(Tool):
     output_label: str = ""
     output_help: str = ""
     shows: str = "classes"  # how QGIS shows the output: "classes", "key points" or "heights"
+    writes_points = True
 
     @property
     def all_inputs(self) -> tuple[Input, ...]:
@@ -258,6 +264,11 @@ class MapTool(Tool):
     # Whether it finds the ground, by any filter, and writes points; otherwise they are classified.
     classifies: bool = False
     is_survey: bool = False  # whether one file, too, is written into a folder
+
+    @property
+    def writes_points(self) -> bool:
+        """Whether it classifies points."""
+        return self.classifies
 
     @property
     def all_inputs(self) -> tuple[Input, ...]:

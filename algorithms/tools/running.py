@@ -67,7 +67,7 @@ def _run_on_points(
         own, told = dict(outputs), {}
         # What nobody asks for, but others need, is a temporary file.
         needed = {output.drawn_of: f"{output.drawn_of}.tif" for output in drawn}
-        if getattr(tool, "classifies", False):
+        if tool.writes_points:
             needed["output"] = "cloud.las"
         for name in needed.keys() - own.keys():
             folder = opened.enter_context(temporary_folder(_folder_among(outputs)))
