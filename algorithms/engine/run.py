@@ -161,14 +161,14 @@ class FileRun:
         for work in works:
             work.step = self._seeing(work.step, working)
         results = visited(works, points.resources, working)
-        for work, result, part in zip(works, results, writing):
+        for work, result, rest in zip(works, results, writing):
             step = work.step
             if isinstance(step, PointStep):
                 self._values.append(StoreValues(step, work.store))
             else:
                 result = [found for _, found in result]
             frame = survey_frame(points.cloud.crs, step.origin)
-            self.told.append(step.finish(result, frame, self.outputs, part))
+            self.told.append(step.finish(result, frame, self.outputs, rest))
 
     @property
     def _reads_once(self) -> bool:
