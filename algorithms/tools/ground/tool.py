@@ -116,8 +116,9 @@ def _steps(
     explain, ground = outputs.get("explain"), GroundClasses.of_selection(selection)
     rasters = rasters_of(sets, inputs, outputs, ground, selection.roads)
     rasters = replace(rasters, covers_ground=written.ground_only and not rasters.needs_all)
-    is_survey = inputs["input"].is_survey
-    _check(written, area, above, rasters, is_survey, explain)
+    _check(written, area, above, rasters)
+    if inputs["input"].is_survey:
+        _check_survey(written, rasters, explain)
     steps: list[Step] = [
         LabelGround(_method(sets), selection, area, written, None, corrections, explain)
     ]
@@ -143,8 +144,6 @@ def _check(
     area: Area | None,
     above: ThenAboveGround,
     rasters: MakeRasters,
-    is_survey: bool,
-    explain: Path | None,
 ) -> None:
     """Refuse what does not fit together."""
     written.check_area(area is not None)
@@ -157,10 +156,13 @@ def _check(
             "Breaklines, water, rivers and places without ground only change rasters. Choose a"
             " raster to make, such as the terrain model."
         )
-    if is_survey and explain is not None:
+
+
+def _check_survey(written: Written, rasters: MakeRasters, explain: Path | None) -> None:
+    """Refuse what needs all points at hand, as those of one file are."""
+    if explain is not None:
         raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
-    # One file has all its points at hand.
-    if is_survey and written.ground_only and rasters.files.wanted and not rasters.covers_ground:
+    if written.ground_only and rasters.files.wanted and not rasters.covers_ground:
         raise BareEarthError(
             "The surface model, the canopy height and the confidence need all points. Write all"
             " points, not only the ground."
