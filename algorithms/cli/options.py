@@ -9,7 +9,9 @@ from ..core.errors import BareEarthError, UsageError
 from ..core.parameters import Declaration, ParameterSet, shown_value
 
 # Exit codes.
-DONE, FAILED, USAGE = 0, 1, 2
+DONE = 0
+FAILED = 1
+USAGE = 2
 
 
 class Command(NamedTuple):

@@ -8,7 +8,9 @@ from typing import Iterator
 
 # Wanted seconds for a piece of a long step. A cancel waits for the end of the piece.
 _PIECE_SECONDS = 0.4
-_FIRST_PIECE, _LEAST_PIECE = 500_000, 100_000
+# Points of the first piece, whose time is not known, and of the smallest.
+_FIRST_PIECE = 500_000
+_LEAST_PIECE = 100_000
 
 
 class Progress:

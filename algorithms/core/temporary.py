@@ -31,8 +31,10 @@ _FORGOTTEN_SECONDS = 86_400.0
 _written_now: dict[str, list[str]] = {}
 # Errors of Windows for a file that a program has open: access denied, in use.
 IN_USE = (5, 32)
-# Seconds for which a virus scanner or a copying service may have a file open.
-_PATIENCE, _PAUSE = 5.0, 0.05
+# Seconds for which a virus scanner or a copying service may have a file open, and between two
+# attempts.
+_PATIENCE = 5.0
+_PAUSE = 0.05
 
 
 def patiently(action: Callable[..., Any], *arguments: Any) -> Any:

@@ -13,14 +13,30 @@ from typing import NamedTuple
 
 from .wkt import is_unit
 
-_MODEL, _CITATION, _GEOGRAPHIC_CODE, _GEOGRAPHIC_CITATION = 1024, 1026, 2048, 2049
-_PROJECTED_CODE, _PROJECTED_CITATION, _LINEAR_UNIT, _LINEAR_UNIT_SIZE = 3072, 3073, 3076, 3077
-_VERTICAL_CODE, _VERTICAL_CITATION, _VERTICAL_DATUM, _VERTICAL_UNIT = 4096, 4097, 4098, 4099
-_DOUBLES, _TEXTS = 34736, 34737
-_PROJECTED, _GEOGRAPHIC, _GEOCENTRIC = 1, 2, 3
+# Numbers of keys.
+_MODEL = 1024
+_CITATION = 1026
+_GEOGRAPHIC_CODE = 2048
+_GEOGRAPHIC_CITATION = 2049
+_PROJECTED_CODE = 3072
+_PROJECTED_CITATION = 3073
+_LINEAR_UNIT = 3076
+_LINEAR_UNIT_SIZE = 3077
+_VERTICAL_CODE = 4096
+_VERTICAL_CITATION = 4097
+_VERTICAL_DATUM = 4098
+_VERTICAL_UNIT = 4099
+# Where the value of a key is, if not in the key: record of doubles, and of texts.
+_DOUBLES = 34736
+_TEXTS = 34737
+# Values of the key of the model.
+_PROJECTED = 1
+_GEOGRAPHIC = 2
+_GEOCENTRIC = 3
 _USER_DEFINED = 32767
 # GeoTIFF 1.0 gave the codes of datums to vertical CRS, and others to heights above ellipsoids.
-_OLD_DATUMS, _OLD_ELLIPSOIDS = range(5101, 5107), range(5001, 5034)
+_OLD_DATUMS = range(5101, 5107)
+_OLD_ELLIPSOIDS = range(5001, 5034)
 
 # Metres in one unit, by EPSG code; a ratio if the unit is defined by one.
 _UNITS = {

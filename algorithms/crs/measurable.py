@@ -12,8 +12,9 @@ from ..core.words import names_in_use
 from .stated import how_to_state
 from .system import Crs
 
-# Longitudes and latitudes in degrees are at most this large; some are counted from 0 to 360.
-_FARTHEST_EAST, _FARTHEST_NORTH = 360.0, 90.0
+# Largest longitude and latitude in degrees; some longitudes are counted from 0 to 360.
+_FARTHEST_EAST = 360.0
+_FARTHEST_NORTH = 90.0
 _MERCATOR = re.compile(r"(?:PROJECTION|METHOD)\s*[\[(]\s*\"([^\"]*mercator[^\"]*)\"", re.IGNORECASE)
 _TRUE_ELSEWHERE = ("transverse", "oblique", "hotine", "space")
 # Codes of Web Mercator, for keys without well-known text.

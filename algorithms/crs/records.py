@@ -13,7 +13,8 @@ from .stated import how_to_state
 from .system import Crs, crs_of_facts, same_unit, unit_name
 from .wkt import VerticalDatum, WktFacts, read_wkt
 
-_KEYS, _TEXT = "GeoTIFF keys", "well-known text"
+_KEYS = "GeoTIFF keys"
+_TEXT = "well-known text"
 
 
 class _Statement(NamedTuple):

@@ -6,7 +6,9 @@ import re
 
 from .wkt import is_unit
 
-FOOT, US_FOOT = 0.3048, 1200.0 / 3937.0
+# Metres.
+FOOT = 0.3048
+US_FOOT = 1200.0 / 3937.0
 # Metres in a unit, by the letters of its name; a foot of unknown kind is the international one.
 UNITS = {
     **dict.fromkeys(

@@ -31,8 +31,9 @@ _UNITS = {"UNIT", "LENGTHUNIT"}
 _VERTICAL_UNIT = re.compile(r'(VERT_CS\[.*?\bUNIT\["[^"]*",([-+.0-9eE]+))(?=\])', re.DOTALL)
 _UNIT_CODES = {9001: 1.0, 9002: 0.3048, 9003: 1200 / 3937}
 _UPWARDS = {"up", "down"}
-# Metres in one unit. Other values are no useful units of length.
-_SMALLEST_UNIT, _LARGEST_UNIT = 1e-6, 1e6
+# Metres in one unit. Smaller or larger ones are no useful units of length.
+_SMALLEST_UNIT = 1e-6
+_LARGEST_UNIT = 1e6
 # Most levels of nested brackets; the CRS of a file has about eight.
 _DEEPEST = 50
 _CODE = re.compile(r"[0-9]{1,9}")

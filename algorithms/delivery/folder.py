@@ -25,8 +25,10 @@ from ..core.temporary import patiently, remove
 from ..engine.manifest import folders_of
 from ..survey.files import is_cloud
 
-POINTS, QUALITY = "points", "quality"
-PAGE, RECORD = "index.html", "delivery.json"
+POINTS = "points"
+QUALITY = "quality"
+PAGE = "index.html"
+RECORD = "delivery.json"
 # Folder of what tools made of the classified files, in folders with the names of the tools.
 _WAITING = ".waiting"
 # The lock in the folder of records, see `alone_in`.

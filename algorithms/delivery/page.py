@@ -30,7 +30,7 @@ from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.check.accuracy import Figures
 from ..tools.contours import Contours
 from ..tools.quality import QualityOptions
-from ..tools.quality.figures import FAIL
+from ..tools.quality.figures import FAILED
 from ..tools.quality.rasters import QUALITY_RASTERS
 from ..tools.rasters.parameters import MapTerrain, SurfaceModel
 from ..tools.rasters.rows import RASTERS
@@ -154,7 +154,7 @@ def _comparison(summary: DeliverySummary) -> list[Html]:
     }[quality.passes]
     count = f"{words} {passed} of {len(quality.comparison)} comparisons pass; "
     rows = [
-        (line.name, line.found, line.asked, "fail" if line.state == FAIL else "look at it")
+        (line.name, line.found, line.asked, "fail" if line.state == FAILED else "look at it")
         for line in quality.left
     ]
     said = element("p", Html(count + link("quality.html", "all of them") + "."))

@@ -20,8 +20,8 @@ from .deliveries import DELIVERIES
 
 GivenSet = TypeVar("GivenSet", bound=ParameterSet)
 _METHODS = tuple(method.parameters for method in METHODS.values())
-# No delivery but outputs that the user chooses, and the specification that a delivery has.
-NO_DELIVERY, AS_DELIVERY = "own", "as-delivery"
+NO_DELIVERY = "own"  # outputs that the user chooses
+AS_DELIVERY = "as-delivery"  # the specification that a delivery has
 
 
 @dataclass(frozen=True)

@@ -77,8 +77,10 @@ _CONTOURS = (
     "Lines of equal height of the terrain model, with the field ELEV. They are smoothed, so that"
     " they do not show noise. Every fifth line has its height as a label."
 )
-# Rasters of the dialog that it makes unless the user says no, and those of the relief.
-_USUAL, _RELIEFS = ("dtm", "hillshade", "dsm", "chm"), ("hillshade", "relief")
+# Rasters that the dialog makes unless the user says no.
+_USUAL = ("dtm", "hillshade", "dsm", "chm")
+# Those of the relief that it has.
+_RELIEFS = ("hillshade", "relief")
 
 
 def _in_dialog() -> tuple[Output, ...]:

@@ -20,7 +20,13 @@ from ..core.threads import parts_of
 from .memory import Cost
 from .store import BlockPoints, Corner, Store
 
-_SIDE, _STEP, _REACHES = 2000.0, 100.0, 4.0
+# Metres: least side of a block.
+_SIDE = 2000.0
+# A block is at least this many times as wide as a step reaches: points in buffers are seen by
+# several blocks, and should be few.
+_REACHES = 4.0
+# Metres: the side of a block is a multiple of this.
+_STEP = 100.0
 # Metres from the multiples of the side to the borders of the blocks. Most tiles begin and end at
 # whole kilometres. A border just inside a tile would make a narrow strip, whose buffer costs as
 # much as that of a whole block. No coordinate lies exactly on such a border, so rounding does not

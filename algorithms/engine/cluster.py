@@ -29,8 +29,10 @@ if TYPE_CHECKING:
     from distributed import Client
 
 _CONNECTING = "15s"
-# Seconds between two checks of the workers, and seconds that a scheduler may take to answer.
-_LOOKING, _ANSWERING = 2.0, 15.0
+# Seconds between two checks of the workers.
+_LOOKING = 2.0
+# Seconds that a scheduler may take to answer.
+_ANSWERING = 15.0
 # Seconds after which a job checks whether its run is still there.
 _LISTENING = 0.5
 # Share of the free memory of a computer that jobs on it may use.

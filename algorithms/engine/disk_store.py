@@ -26,8 +26,10 @@ from .store import OTHERS, BlockPoints, Corner, LeafIndex, Marks, Store, smalles
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
 _INDEX = np.dtype("<i4")
-# Bits of flags; those with names follow.
-_KNOWN, _WANTED, _FIRST_NAMED = 1, 2, 4
+# Bits of flags; those with names follow the first of them.
+_KNOWN = 1
+_WANTED = 2
+_FIRST_NAMED = 4
 # If fewer points than this lie between two labelled ones, one access to the file is cheaper.
 _GAP = 1 << 16
 # Points that are read at a time.

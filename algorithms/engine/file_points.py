@@ -32,8 +32,12 @@ from .step import PointStep, Step
 from .store import Store
 from .values import PointValues, numbered
 
-# Bytes that a cloud in memory takes a point, besides what a filter takes for those it sees.
-_BYTES_A_POINT_KEPT, _BYTES_A_POINT_SEEN, _MOST_SEEN = 40, 110, 12_000_000
+# Bytes that a cloud in memory takes a point.
+_BYTES_A_POINT_KEPT = 40
+# Bytes that a filter takes for each point that it sees, and the most points that it sees at a time,
+# about those of a full block with its buffer.
+_BYTES_A_POINT_SEEN = 110
+_MOST_SEEN = 12_000_000
 # Bytes of memory for a point that is on disk: for its class and other changes.
 _BYTES_A_POINT_ON_DISK = 3
 # Most memory that the blocks take when the points are on disk.

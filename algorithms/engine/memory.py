@@ -20,7 +20,8 @@ _SHARE = 0.5
 # machine no more often than else, as it must be cleared again before it is used.
 _SECONDS = 0.4
 _MEMINFO = Path("/proc/meminfo")
-_STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
+_STATUS = Path("/proc/self/status")
+_CLEAR = Path("/proc/self/clear_refs")
 _CGROUP = Path("/sys/fs/cgroup")
 # Options of `mallopt` in malloc.h: one heap, in which arrays up to 128 MB lie, and of which as much
 # may stay free at its end.

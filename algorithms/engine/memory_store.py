@@ -13,8 +13,12 @@ from ..las.cloud import PointCloud
 from .blocks import Blocks
 from .store import OTHERS, BlockPoints, Corner, LeafIndex, Marks, Store, code_of, smallest_integers
 
-# Points that are sorted and read together.
-_CHOSEN, _SORTED, _READ = 1 << 19, 1 << 16, 1 << 15
+# Points whose flags are looked through at a time, between two looks at the progress.
+_CHOSEN = 1 << 19
+# Points that are sorted by leaves at a time, and those of a piece that is read: their arrays stay
+# in the processor's cache.
+_SORTED = 1 << 16
+_READ = 1 << 15
 
 
 class MemoryStore(Store):

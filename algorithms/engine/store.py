@@ -186,9 +186,10 @@ class Store:
         raise NotImplementedError
 
 
-# Row and column of a square are packed into one number, each with an offset since it can be
-# negative.
-_SHIFT, _HALF = 32, 1 << 30
+# Row and column of a square are packed into one number of 64 bits: the row lies this many bits
+# higher, and each has an offset, since it can be negative.
+_SHIFT = 32
+_HALF = 1 << 30
 
 
 def code_of(row: np.ndarray, column: np.ndarray) -> np.ndarray:

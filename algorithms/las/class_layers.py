@@ -27,9 +27,14 @@ from .sources import damaged, open_source
 
 # The fields of a point that decide how its class is coded.
 _DECISIVE = ("return_number", "number_of_returns", "scanner_channel")
-_FORMAT, _RETURNS, _CHANNEL, _CLASS = 6, 14, 15, 16
-# Number of returns that stands for single returns and for all others: as small as possible.
-_ONLY, _FIRST_OF_TWO = 0x11, 0x21
+_FORMAT = 6  # the shortest with such layers
+# Places of bytes in a record of it.
+_RETURNS = 14
+_CHANNEL = 15
+_CLASS = 16
+# Numbers of returns that stand for single returns and for all others: as small as possible.
+_ONLY = 0x11
+_FIRST_OF_TWO = 0x21
 # Points whose layers are compressed at a time.
 _POINTS_A_GROUP = 1_000_000
 

@@ -28,7 +28,10 @@ from .lasfile import (
 )
 from .records import HeaderCounts, as_points, laszip_vlr, named
 
-_GPS_TIME_TYPE, _SYNTHETIC_RETURNS, _WKT = 0x01, 0x08, 0x10
+# Bits of the global encoding.
+_GPS_TIME_TYPE = 0x01
+_SYNTHETIC_RETURNS = 0x08
+_WKT = 0x10
 _WAVEFORM_DESCRIPTORS = range(100, 355)
 _WITH_WAVEFORMS = (4, 5, 9, 10)
 NEW_FORMATS = (6, 6, 7, 7, 6, 7, 6, 7, 8, 6, 8)

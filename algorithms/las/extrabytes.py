@@ -20,12 +20,18 @@ _DESCRIPTOR = 192
 # Bytes of each data type: undocumented, then integers of 1 to 8 bytes, float and double.
 _SIZES = (0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8)
 _KINDS = {9: "<f4", 10: "<f8"}
-_BYTE, _FLOAT = 1, 9
+_BYTE = 1
+_FLOAT = 9
 # One byte with the class that a run gave. Where the class differs, it was changed by hand since.
 REMEMBERED = "BareEarthClass"
-_HAS_MINIMUM, _HAS_MAXIMUM, _HAS_SCALE, _HAS_OFFSET = 0x02, 0x04, 0x08, 0x10
+# Bits of the options of a descriptor.
+_HAS_MINIMUM = 0x02
+_HAS_MAXIMUM = 0x04
+_HAS_SCALE = 0x08
+_HAS_OFFSET = 0x10
 _LARGEST_RECORD = 65535
-_UNDOCUMENTED, _MOST_UNDOCUMENTED = "undocumented", 255
+_UNDOCUMENTED = "undocumented"
+_MOST_UNDOCUMENTED = 255  # bytes that one descriptor can tell of
 
 
 @dataclass(frozen=True)

@@ -30,19 +30,27 @@ class Field(NamedTuple):
 
 GLOBAL_ENCODING = Field(6, "H")
 VERSION = Field(24, "2B")
-SYSTEM, SOFTWARE = Field(26, "32s"), Field(58, "32s")
+SYSTEM = Field(26, "32s")
+SOFTWARE = Field(58, "32s")
 # The day of the year, and the year.
 CREATION = Field(90, "2H")
-HEADER_SIZE, POINTS_START, VLR_COUNT = Field(94, "H"), Field(96, "I"), Field(100, "I")
-POINT_FORMAT, RECORD_LENGTH = Field(104, "B"), Field(105, "H")
-LEGACY_COUNT, LEGACY_RETURNS = Field(107, "I"), Field(111, "5I")
-SCALE, OFFSET = Field(131, "3d"), Field(155, "3d")
+HEADER_SIZE = Field(94, "H")
+POINTS_START = Field(96, "I")
+VLR_COUNT = Field(100, "I")
+POINT_FORMAT = Field(104, "B")
+RECORD_LENGTH = Field(105, "H")
+LEGACY_COUNT = Field(107, "I")
+LEGACY_RETURNS = Field(111, "5I")
+SCALE = Field(131, "3d")
+OFFSET = Field(155, "3d")
 # Largest and smallest x, largest and smallest y, largest and smallest z.
-EXTENT, Z_EXTENT = Field(179, "6d"), Field(211, "2d")
+EXTENT = Field(179, "6d")
+Z_EXTENT = Field(211, "2d")
 # Since LAS 1.3, and since LAS 1.4.
 WAVEFORM_START = Field(227, "Q")
-EVLR_START, EVLR_COUNT, COUNT, RETURNS = (
-    Field(235, "Q"), Field(243, "I"), Field(247, "Q"), Field(255, "15Q"),
-)  # fmt: skip
+EVLR_START = Field(235, "Q")
+EVLR_COUNT = Field(243, "I")
+COUNT = Field(247, "Q")
+RETURNS = Field(255, "15Q")
 # Bytes of a header of LAS 1.0 to 1.4.
 HEADER_SIZES = {0: 227, 1: 227, 2: 227, 3: 235, 4: 375}

@@ -8,7 +8,9 @@ from typing import Sequence
 from . import header as fields
 from .lasfile import LasFile
 
-_LEGACY_RETURN_COUNT, _LAST_LEGACY_FORMAT = 5, 5
+# Before LAS 1.4 a header counted the points of five returns, and point formats ended at 5.
+_LEGACY_RETURN_COUNT = 5
+_LAST_LEGACY_FORMAT = 5
 
 
 def with_fields(layout: LasFile, *changes: tuple[fields.Field, Sequence[float]]) -> LasFile:

@@ -18,7 +18,10 @@ from . import header as fields
 from .laszip import ChunkHead, Compression
 from .sources import FileState, changed, damage_told, damaged, open_source
 
-VLR_HEADER, EVLR_HEADER, LARGEST_VLR = 54, 60, 65535
+# Bytes.
+VLR_HEADER = 54
+EVLR_HEADER = 60
+LARGEST_VLR = 65535
 LASZIP = ("laszip encoded", 22204)
 COPC_INFO = ("copc", 1)
 COPC_HIERARCHY = ("copc", 1000)

@@ -14,9 +14,13 @@ from __future__ import annotations
 import struct
 from typing import NamedTuple, Sequence
 
-POINT_14, _EXTRA_BYTES_14, _WAVE_PACKET_13 = 10, 14, 9
-# Indices of the layers with classes and GPS times.
-CLASSES, GPS_TIMES = 2, 8
+# Numbers of kinds of items.
+POINT_14 = 10
+_EXTRA_BYTES_14 = 14
+_WAVE_PACKET_13 = 9
+# Indices of layers.
+CLASSES = 2
+GPS_TIMES = 8
 # Numbers of layers: of a point, of colours, of colours with near infrared, of a wave packet.
 LAYERS = {POINT_14: 9, 11: 1, 12: 2, 13: 1}
 # Bytes of each part of a point, without extra bytes, and the parts of each point format.
@@ -26,9 +30,11 @@ _PARTS = (
     (10,), (10, 11), (10, 12), (10, 13), (10, 12, 13),
 )  # fmt: skip
 _EXTRA_BYTES = 0
-# Kinds of compression: chunks of single points, and chunks of layers.
-_CHUNKED, _LAYERED = 2, 3
-_HEAD, _ITEM = struct.Struct("<HHBBHIIqqH"), struct.Struct("<HHH")
+# Kinds of compression.
+_CHUNKED = 2  # chunks of single points
+_LAYERED = 3  # chunks of layers
+_HEAD = struct.Struct("<HHBBHIIqqH")
+_ITEM = struct.Struct("<HHH")
 _CHUNK_SIZE = 12
 _VARIABLE = 0xFFFFFFFF
 # Of ten million equal points, 630 take one byte.

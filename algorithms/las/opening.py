@@ -24,12 +24,16 @@ from .laszip import Compression
 from .sources import FileState, damaged, open_source
 
 _MOST_EVLRS = 1_000_000
-# Records behind the points that are kept in memory; a survey can have thousands of files.
-_KEPT, _LARGEST_KEPT = ("LASF_Projection", "LASF_Spec"), 1 << 20
+# Records behind the points that are kept in memory, and most bytes of one; a survey can have
+# thousands of files.
+_KEPT = ("LASF_Projection", "LASF_Spec")
+_LARGEST_KEPT = 1 << 20
 # Bytes of compression, or between records, that files without points may have there.
 _MOST_WITHOUT_POINTS = 256
-# Largest coordinate, in units of the CRS, with which calculations make sense.
-_SMALLEST_SCALE, _LARGEST_SCALE, _LARGEST_OFFSET = 1e-12, 1e6, 1e12
+# Units of the CRS: with other scales and offsets calculations make no sense.
+_SMALLEST_SCALE = 1e-12
+_LARGEST_SCALE = 1e6
+_LARGEST_OFFSET = 1e12
 
 
 class NoPoints(BareEarthError):

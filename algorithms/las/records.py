@@ -19,10 +19,14 @@ if TYPE_CHECKING:
     import laspy
     import lazrs
 
-_NEEDED, _REMEMBERED = ("Z", "CLASSIFICATION", "FLAGS"), "ALL_EXTRA_BYTES"
-_TIMES, _STRIPS = "GPS_TIME", "POINT_SOURCE_ID"
-# Most points at a time, through a buffer and if all of them are in memory.
-_MOST, MOST_KEPT = 1_000_000, 8_000_000
+# Layers of lazrs.
+_NEEDED = ("Z", "CLASSIFICATION", "FLAGS")
+_REMEMBERED = "ALL_EXTRA_BYTES"
+_TIMES = "GPS_TIME"
+_STRIPS = "POINT_SOURCE_ID"
+# Most points at a time, through a buffer, and if all of them are in memory.
+_MOST = 1_000_000
+MOST_KEPT = 8_000_000
 _BLOCK = 1 << 24
 _LARGEST_LEGACY_CLASS = 31
 

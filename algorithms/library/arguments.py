@@ -11,7 +11,8 @@ from ..tools.check.reading import FORMATS as POINT_FORMATS
 from ..tools.input_groups import GROUPS
 
 REQUIRED = inspect.Parameter.empty
-_PATH, _LITERAL = "str | PathLike[str]", "Literal[{}]"
+_PATH = "str | PathLike[str]"
+_LITERAL = "Literal[{}]"
 
 
 class Kind(NamedTuple):

@@ -12,7 +12,8 @@ _TABLE = (
     " array, such as PDAL has, a dict of arrays, a table of pandas, polars or pyarrow, or a"
     " GeoDataFrame of points with z, whose CRS counts; of terrain() also blocks()"
 )
-_NUMBERS, _FLAGS = "array of int, shape (n,)", "array of bool, shape (n,)"
+_NUMBERS = "array of int, shape (n,)"
+_FLAGS = "array of bool, shape (n,)"
 
 
 def _array(name: str, help: str, words: str = "array of float, shape (n,)") -> Argument:

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from ..tools.check.checkpoints import Checkpoints
     from ..tools.rasters.constraints import Constraints
 
-# The word for water that is found, and for processes of this computer.
-AUTOMATIC, PROCESSES = "automatic", "processes"
+AUTOMATIC = "automatic"  # the word for water that is found
+PROCESSES = "processes"  # the word for those of this computer
 
 
 class Bar(Protocol):

@@ -33,15 +33,19 @@ _NUMBERS = ("classification", "return_number", "number_of_returns")
 _ATTRIBUTES = {**{name: name for name in (*_NUMBERS, "withheld")}, "in_overlap": "overlap"}
 # Point format 6 holds all classes.
 _POINT_FORMAT = FIRST_EXTENDED_FORMAT
-# Decimals of coordinates that are looked for, and those to which others are rounded.
-_MOST_DECIMALS, _ROUNDED = 7, 6
-# Coordinates may differ from a multiple of the scale by so many of their last digits, and at most
-# by this share of the scale.
-_LAST_DIGITS, _WHOLE = 8, 1e-2
+# Decimals of coordinates that are looked for: 0.1 micrometres, or 1 cm if they were degrees.
+_MOST_DECIMALS = 7
+# Decimals to which all other coordinates are rounded.
+_ROUNDED = 6
+# Coordinates may differ from a multiple of the scale by this many units of their last digit, and at
+# most by this share of the scale.
+_LAST_DIGITS = 8
+_WHOLE = 1e-2
 _LARGEST = 2**31 - 1
 # Steps of coordinates of 32 bits may be this long.
 _LONGEST_STEP = 1e-3
-_FIRST, _POINTS_A_PART = 1000, 1 << 17
+_FIRST = 1000  # points that are looked at first, since most numbers of decimals fail there
+_POINTS_A_PART = 1 << 17  # that are worked on at a time
 
 
 def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud:

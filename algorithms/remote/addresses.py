@@ -10,7 +10,8 @@ from urllib.parse import quote, unquote, urljoin, urlsplit, urlunsplit
 from ..core.errors import BareEarthError
 
 DEFAULT_PORTS = {"http": 80, "https": 443}
-WEB, STORES = tuple(DEFAULT_PORTS), ("s3", "gs", "az", "abfs")
+WEB = tuple(DEFAULT_PORTS)
+STORES = ("s3", "gs", "az", "abfs")
 # Such as "s3://", but not a single letter: that is a drive of Windows.
 _SCHEME = re.compile(r"([a-z][a-z0-9+.-]+)://", re.IGNORECASE)
 # What was meant as an address: "http:/user:password@host/..." and "user:password@host/...".

@@ -51,10 +51,12 @@ SUFFIX = ".copc.laz"
 # Of the info record: position of the place of the first page, and of the GPS times.
 _ROOT = 40
 # Most bytes of a page that is asked for before it is known to be one, and of all pages.
-_LARGEST, _LARGEST_PAGES = 1 << 20, 1 << 26
-# Most bytes of the points of a node, those that it can have beyond twice these when compressed, and
-# those that are copied at a time.
-_LARGEST_NODE, _LEAST, _PIECE = 1 << 28, 1 << 12, 1 << 23
+_LARGEST = 1 << 20
+_LARGEST_PAGES = 1 << 26
+# Most bytes of the points of a node, and those that it can have beyond twice these when compressed.
+_LARGEST_NODE = 1 << 28
+_LEAST = 1 << 12
+_PIECE = 1 << 23  # bytes that are copied at a time
 # Metres in a degree of latitude.
 _DEGREE = 111_000.0
 EVERYWHERE = (-math.inf, -math.inf, math.inf, math.inf)

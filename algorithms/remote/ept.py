@@ -50,9 +50,13 @@ Key = tuple[int, int, int, int]  # depth, x, y and z of a node
 _KEY = re.compile(r"(\d{1,2})-(\d{1,10})-(\d{1,10})-(\d{1,10})")
 _DEEPEST = 30
 # Most bytes of the description, of a file of the hierarchy and of a tile; six are read at a time.
-MOST_DESCRIPTION, _MOST_HIERARCHY, _MOST_TILE = 1 << 22, 1 << 24, 1 << 25
-# Most points of a tile, bytes of one in a tile, and tiles that are needed.
-_MOST_POINTS, _MOST_A_POINT, _MOST_TILES = 1 << 23, 200, 1_000_000
+MOST_DESCRIPTION = 1 << 22
+_MOST_HIERARCHY = 1 << 24
+_MOST_TILE = 1 << 25
+# Most points of a tile, bytes of one of them, and tiles that are needed.
+_MOST_POINTS = 1 << 23
+_MOST_A_POINT = 200
+_MOST_TILES = 1_000_000
 # Points that are read at a time to check a tile.
 _PIECE = 100_000
 # Bytes that a compressed point usually has.

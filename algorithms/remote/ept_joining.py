@@ -17,7 +17,9 @@ from ..las.records import HeaderCounts, column, read_records
 from ..survey.area import Area
 from ..survey.window import are_inside
 
-_GPS_TIME_TYPE, _WKT = 0x01, 0x10
+# Bits of the global encoding.
+_GPS_TIME_TYPE = 0x01
+_WKT = 0x10
 # Places may differ by this share of a step when the integers of a tile are moved to another offset.
 _WHOLE = 0.01
 

@@ -33,10 +33,13 @@ _NAMES = {
     "Infrared": "nir",
 }  # fmt: skip
 _FLAGS = ("synthetic", "key_point", "withheld", "overlap")  # the bits of ClassFlags
-_ANGLE, _ANGLE_UNIT, _CLASS_FLAGS = "ScanAngleRank", 0.006, "ClassFlags"
+_CLASS_FLAGS = "ClassFlags"
+_ANGLE = "ScanAngleRank"
+_ANGLE_UNIT = 0.006  # degrees, of scan angles since LAS 1.4
 _OFFSETS = tuple("XYZ")
-# Steps of coordinates that are no integers, in units of the CRS and in degrees.
-_STEP, _STEP_DEGREES = 0.001, 1e-8
+# Steps of coordinates that are no integers, in units of the CRS, and in degrees.
+_STEP = 0.001
+_STEP_DEGREES = 1e-8
 
 
 class Schema:

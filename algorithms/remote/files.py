@@ -24,9 +24,12 @@ _FIRST = 1 << 16
 # Fewer bytes than these are not worth a request.
 _LEAST = 1 << 14
 # Most bytes of a request of several pieces, of any request, and of a single read.
-_MOST, _LARGEST, _MOST_READ = 1 << 23, 1 << 25, 1 << 28
-# Most bytes of a gap, about what a request costs, and of all gaps in proportion to what is wanted.
-_WIDEST_GAP, _GAPS = 1 << 16, 0.1
+_MOST = 1 << 23
+_LARGEST = 1 << 25
+_MOST_READ = 1 << 28
+# Most bytes of a gap, about what a request costs, and of all gaps as a share of what is wanted.
+_WIDEST_GAP = 1 << 16
+_GAPS = 0.1
 
 
 class Plan(NamedTuple):

@@ -32,12 +32,17 @@ from .ept import DESCRIPTION
 from .transfers import Transfers
 
 # Endings and media types of clouds of which parts can be read.
-_ENDINGS, _MEDIA = (".copc.laz", DESCRIPTION), ("application/vnd.laszip+copc",)
-_MOST_ITEMS, _MOST_PAGES = 5_000, 100
-# Most bytes of a list and of a document with a single item, of which six are read at a time.
-_MOST_LIST, _MOST_ITEM = 1 << 25, 1 << 22
-# Lists round to metres, or to so many degrees.
-_ROUNDED, _ROUNDED_DEGREES = 1.0, 1e-5
+_ENDINGS = (".copc.laz", DESCRIPTION)
+_MEDIA = ("application/vnd.laszip+copc",)
+# Most items of a list, and documents of which it consists.
+_MOST_ITEMS = 5_000
+_MOST_PAGES = 100
+# Most bytes of a list, and of a document with a single item, of which six are read at a time.
+_MOST_LIST = 1 << 25
+_MOST_ITEM = 1 << 22
+# Units to which lists round: metres, or degrees.
+_ROUNDED = 1.0
+_ROUNDED_DEGREES = 1e-5
 _MOST_DEGREES = 361.0
 # Most point clouds that are asked themselves where their list says that none is near.
 _MOST_ASKED = 100

@@ -15,7 +15,8 @@ from ..core.files import make_work_folder, replacing, write_errors_told
 from ..core.temporary import is_temporary, remove
 from .addresses import shown
 
-_ABOUT, _RANGE = "about.json", re.compile(r"(\d+)-(\d+)")
+_ABOUT = "about.json"
+_RANGE = re.compile(r"(\d+)-(\d+)")
 _TILE = re.compile(r"\d+-\d+-\d+-\d+\.\w+")
 Range = tuple[int, int]  # first byte, and the one after the last
 

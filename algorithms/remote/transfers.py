@@ -27,10 +27,12 @@ _ATTEMPTS = 6
 _SIGNED = 2
 # Seconds before the second attempt, doubled before each further one, and the most that a server may
 # ask for.
-_FIRST_PAUSE, _LONGEST_PAUSE = 0.25, 120.0
+_FIRST_PAUSE = 0.25
+_LONGEST_PAUSE = 120.0
 # Seconds that failing attempts may take together, without the pauses that the server asks for, and
-# without the time of what came, at so many bytes a second.
-_LONGEST, _LEAST_SPEED = 45.0, 10_000
+# without the time in which what came would come at the least speed, in bytes a second.
+_LONGEST = 45.0
+_LEAST_SPEED = 10_000
 # Seconds without a byte after which the user is told what is waited for.
 _SILENCE = 5.0
 # Seconds after which the caller looks again whether the user has cancelled.

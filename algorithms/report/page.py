@@ -33,8 +33,12 @@ DRAWN = "svg { width: 100%; max-width: 860px; height: auto; }\n"
 # Of pages that say what may be wrong before all else.
 DOUBT = ".doubt { padding: .4em 1em; border-left: 4px solid #b2182b; background: #fdecea; }\n"
 # Sizes of drawings in pixels.
-_WIDTH, _HEIGHT, _BELOW, _LEFT = 800, 180, 40, 46
-_TALLEST, _RADIUS = 900, 7
+_WIDTH = 800
+_HEIGHT = 180
+_BELOW = 40
+_LEFT = 46
+_TALLEST = 900
+_RADIUS = 7
 
 
 class Html(str):

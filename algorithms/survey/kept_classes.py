@@ -12,8 +12,11 @@ from ..las.class_names import named_class
 from ..las.cloud import PointCloud
 from .point_counts import PointCounts
 
-NEVER_CLASSIFIED, UNCLASSIFIED, GROUND = 0, 1, 2
-LOW_NOISE, HIGH_NOISE = 7, 18
+NEVER_CLASSIFIED = 0
+UNCLASSIFIED = 1
+GROUND = 2
+LOW_NOISE = 7
+HIGH_NOISE = 18
 NOISE = (LOW_NOISE, HIGH_NOISE)
 # Classes that a classification decides anew by default. All others say more of a point than whether
 # it is ground: water, wires, bridge decks, the sea floor, or what a producer defined.
@@ -25,8 +28,10 @@ ROADS = (10, 11)
 OVERLAP = 12
 # Ground beside a shore or breakline, which terrain models leave out there.
 IGNORED_GROUND = 20
-# Topo-bathymetric lidar: the bottom of a water, the surface of it, and what lies or ends between.
-BOTTOM, WATER_SURFACES, SUBMERGED = 40, (41, 42), (43, 44, 45)
+# Of topo-bathymetric lidar.
+BOTTOM = 40  # of a water
+WATER_SURFACES = (41, 42)
+SUBMERGED = (43, 44, 45)  # what lies or ends between the two
 ALL_CLASSES = "all"
 
 

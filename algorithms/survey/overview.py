@@ -26,8 +26,9 @@ from ..las.lasfile import LasFile
 from ..las.records import as_points, column, named
 
 _ENDING = "-overview.copc.laz"
-# An overview has at most so many points, and at most one of so many.
-_MOST_POINTS, _STEP = 1_000_000, 10
+# Most points of an overview, which also has at most one of ten points.
+_MOST_POINTS = 1_000_000
+_STEP = 10
 _LIMITS = -(2**31), 2**31 - 1
 
 

@@ -30,8 +30,8 @@ FORMATS = (
 _CRS_NAME = re.compile(r"(EPSG|ESRI|IGNF|OGC|CRS)[:/](?:[\w.]*[:/])?(\w+)$", re.IGNORECASE)
 # Levels of lists: a line is a list of corners, a polygon a list of rings.
 _DEPTHS = {"LineString": 1, "Polygon": 2}
-# How messages name a table of geopandas, and GeoJSON and objects that know it.
-FRAME, _GEOMETRY = "The GeoDataFrame", "The geometry"
+FRAME = "The GeoDataFrame"  # how messages name a table of geopandas
+_GEOMETRY = "The geometry"  # how they name GeoJSON, and objects that know theirs
 # The attribute of objects that know their GeoJSON.
 _KNOWS = "__geo_interface__"
 # Units of any CRS; libraries read numbers that are too large as large ones.

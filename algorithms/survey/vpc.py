@@ -69,8 +69,10 @@ _ALWAYS = [
         ("PointSourceId", 2),
     )
 ]
-_ANGLE, _TIME = Dimension("ScanAngleRank", "floating", 4), Dimension("GpsTime", "floating", 8)
-_CHANNEL, _INFRARED = Dimension("ScanChannel", "unsigned", 1), Dimension("Infrared", "unsigned", 2)
+_ANGLE = Dimension("ScanAngleRank", "floating", 4)
+_TIME = Dimension("GpsTime", "floating", 8)
+_CHANNEL = Dimension("ScanChannel", "unsigned", 1)
+_INFRARED = Dimension("Infrared", "unsigned", 2)
 _COLOURS = [Dimension(name, "unsigned", 2) for name in ("Red", "Green", "Blue")]
 
 

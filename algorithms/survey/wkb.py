@@ -13,8 +13,15 @@ from typing import Any, Iterator
 
 import numpy as np
 
-_POINT, _LINE, _POLYGON, _COLLECTIONS = 1, 2, 3, (4, 5, 6, 7)
-_HAS_Z, _HAS_M, _HAS_SRID = 1 << 31, 1 << 30, 1 << 29
+# Numbers of the types of geometries.
+_POINT = 1
+_LINE = 2
+_POLYGON = 3
+_COLLECTIONS = (4, 5, 6, 7)
+# Bits of the type in extended well-known binary, as PostGIS writes it.
+_HAS_Z = 1 << 31
+_HAS_M = 1 << 30
+_HAS_SRID = 1 << 29
 # Collections in collections; data with more is not valid.
 _MOST_LEVELS = 20
 

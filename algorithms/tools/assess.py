@@ -29,7 +29,8 @@ from .declaration import CLOUD, CRS, FileTool, Input, Output
 
 GROUND = 2
 # Colours of both errors, which differ for colour-blind people and in print.
-TYPE_1, TYPE_2 = "#d1157f", "#f07f09"
+TYPE_1 = "#d1157f"
+TYPE_2 = "#f07f09"
 # In the table of the confusion, the counts on the diagonal are right.
 _STYLE = """
 .confusion tr:nth-child(2) td:nth-child(2), .confusion tr:nth-child(3) td:nth-child(3) {

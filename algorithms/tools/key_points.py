@@ -22,8 +22,9 @@ from ..las.records import check_class
 from ..survey.ground_classes import GroundClasses, GroundCounts
 from .declaration import CLOUD, TERRAIN, TIN, PointTool
 
-# Values that a store holds for key points, and for other ground points.
-_KEY, _OTHER = 1, 2
+# Values that a store holds.
+_KEY = 1
+_OTHER = 2  # of other ground points
 
 
 @dataclass(frozen=True)

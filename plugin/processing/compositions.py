@@ -33,7 +33,8 @@ from .outputs import after_cancel, do_not_load, given_path, point_cloud_formats
 from .tool_inputs import Request
 from .tools import ToolAlgorithm
 
-DELIVERY, FOLDER = TOOL.chosen.upper(), "DELIVERY_FOLDER"
+DELIVERY = TOOL.chosen.upper()
+FOLDER = "DELIVERY_FOLDER"
 # Cell size of rasters that are not a delivery, in metres.
 _USUAL_CELL = 1.0
 

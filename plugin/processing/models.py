@@ -36,7 +36,8 @@ from .outputs import do_not_load, places_of
 
 _CHOICES = {declared.name.upper(): declared for declared in TileMethod.declarations()}
 # Names of outputs in the models that make a classified cloud or contour lines.
-_CLASSIFIED, _LINES = "ground:OUTPUT", "contours:OUTPUT"
+_CLASSIFIED = "ground:OUTPUT"
+_LINES = "contours:OUTPUT"
 # For the search of the toolbox, by the second half of the id.
 _WORDS = {
     "terraincontours": (CLOUD, GROUND, TERRAIN, "contours,workflow"),

@@ -29,7 +29,10 @@ ALSO_REMOTE = (
     " needs of it is downloaded first."
 )
 # The fields of inputs that can be remote; of points, those only for remote ones.
-PART, LIMIT, ADDRESS, REMOTE = "EXTENT", "LIMIT", "ADDRESS", "REMOTE"
+PART = "EXTENT"
+LIMIT = "LIMIT"
+ADDRESS = "ADDRESS"
+REMOTE = "REMOTE"
 _PART_HELP = (
     "The points of a remote point cloud that lie in this rectangle are downloaded, and are all that"
     " is used. Only for point clouds that are not on this computer."

@@ -44,7 +44,8 @@ _STATE = Qt.ItemDataRole.CheckStateRole
 # A box with choices is at least so many letters wide.
 _LEAST_LETTERS = 16
 # Values of Qt.CheckState in items. The names do not work in the same way in PyQt 5 and 6.
-_UNCHECKED, _CHECKED = 0, 2
+_UNCHECKED = 0
+_CHECKED = 2
 
 
 class ChoiceWidget:

@@ -46,14 +46,20 @@ _NAMES = {
     43: mark("Submerged object"), 45: mark("Water column"),
 }  # fmt: skip
 _OPACITY = 0.8
-_METRES, _LEAST_MM, _MOST_MM = 0.6, 0.8, 2.0
+# Size of a point in metres on the map, and limits of it in millimetres on the screen.
+_METRES = 0.6
+_LEAST_MM = 0.8
+_MOST_MM = 2.0
 # QGIS draws no further points at this distance in millimetres. Its default of 0.3 leaves holes.
 _SCREEN_ERROR = 0.15
 # Classes that are reserved in the LAS specification, or rare.
 _RESERVED = (0, 8, 12, 16)
 # Heights are coloured up to this, in metres, if the usual height of the points is not known.
 _MOST_HEIGHT = 40.0
-_NEARLY_ALL, _STEP = 0.998, 0.5
+# Share of the points below the largest height that has a colour of its own.
+_NEARLY_ALL = 0.998
+# This height is a multiple of it, in units of the CRS.
+_STEP = 0.5
 
 
 def categories_of(classes: Iterable[int]) -> dict[int, tuple[str, QColor]]:

@@ -33,8 +33,9 @@ from .stage import Stage, remember_height
 _KEPT: list[QgsProcessingLayerPostProcessorInterface] = []
 
 
-# Values of `Look.hides` for a classified cloud. The second is for runs whose result is the terrain.
-CLOUD, BELOW_TERRAIN = 6, 4
+# Values of `Look.hides` for a classified cloud.
+CLOUD = 6
+BELOW_TERRAIN = 4  # in runs whose result is the terrain
 _FIRST = 9
 
 

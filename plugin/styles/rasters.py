@@ -31,10 +31,12 @@ from . import clouds
 from .rules import categories_of
 
 _MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
-# Colours spread between these quantiles of a sample with at most so many rows and columns.
-_LOW, _HIGH, _SAMPLE = 0.02, 0.98, 600
-# Values of a byte, and rows of bytes that are read at a time.
-_CODES, _ROWS = 256, 512
+# Colours spread between these quantiles of a sample.
+_LOW = 0.02
+_HIGH = 0.98
+_SAMPLE = 600  # most rows, and most columns, of it
+_CODES = 256  # values of a byte
+_ROWS = 512  # of bytes that are read at a time
 
 
 def shown_by(layer: QgsRasterLayer) -> str:

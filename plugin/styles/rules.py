@@ -51,7 +51,8 @@ OBJECTS = {
 # Rules that change no cell, but what other rules see.
 UNSEEN = ("woods", "tolerance-surface", "plain-surface", "paper-surface")
 # For rules that rarely decide so.
-_RARE_GROUND, _RARE_OTHER = "#5f5236", "#ffa6b8"
+_RARE_GROUND = "#5f5236"
+_RARE_OTHER = "#ffa6b8"
 
 
 def categories_of(codes: Iterable[int], rules: Mapping[int, str]) -> dict[int, tuple[str, QColor]]:

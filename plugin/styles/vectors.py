@@ -34,9 +34,11 @@ _WATER = {
 }
 _SHORE_COLOUR = "#1450aa"
 _SHORE = {"line_color": _SHORE_COLOUR, "line_width": "0.4"}
-# Of the labels: colours of text and halo, and sizes in points and millimetres.
-_TEXT, _HALO = (96, 60, 28), (255, 255, 255, 200)
-_SIZE, _HALO_SIZE = 7.0, 0.7
+# Of the labels: colours of text and halo.
+_TEXT = (96, 60, 28)
+_HALO = (255, 255, 255, 200)
+_SIZE = 7.0  # points
+_HALO_SIZE = 0.7  # millimetres
 
 
 def contours(interval: Interval) -> Callable[[QgsVectorLayer], None]:

@@ -17,9 +17,16 @@ from ...grids.high_groups import HighGroups
 from .buildings import Buildings
 
 # Classes of the LAS specification.
-OTHER, LOW_VEGETATION, MEDIUM_VEGETATION, HIGH_VEGETATION = 1, 3, 4, 5
-BUILDING, BRIDGE_DECK, HIGH_NOISE = 6, 17, 18
-NONE, OWN = "none", "own"
+OTHER = 1
+LOW_VEGETATION = 3
+MEDIUM_VEGETATION = 4
+HIGH_VEGETATION = 5
+BUILDING = 6
+BRIDGE_DECK = 17
+HIGH_NOISE = 18
+# Schemes beside those of specifications.
+NONE = "none"
+OWN = "own"
 # Heights in metres at which medium and high vegetation begin.
 _LIMITS = {"asprs": (0.5, 2.0), "ign": (0.5, 1.5)}
 _SCHEMES = {

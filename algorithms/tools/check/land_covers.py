@@ -16,7 +16,10 @@ from ...core.words import option
 from .checkpoints import Checkpoints
 from .columns import VOCABULARY, parts_of
 
-NVA, VVA, CONTROL, UNKNOWN = "NVA", "VVA", "control", ""
+NVA = "NVA"
+VVA = "VVA"
+CONTROL = "control"
+UNKNOWN = ""
 
 # How the standard and its predecessor abbreviate the accuracy on both kinds of land.
 _STATED = {"nva": NVA, "fva": NVA, "vva": VVA}

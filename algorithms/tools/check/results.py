@@ -10,8 +10,9 @@ from .hold_out import AGREEMENT, HoldOut
 
 COUNTED = "counted"
 # Colours of errors, from low to high. Blue: the data lie below the checkpoint; red: above it. They
-# differ for colour-blind people. And the colour of checkpoints that are not counted.
-COLOURS, NOT_COUNTED = ("#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b"), "#888888"
+# differ for colour-blind people.
+COLOURS = ("#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b")
+NOT_COUNTED = "#888888"  # of checkpoints that are not counted
 # Limits between the colours, as shares of the scale.
 _SHARES = (-0.6, -0.2, 0.2, 0.6)
 # What stands in place of a statement while there is a doubt.

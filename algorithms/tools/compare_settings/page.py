@@ -26,7 +26,8 @@ from ...report.units import percent
 from .window import Outcome, Window
 
 # These colours differ for colour-blind people and in print.
-_LOST, _GAINED = "#d1157f", "#1b62c4"
+_LOST = "#d1157f"
+_GAINED = "#1b62c4"
 _NO_TERRAIN = (236, 236, 236)
 _LONGEST_SIDE = 400
 

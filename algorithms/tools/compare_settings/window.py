@@ -29,8 +29,8 @@ from ...survey.window import may_touch, read_window
 from ...tools.ground.step import LabelGround
 from .settings import Setting
 
-# Metres. A wider window would take long. Without one, a square of this side is shown.
-_WIDEST, _SIDE = 1000.0, 250.0
+_WIDEST = 1000.0  # metres: a wider window would take long
+_SIDE = 250.0  # metres: of the square that is shown if no window is given
 # Greatest number of cells along the longer side of the terrain, and the sides in metres that cells
 # can have below one metre. Larger cells have whole metres.
 _MOST_CELLS = 300

@@ -27,8 +27,9 @@ from ...survey.selection import Selection
 from .explanation import ExplainedCells
 from .surroundings import EVERYWHERE, near, tell_spacing, thinned
 
-# Shares of the time of a block for finding bridges and low outliers.
-_BRIDGES_SHARE, _LOW_SHARE = 0.15, 0.1
+# Shares of the time of a block for finding bridges, and low outliers.
+_BRIDGES_SHARE = 0.15
+_LOW_SHARE = 0.1
 
 
 class Label(IntEnum):

@@ -31,16 +31,21 @@ from ...survey.repeated_points import RepeatedPoints
 from .made_points import WATER, MadePoints
 from .planes import WINDOWS, planes
 
-# Bits of cells: a first return that counts as a pulse; water; a first return with the flag of
-# overlap; a pulse with several returns.
-PULSE, WET, FLAGGED, ROUGH = 1, 2, 4, 8
+# Bits of cells.
+PULSE = 1  # a first return that counts as a pulse
+WET = 2  # water
+FLAGGED = 4  # a first return with the flag of overlap
+ROUGH = 8  # a pulse with several returns
 # Flight strips that are told apart in a cell.
 STRIPS = 4
-# Bytes for a cell and a point, and up to how many of them they are held in memory.
-_BYTES, _BYTES_A_POINT, _MOST_IN_MEMORY = 72, 9, 18_000_000
-# Side of the squares of cells whose planes are made together, an even number of cells; and cells of
-# rows that are worked on together.
-_TILE, _TOGETHER = 1024, 1 << 21
+_BYTES = 72  # for a cell
+_BYTES_A_POINT = 9
+# Most cells, and most points, that are in memory, where they take 1.5 GB; more are on disk.
+_MOST_IN_MEMORY = 18_000_000
+# Cells: side of the squares whose planes are made together, an even number.
+_TILE = 1024
+# Cells of rows that are worked on together.
+_TOGETHER = 1 << 21
 # Heights above the ground of low vegetation. Points are compared up to this height, in metres,
 # above the lowest of their strip in the cell.
 LOW = (0.2, 2.0)

@@ -9,7 +9,9 @@ from ...core.words import counted
 from ...las.class_names import named_class
 from .specifications import Specification
 
-PASS, FAIL, LOOK = "pass", "fail", "look"
+PASSED = "pass"
+FAILED = "fail"
+LOOK = "look"
 _GROUND = 2
 # Fewest cells of which differences between strips pass.
 _FEWEST_CELLS = 30
@@ -21,7 +23,7 @@ class Line(NamedTuple):
     name: str  # what is compared
     found: str
     asked: str  # what is asked for
-    state: str  # `PASS`, `FAIL` or `LOOK` (a person must decide)
+    state: str  # `PASSED`, `FAILED` or `LOOK` (a person must decide)
     source: str  # where the specification says it
 
 
@@ -66,7 +68,7 @@ class Quality:
     @property
     def passes(self) -> bool | None:
         """Whether all comparisons pass; None if none fails, but some could not be decided."""
-        if any(line.state == FAIL for line in self.comparison):
+        if any(line.state == FAILED for line in self.comparison):
             return False
         return None if self.left else True
 
@@ -87,7 +89,7 @@ class Quality:
     @property
     def left(self) -> list[Line]:
         """The comparisons that fail, and those that a person must look at."""
-        return [line for line in self.comparison if line.state != PASS]
+        return [line for line in self.comparison if line.state != PASSED]
 
     @property
     def strip_count(self) -> int:
@@ -205,7 +207,7 @@ def lines_of(found: Quality, asked: Specification) -> list[Line]:
     lines = []
     for compare in (_densities, _strips, _classes, _formats):
         for key, name, value, wanted, passes in compare(found, asked):
-            state = {True: PASS, False: FAIL, None: LOOK}[passes]
+            state = {True: PASSED, False: FAILED, None: LOOK}[passes]
             place = asked.places.get(key)
             source = f"{asked.source}: {place}" if place else ""
             lines.append(Line(name, value, wanted, state, source))

@@ -12,13 +12,17 @@ from ...report.pictures import NOWHERE, Picture, ramped, reduced, rgb
 from ...report.units import Units
 from ...survey.files import Survey
 from .cells import QualityCells
-from .figures import FAIL, FIGURES, LOOK, PASS, Quality
+from .figures import FAILED, FIGURES, LOOK, PASSED, Quality
 from .rasters import QUALITY_RASTERS, QualityRaster
 from .specifications import SPECIFICATIONS
 
-# Longest side of a map in pixels, and most rows of the table of files.
-_LONGEST, _MOST_ROWS = 600, 1000
-_STATES = {PASS: ("#1a7f37", "pass"), FAIL: ("#c0262d", "fail"), LOOK: ("#9a6700", "look at it")}
+_LONGEST = 600  # pixels: longest side of a map
+_MOST_ROWS = 1000  # of the table of files
+_STATES = {
+    PASSED: ("#1a7f37", "pass"),
+    FAILED: ("#c0262d", "fail"),
+    LOOK: ("#9a6700", "look at it"),
+}
 _STYLE = """
 .state { color: #fff; padding: 0 .5em; border-radius: 3px; font-weight: 600; white-space: nowrap; }
 """

@@ -11,7 +11,11 @@ from ...grids.planes import means_and_moments, plane_slopes
 
 # Cells round a cell whose ground makes its plane: the first that hold enough points.
 WINDOWS = (1, 2, 4, 10)
-_LEAST_POINTS, _LEAST_SPREAD = 6, 0.02
+# Fewest points of a plane; three would fit any.
+_LEAST_POINTS = 6
+# The determinant of the moments of their places, as a share of the square of their sum, is larger
+# than this: points in a line have 0 and say nothing of the slope across it, a square has 0.25.
+_LEAST_SPREAD = 0.02
 
 
 def planes(

@@ -23,14 +23,15 @@ from .planes import moments, plane_of
 
 # Limits of the classes of differences between strips, in metres.
 LIMITS = (0.08, 0.16)
-# Value of bytes without data, and least number of points of a strip in a cell that is compared.
-_NO_BYTE, _LEAST_POINTS = 255, 3
+_NO_BYTE = 255  # value of bytes without data
+_LEAST_POINTS = 3  # of a strip in a cell that is compared
 # A strip is even where its lowest points lie so near to a plane through those of the cells around,
 # in metres. Edges of roofs, cars and single trees are not; a strip that is off as a whole is.
 _UNEVEN = 0.25
-# A difference that is farther than so many metres from the median of those of the 5 x 5 cells
-# around is that of the edge of a roof or of a crown. Strips that do not fit do so in many cells.
-_FROM_AROUND, _AROUND = 0.25, 2
+# A difference that is farther than this, in metres, from the median of those of the cells around is
+# that of the edge of a roof or of a crown. Strips that do not fit do so in many cells.
+_FROM_AROUND = 0.25
+_AROUND = 2  # cells to each side: 5 x 5
 # Cells whose surroundings are looked at together.
 _LOOKED_AT = 1 << 18
 _STEEPEST = 45.0

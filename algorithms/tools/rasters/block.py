@@ -23,16 +23,20 @@ from ...grids.terrain_edges import follow_edges
 
 # Longest edge of the triangles in a block, in metres and in cells. Triangles across wider gaps need
 # points from farther away than a block sees, so they are made when all blocks are done.
-_LONGEST_EDGE, _LONGEST_CELLS = 50.0, 20.0
+_LONGEST_EDGE = 50.0
+_LONGEST_CELLS = 20.0
 # Reach of a triangle in longest edges. Its circumcircle hardly ever reaches farther.
 _EDGES = 2.0
 # The layer that tells what each cell contains: bits for ground points in its four quarters, from
 # southwest to northeast, a bit for any points, and one for points of the surface.
-CONTENTS, QUARTERS, ANY, TOP = "contents", 4, 16, 32
+CONTENTS = "contents"
+QUARTERS = 4
+ANY = 16
+TOP = 32
 # Rounding error of coordinates in metres.
 _ROUNDING = 1e-6
-# Least number of points that are processed together; those whose arrays stay in the cache.
-_POINTS_A_PART, _POINTS_SEEN = 1 << 20, 1 << 16
+_POINTS_A_PART = 1 << 20  # least number of points that are processed together
+_POINTS_SEEN = 1 << 16  # points whose arrays stay in the cache
 
 
 class BlockRasters(NamedTuple):

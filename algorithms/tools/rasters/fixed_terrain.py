@@ -22,9 +22,10 @@ from .level_water import LevelWater
 
 # This share of the ground along the border of water is below its level: banks are higher.
 _LEVEL = 10.0
-# The level is that of points of class 9 in the water, of which there are at least so many, and
-# which count as the means of squares of so many metres.
-_WATER_CLASS, _FEWEST, _SQUARE = 9, 8, 2.0
+# The level is that of the points of this class in the water.
+_WATER_CLASS = 9
+_FEWEST = 8  # of these points; with fewer there is no level
+_SQUARE = 2.0  # metres: side of the squares whose points count as one, their mean
 # Metres between vertices inside water.
 _INSIDE = 10.0
 # Lines are used up to so many metres beyond the points of a block.

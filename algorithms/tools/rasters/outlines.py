@@ -27,9 +27,12 @@ _SPACINGS = 4.0
 # Least radius in metres for ground, but not in more cells than this: ground points are farther
 # apart under trees than elsewhere.
 _LEAST_OF_GROUND = 10.0
-# Side in cells of the squares in which cells with points are counted, most squares of a raster, and
-# fewest such cells of a square for a sound distance.
-_SQUARE, _MOST_SQUARES, _FEWEST = 16, 4_000_000, 16
+# Cells: side of the squares in which cells with points are counted.
+_SQUARE = 16
+# Most squares of a raster; those of a larger one are wider.
+_MOST_SQUARES = 4_000_000
+# Fewest cells with points of a usual square for a sound distance; else squares are joined.
+_FEWEST = 16
 # Columns that are refined at a time.
 _COLUMNS = 512
 

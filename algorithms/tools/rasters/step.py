@@ -38,10 +38,12 @@ from .drawing import Drawing
 from .fixed_terrain import fixed_terrain
 from .output import AROUND_AREA, RasterSize, no_point_in, write_rasters
 
-# Points are thinned unless there are so many times as many cells.
+# Points are thinned to one a cell unless the cells are more than ten times as many as the points,
+# of which hardly two would share one.
 _MOST_THINNED = 10
 # Bytes that a block takes for each point in it and its buffer, and for each cell.
-_BYTES_A_POINT, _BYTES_A_CELL = 130.0, 120.0
+_BYTES_A_POINT = 130.0
+_BYTES_A_CELL = 120.0
 
 
 @dataclass

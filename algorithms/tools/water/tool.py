@@ -26,8 +26,9 @@ from .bridges import decks_without_water
 from .finding import GRADES, Water, WaterBody, find_water
 from .grid import WaterGrid, cell_for
 
-# The classes of water and of the decks of bridges in the LAS specification.
-_WATER_CLASS, _DECK_CLASS = 9, 17
+# Classes of the LAS specification: of water, and of the decks of bridges.
+_WATER_CLASS = 9
+_DECK_CLASS = 17
 # Fields of the polygons. Levels are in the unit of the heights, all others in metres.
 FIELDS: dict[str, type] = {
     "ID": int, "KIND": str, "LEVEL": float, "LEVEL_LOW": float, "SPREAD": float,
