@@ -34,6 +34,7 @@ _SECTIONS = {
     "Deliveries": ("DeliveryChoice", "DeliveryOptions", "DeliveryWater"),
     "Remote point clouds": ("Download",),
     "Checkpoints": ("Accuracy", "CheckOptions"),
+    "Places to review": ("Review",),
     "Quality": ("QualityOptions",),
     "Comparison with a reference": ("AssessmentOptions",),
     "Compare settings": ("TrialOptions",),

@@ -86,7 +86,7 @@ DELIVERIES = {
         "What a survey hands over: points with classes for ground, water, noise and bridges, a"
         " terrain model with flat water and its breaklines, and the quality compared with a"
         " specification.",
-        rasters=("dtm", "hillshade", "dsm"),
+        rasters=("dtm", "hillshade", "dsm", "expected_error", "error_cause"),
         pictures=("hillshade", "dtm"),
         finest=0.5,
         water=True,
@@ -104,7 +104,7 @@ DELIVERIES = {
         " pictures show its relief.",
         rasters=(
             "dtm", "hillshade", "vat", "sky_view", "openness", "negative_openness",
-            "local_dominance", "relief", "red_relief", "confidence",
+            "local_dominance", "relief", "red_relief", "expected_error",
         ),
         pictures=("vat", "hillshade", WITH_BUILDINGS),
         finest=0.25,
@@ -129,7 +129,7 @@ DELIVERIES = {
         "Flood model",
         "The terrain as water meets it: bridges are removed, lakes and rivers are flat and come as"
         " polygons and breaklines, and buildings have a class.",
-        rasters=("dtm", "hillshade", "dsm", "confidence"),
+        rasters=("dtm", "hillshade", "dsm", "expected_error", "error_cause"),
         pictures=("hillshade", "dtm"),
         finest=0.5,
         above_ground=True,
@@ -142,7 +142,7 @@ DELIVERIES = {
         "Drone site",
         "A site from a drone: stockpiles and slopes are terrain, machines are not, in small cells,"
         " with contour lines and a measure of accuracy.",
-        rasters=("dtm", "hillshade", "dsm"),
+        rasters=("dtm", "hillshade", "dsm", "expected_error", "error_cause"),
         pictures=("hillshade", "dsm"),
         finest=0.1,
         values={"preset": "site"},

@@ -56,6 +56,10 @@ _ABOUT = {
     "breaklines": "Shores, islands and the middles of rivers, and breaklines that were given; with"
     " heights.",
     "checkpoints": "The checkpoints, with the errors of the ground points and the terrain model.",
+    "places": "Places of the terrain model to look at first, those with the largest product of"
+    " expected error and area first, with the reason.",
+    "review.html": "The expected error of the terrain model, and the ten places to look at first,"
+    " with pictures.",
     "quality.html": "Densities, voids, strips and classes of the survey, and the comparison with"
     " the specification.",
     "accuracy.html": "The errors at checkpoints and at ground points that were held out.",
@@ -102,6 +106,8 @@ def _figures(summary: DeliverySummary) -> Iterator[tuple[str, str]]:
         for name, density in densities.items():
             yield f"{name} in a square metre", "none" if density is None else f"{density:.2f}"
     yield "Cell size of the terrain model", summary.cell_text
+    if summary.review is not None:
+        yield "Expected error of the terrain, not measured", summary.review.text
     if summary.interval is not None:
         yield "Contour interval", summary.interval.in_words()
     if summary.water is not None:

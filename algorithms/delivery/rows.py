@@ -39,6 +39,9 @@ def rows_of(job: DeliveryJob) -> tuple[Row, ...]:
         Row("rasters", "terrain", 1.0, ("buildings",), on_ground, {"dsm": WITH_BUILDINGS},
             values=buildings),
         Row("rasters", "water", 0.3, ("water lines",), work=_write_water),
+        Row("review", "review", 0.3, ("expected_error", "error_cause"),
+            {"source": "expected_error", "dtm": "dtm", "cause": "error_cause"},
+            {"places": "places", "page": "review"}, "review"),
         Row("accuracy", "check", 1.5, ("check",), {"checkpoints": "checkpoints", "dtm": "dtm"},
             checked, "check"),
     )  # fmt: skip

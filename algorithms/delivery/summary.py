@@ -9,6 +9,7 @@ from ..tools.check.hold_out import AGREEMENT
 from ..tools.check.results import Check
 from ..tools.contours import Interval
 from ..tools.quality.figures import Quality
+from ..tools.review import ReviewSummary
 from ..tools.water.tool import WaterSummary
 
 _NO_CHECKPOINTS = "accuracy", "not measured: no checkpoints are given"
@@ -37,6 +38,7 @@ class DeliverySummary:
     # errors at checkpoints and at points that were held out
     check: Check | None = field(default=None, repr=False)
     water: WaterSummary | None = None  # that was found; None if none was looked for
+    review: ReviewSummary | None = None  # the expected error, and the places to look at
     interval: Interval | None = None  # the height between contour lines
 
     @property
@@ -60,6 +62,8 @@ class DeliverySummary:
         rows += self.accuracy()
         if self.quality is not None and self.quality.verdict:
             rows.append(("comparisons", self.quality.verdict))
+        if self.review is not None:
+            rows.append(("expected", self.review.text))
         return [*rows, ("cell size", self.cell_text), ("page", self.page)]
 
     def accuracy(self) -> list[tuple[str, str]]:

@@ -189,3 +189,24 @@ def _chains(
             now = steps[now]
         places = np.concatenate((begin[line], end[line[-1:]]))
         yield _Piece(int(first[start]), int(last[line[-1]]), [places])
+
+
+def rings_of(cells: np.ndarray) -> list[np.ndarray]:
+    """Return the outline of a connected region of cells, and then those of its holes, as closed
+    rings of row and column, float64 (n, 2), whose corners are cut; whole numbers are centres.
+    """
+    heights = np.pad(cells, 1) + 0.5
+    lines = [line.places - 1.0 for line in Isolines(1.0, heights.shape[1]).add(heights, 0, True)]
+    rings: list[np.ndarray] = []
+    for line in sorted(lines, key=lambda line: -abs(_area(line))):
+        # Without the corners that lie on straight lines.
+        on = np.diff(line, axis=0)
+        back = np.roll(on, 1, axis=0)
+        corners = line[:-1][back[:, 0] * on[:, 1] != back[:, 1] * on[:, 0]]
+        rings.append(np.concatenate((corners, corners[:1])))
+    return rings
+
+
+def _area(ring: np.ndarray) -> float:
+    row, column = ring.T
+    return float((row[:-1] * column[1:] - row[1:] * column[:-1]).sum() / 2.0)

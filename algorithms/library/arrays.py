@@ -61,8 +61,8 @@ _NO_CONSTRAINTS = dict.fromkeys(
 
 
 @dataclass(frozen=True)
-class ConfidenceCells(ParameterSet):
-    """The cells of the confidence."""
+class ErrorCells(ParameterSet):
+    """The cells of the expected error."""
 
     dtm_cell_size: float = parameter_of(TerrainModel, "dtm_cell_size")
 
@@ -215,28 +215,25 @@ def _of_terrain() -> Function:
     )  # fmt: skip
 
 
-def _of_confidence() -> Function:
+def _of_raster(name: str, about: str, gives: str) -> Function:
     """Return the function for one of the rasters, which needs few of the parameters."""
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Raster:
-        values = SimpleNamespace(**{**_NO_CONSTRAINTS, **vars(values)}, rasters="confidence")
-        cells = TerrainModel(
-            dtm_cell_size=ConfidenceCells.among(sets).dtm_cell_size, raster_nodata=None
-        )
-        return _terrain(values, [*sets, cells])["confidence"]
+        values = SimpleNamespace(**{**_NO_CONSTRAINTS, **vars(values)}, rasters=name)
+        cells = TerrainModel(dtm_cell_size=ErrorCells.among(sets).dtm_cell_size, raster_nodata=None)
+        return _terrain(values, [*sets, cells])[name]
 
     return Function(
-        "confidence",
-        "Tell how sure the terrain is in each cell, from 0 to 1.\nThe cells are those of the"
-        " confidence that terrain() makes.",
+        name,
+        f"{about}\nThe cells are those of the raster that terrain() makes.",
         POINTS,
         (
             GROUND, *ATTRIBUTES, *arguments.of_group("target"),
             *arguments.area("make the raster only in"), *LAST,
         ),
-        (GroundClasses, ConfidenceCells, Resources),
+        (GroundClasses, ErrorCells, Resources),
         run,
-        gives=Kind("Raster", "The confidence; NaN where it is not known."),
+        gives=Kind("Raster", f"{gives}; NaN where it is not known."),
     )  # fmt: skip
 
 
@@ -285,8 +282,17 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
         _CLASSES_KIND,
         _classes,
     ),
-    "confidence": _of_confidence,
+    "confidence": lambda: _of_raster(
+        "confidence",
+        "Tell how likely the terrain is right to 0.3 m in each cell, from 0 to 1.",
+        "The confidence",
+    ),
     "contours": of_contours,
+    "expected_error": lambda: _of_raster(
+        "expected_error",
+        "Tell how far the terrain may be off in each cell: 95 of 100 errors are smaller.",
+        "The expected error in the unit of the heights",
+    ),
     "ground": lambda: _of_classes(
         "ground", "Find the ground points.", _MASK_KIND("Which points are ground."), _ground_of
     ),

@@ -30,6 +30,11 @@ CONFIDENCE: Stops = (
 ERRORS: Stops = (
     (0.0, "#00ffffff"), (0.02, "#a0f7d9a0"), (0.25, "#f2934d"), (0.6, "#c23b3f"), (1.0, "#5a0a3c"),
 )  # fmt: skip
+# What makes the expected error large; nothing is transparent.
+CAUSES: Stops = (
+    (0.0, "#00ffffff"), (0.1429, "#3a7d44"), (0.2857, "#8c6d46"), (0.4286, "#b9a58a"),
+    (0.5714, "#7fb3d5"), (0.7143, "#1f4e8c"), (0.8571, "#d4523f"), (1.0, "#e3c94b"),
+)  # fmt: skip
 # Hollows and rises, with a transparent middle.
 RISES: Stops = (
     (0.0, "#21598f"), (0.3, "#8fbbd9"), (0.5, "#00f5f3ee"), (0.7, "#e3a07a"), (1.0, "#9c2f2b"),

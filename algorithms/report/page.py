@@ -183,6 +183,50 @@ def bars(name: str, counts: Sequence[int], colours: Sequence[str], ticks: Sequen
     )
 
 
+def line_chart(
+    name: str,
+    along: np.ndarray,
+    values: np.ndarray,
+    band: tuple[np.ndarray, np.ndarray],
+    colours: tuple[str, str],
+    units: tuple[str, str],
+) -> Html:
+    """Return a line of values, NaN for gaps, on a band between two others, with both scales."""
+    known = np.concatenate([some[np.isfinite(some)] for some in (*band, values)])
+    if not len(known):
+        return Html("")
+    low, high, length = float(known.min()), float(known.max()), float(along[-1]) or 1.0
+    x = along / length * _WIDTH
+    lower, upper, middle = (
+        _HEIGHT * (1.0 - (some - low) / max(high - low, 1e-6)) for some in (*band, values)
+    )
+    filled, line = [], []
+    for part in _runs(np.isfinite(lower + upper)):
+        there = np.concatenate((x[part], x[part][::-1]))
+        filled.append(_path(there, np.concatenate((upper[part], lower[part][::-1]))) + "Z")
+    for part in _runs(np.isfinite(middle)):
+        line.append(_path(x[part], middle[part]))
+    (area, stroke), (across, up) = colours[::-1], units
+    return _svg(
+        name,
+        (-10, -20, _WIDTH + 20, _HEIGHT + _BELOW + 20),
+        f'<path d="{"".join(filled)}" fill="{area}" fill-opacity="0.35"/>'
+        f'<path d="{"".join(line)}" fill="none" stroke="{stroke}" stroke-width="2"/>'
+        f'<g font-size="12" fill="#333">{_label(0, _HEIGHT + 18, f"0 to {length:.4g} {across}")}'
+        f"{_label(0, -6, f'{low:.2f} to {high:.2f} {up}')}</g>",
+    )
+
+
+def _runs(known: np.ndarray) -> list[slice]:
+    """Return where values are known without a gap."""
+    ends = np.flatnonzero(np.diff(np.concatenate(([False], known, [False]))))
+    return [slice(start, end) for start, end in ends.reshape(-1, 2).tolist()]
+
+
+def _path(x: np.ndarray, y: np.ndarray) -> str:
+    return "M" + "L".join(f"{a:.1f} {b:.1f}" for a, b in zip(x.tolist(), y.tolist()))
+
+
 class Mark(NamedTuple):
     """A place on a map, in the coordinates of the map, with what is shown under the mouse."""
 

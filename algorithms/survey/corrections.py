@@ -11,7 +11,7 @@ from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from .area import Area, Polygon
-from .shapes import Geometry, Place, located
+from .shapes import Geometry, Place, Shapes, located
 
 # Points that get this class by hand are classified again.
 _NEVER_CLASSIFIED = 0
@@ -31,7 +31,17 @@ class Corrections(Geometry):
     def __post_init__(self) -> None:
         if len(self.polygons) != len(self.classes):
             raise BareEarthError("Each polygon of the corrections must have a class.")
-        object.__setattr__(self, "classes", tuple(map(_class, self.classes)))
+        answered = [number for number, value in enumerate(self.classes) if not _is_none(value)]
+        if not answered:  # the class of the first one is refused
+            answered = list(range(len(self.classes)))
+        if len(answered) < len(self.classes):
+            # Polygons without a class are places that nobody has looked at yet.
+            kept = tuple(self.polygons[number] for number in answered)
+            if isinstance(self.polygons, Shapes):
+                kept = Shapes(kept, self.polygons.crs, self.polygons.source)
+            object.__setattr__(self, "polygons", kept)
+        values = tuple(_class(self.classes[number]) for number in answered)
+        object.__setattr__(self, "classes", values)
         if self.polygons:
             # This refuses corners that are not finite.
             Area(None, self.polygons)
@@ -47,6 +57,11 @@ class Corrections(Geometry):
             return np.full(part.count, -1, dtype=np.int16)
         numbers = Area(None, self.polygons).polygon_of(part)
         return np.array([-1, *self.classes], dtype=np.int16)[numbers]
+
+
+def _is_none(value: Any) -> bool:
+    """Return whether an attribute has no value."""
+    return value is None or value == "" or value != value
 
 
 def _class(value: Any) -> int:

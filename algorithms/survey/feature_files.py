@@ -105,10 +105,14 @@ def _by_pyogrio(
     most = None if target.suffix.lower() in _AT_ONCE else _FEATURES_A_STEP
     try:
         for some in _in_steps(features, most):
-            fields = [
-                np.array([feature.values[place] for feature in some], dtype=kinds[kind])
-                for place, kind in enumerate(layer.fields.values())
+            columns = [
+                [feature.values[place] for feature in some] for place in range(len(layer.fields))
             ]
+            fields = [
+                np.array([0 if kind is int and one is None else one for one in values], kinds[kind])
+                for values, kind in zip(columns, layer.fields.values())
+            ]
+            masks = [np.array([one is None for one in values], dtype=bool) for values in columns]
             shapes = np.empty(len(some), dtype=object)
             shapes[:] = [wkb_of(layer.kind, feature.corners) for feature in some]
             with warnings.catch_warnings():
@@ -116,7 +120,7 @@ def _by_pyogrio(
                 pyogrio.raw.write(
                     str(target), shapes, fields, list(layer.fields), crs=layer.wkt,
                     layer=_layer_of(target, layer), driver=FORMATS[target.suffix.lower()],
-                    geometry_type=layer.kind, append=count > 0,
+                    geometry_type=layer.kind, append=count > 0, field_mask=masks,
                 )  # fmt: skip
             count += len(some)
     except (BareEarthError, MemoryError):

@@ -57,6 +57,7 @@ FILE_TOOLS = {
         "measure density, voids and overlap of a survey, and compare it with a specification",
     ),
     "assess": Listed("assess", "compare a classified file with a reference"),
+    "review": Listed("review", "find the places of a terrain model to look at first"),
     "relief": Listed("relief", "make pictures of the relief of a terrain model"),
     "water": Listed("water.tool", "find lakes and rivers in classified points"),
 }

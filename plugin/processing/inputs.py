@@ -369,6 +369,7 @@ def layer_shapes(
     attributes, found, others = [attribute] if attribute else [], [], 0
     for feature in features_of(source, label, crs.value, context, attributes):
         value = feature[attribute] if attribute else None
+        value = None if compat.is_null(value) else value
         for part in feature.geometry().constParts():
             if isinstance(part, shape):
                 found.append((corners_of(part.segmentize()), value))

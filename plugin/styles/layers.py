@@ -73,6 +73,7 @@ _SURFACE = RASTERS["dsm"].look
 BARE = _drawn(mark("Without objects"), _SURFACE._replace(height=1, hides=0))
 WATER = Look(mark("Water"), 8, vectors.water)
 BREAKLINES = Look(mark("Breaklines"), 9, vectors.breaklines)
+PLACES = Look(mark("Places to review"), 9, vectors.places)
 # Beside those of `RASTERS`.
 _OTHERS = {
     "ERROR_MAP": _drawn(mark("Errors"), looks.Look(looks.Ramp(looks.ERRORS, 0.0, 1.0), 6, 1)),
@@ -84,6 +85,7 @@ _LOOKS: dict[str, Look | Callable[[Any], Look]] = {
     "without objects": BARE,
     "water": WATER,
     "breaklines": BREAKLINES,
+    "places": PLACES,
     "residuals": lambda found: residuals(found.scale),
 }
 

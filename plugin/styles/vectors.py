@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Callable
 
 from qgis.core import (
+    QgsEditorWidgetSetup,
     QgsFillSymbol,
     QgsLineSymbol,
     QgsMarkerSymbol,
@@ -18,6 +19,7 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QColor
 
+from ...algorithms.survey.corrections import CLASS_FIELD
 from ...algorithms.tools.check.results import COLOURS, NOT_COUNTED, limits_of
 from ...algorithms.tools.contours import INDEX, Interval
 from .. import compat
@@ -100,6 +102,18 @@ def water(layer: QgsVectorLayer) -> None:
         rule = f"\"GRADE\" = '{grade}'"
         root.appendChild(QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, words[grade]))
     layer.setRenderer(QgsRuleBasedRenderer(root))
+
+
+def places(layer: QgsVectorLayer) -> None:
+    """Draw places to review with a red outline, and let their class be chosen in the form."""
+    symbol = QgsFillSymbol.createSimple(
+        {"color": "194,59,63,40", "outline_color": "194,59,63", "outline_width": "0.5"}
+    )
+    layer.setRenderer(QgsSingleSymbolRenderer(symbol))
+    answers = [{tr("Ground"): 2}, {tr("Not ground"): 1}, {tr("Low noise"): 7}, {tr("Water"): 9}]
+    field = layer.fields().lookupField(CLASS_FIELD)
+    layer.setEditorWidgetSetup(field, QgsEditorWidgetSetup("ValueMap", {"map": answers}))
+    layer.setDisplayExpression('"RANK" || \': \' || "REASON"')
 
 
 def breaklines(layer: QgsVectorLayer) -> None:

@@ -141,7 +141,7 @@ def test_figures_are_those_of_the_file(files):
 def test_rasters_are_those_of_the_file(files, tmp_path):
     rasterio = pytest.importorskip("rasterio")
     raw, done = files
-    names = ("dtm", "dsm", "hillshade", "confidence", "red_relief")
+    names = ("dtm", "dsm", "hillshade", "expected_error", "red_relief")
     paths = {name: str(tmp_path / f"{name}.tif") for name in names}
     bare_earth.terrain(done, crs="EPSG:25832", raster_nodata=None, **paths)
     rasters = arrays.terrain(laspy.read(str(done)), rasters=names, crs=25832)
@@ -226,9 +226,10 @@ def test_features_are_those_of_the_files_functions(files, tmp_path):
     assert errors.ERROR.tolist() == wanted.ERROR.tolist() and errors.NAME.tolist() == list("abc")
     assert errors.crs.to_epsg() == 25832 and np.isfinite(errors.ERROR).any()
 
-    confidence = arrays.confidence(las, crs=crs, dtm_cell_size=2.0)
-    same = arrays.terrain(las, rasters="confidence", crs=crs, dtm_cell_size=2.0)["confidence"]
-    assert np.array_equal(confidence.values, same.values, equal_nan=True)
+    for name in ("confidence", "expected_error"):
+        one = getattr(arrays, name)(las, crs=crs, dtm_cell_size=2.0)
+        same = arrays.terrain(las, rasters=name, crs=crs, dtm_cell_size=2.0)[name]
+        assert np.array_equal(one.values, same.values, equal_nan=True)
 
 
 def test_water_is_that_of_the_file(tmp_path):
@@ -313,7 +314,7 @@ print(heights.mean() + 1.0, mask.sum())
 dtm = arrays.terrain(las, ground=mask, rasters=['dtm'])['dtm']
 print(dtm.transform[0], dtm.values.shape, arrays.check(las).hold_out_rmse)
 lines = arrays.contours(dtm, interval=2.0)
-print(lines.values['ELEV'], lines.to_geopandas(), arrays.confidence(las).values.max())
+print(lines.values['ELEV'], lines.to_geopandas(), arrays.expected_error(las).values.max())
 blocks = arrays.blocks(['tiles', 'https://example.org/a.copc.laz'], preset='hilly')
 print(blocks[0].extent[0], blocks[0]()['X'].mean(), arrays.terrain(blocks)['dtm'].values)
 arrays.ground(las, metod='slope')

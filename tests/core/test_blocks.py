@@ -14,7 +14,7 @@ from bare_earth.algorithms.engine import blocks as engine_blocks
 
 # Looks only a few metres round a point.
 NEAR = {"method": "slope", "preset": "whitebox", "search_radius": 3.0}
-RASTERS = ("dtm", "dsm", "hillshade", "confidence", "red_relief")
+RASTERS = ("dtm", "dsm", "hillshade", "expected_error", "red_relief")
 
 
 @pytest.fixture(scope="module")

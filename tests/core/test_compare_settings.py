@@ -78,7 +78,7 @@ def test_the_others_are_compared_with_the_first(made):
     assert 0.5 * roof.sum() < other["gained"] <= roof.sum()
     share = (HALL[1] - HALL[0]) * (HALL[3] - HALL[2]) / 80**2
     assert other["terrain_difference"] == pytest.approx(9 * share, rel=0.2)
-    assert 90 < first["confidence"] <= 100
+    assert 0.01 < first["expected_rmse"] < 0.5
 
 
 def test_the_page_needs_no_other_file_and_shows_all_settings(made):

@@ -38,21 +38,23 @@ QUICK = {"hold_out_share": None, "method": "slope", "dtm_cell_size": 2.0}
 SMALL = {"delivery": "drone-site", **QUICK}
 ALWAYS = {"index.html", "delivery.json", "accuracy.html", "quality.html", "dtm.tif",
           "hillshade.tif"}  # fmt: skip
+REVIEWED = {"expected_error.tif", "error_cause.tif", "places.gpkg", "review.html"}
 FILES = {
     "survey": {
-        "dsm.tif", "quality/pulse_density.tif", "quality/ground_density.tif", "quality/voids.tif",
-        "quality/overlap.tif", "quality/strip_differences.tif", "quality/surface_height.tif",
+        *REVIEWED, "dsm.tif", "quality/pulse_density.tif", "quality/ground_density.tif",
+        "quality/voids.tif", "quality/overlap.tif", "quality/strip_differences.tif",
+        "quality/surface_height.tif",
     },
     "archaeology": {
         "vat.tif", "sky_view.tif", "openness.tif", "negative_openness.tif", "local_dominance.tif",
-        "relief.tif", "red_relief.tif", "confidence.tif", "terrain_with_buildings.tif",
+        "relief.tif", "red_relief.tif", "expected_error.tif", "terrain_with_buildings.tif",
         "quality/low_vegetation.tif",
     },
     "forestry": {"dsm.tif", "chm.tif", "quality/low_vegetation.tif"},
     "flood": {
-        "dsm.tif", "confidence.tif", "contours.gpkg", "water.gpkg", "breaklines.gpkg",
+        *REVIEWED, "dsm.tif", "contours.gpkg", "water.gpkg", "breaklines.gpkg",
     },
-    "drone-site": {"dsm.tif", "contours.gpkg", "quality/ground_density.tif"},
+    "drone-site": {*REVIEWED, "dsm.tif", "contours.gpkg", "quality/ground_density.tif"},
 }  # fmt: skip
 
 

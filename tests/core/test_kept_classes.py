@@ -42,7 +42,7 @@ def town(tmp_path_factory):
 
 def outputs(folder):
     """Return the outputs of a run beside points."""
-    rasters = {name: folder / f"{name}.tif" for name in ("dtm", "confidence")}
+    rasters = {name: folder / f"{name}.tif" for name in ("dtm", "expected_error")}
     return {**rasters, "height_above_ground": True}
 
 
@@ -70,7 +70,7 @@ def test_many_files_give_the_roads_of_one(town, tmp_path, threads_for_processes)
         (tmp_path / name).mkdir()
     classify(town / "one.las", tmp_path / "one" / "out.las", **outputs(tmp_path / "one"))
     classify(town / "many", tmp_path / "many" / "out", **outputs(tmp_path / "many"))
-    for name in ("dtm", "confidence"):
+    for name in ("dtm", "expected_error"):
         one, many = (tmp_path / run / f"{name}.tif" for run in ("one", "many"))
         np.testing.assert_array_equal(heights_of(one), heights_of(many))
     whole = laspy.read(tmp_path / "one" / "out.las")
@@ -89,7 +89,7 @@ def test_roads_that_wait_on_disk_are_the_same(town, tmp_path):
         classify(town / "one.las", out, memory=memory, progress=progress, **how)
         waits = any("wait in a temporary file" in text for text in progress.infos)
         assert waits == (name == "disk")
-    for name in ("out.las", "dtm.tif", "confidence.tif"):
+    for name in ("out.las", "dtm.tif", "expected_error.tif"):
         memory, disk = ((tmp_path / run / name).read_bytes() for run in ("memory", "disk"))
         assert memory == disk, name
 

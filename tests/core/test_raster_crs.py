@@ -17,7 +17,8 @@ DATUMS = {
     'AXIS["Up",UP]]',
 }
 UNITS = {"dtm": "metre", "slope": "degree", "hillshade": None, "sky-view": None,
-         "openness": "degree", "confidence": None, "relief": "metre"}  # fmt: skip
+         "openness": "degree", "confidence": None, "expected-error": "metre",
+         "relief": "metre"}  # fmt: skip
 
 
 def written(path, text):

@@ -14,7 +14,7 @@ from bare_earth.algorithms.engine import blocks as blocks_module
 rasterio = pytest.importorskip("rasterio")
 pytest.importorskip("pyproj")
 
-NAMES = ("dtm", "dsm", "chm", "hillshade", "confidence")
+NAMES = ("dtm", "dsm", "chm", "hillshade", "expected_error")
 CRS = "EPSG:25832"
 
 

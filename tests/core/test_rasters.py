@@ -122,7 +122,7 @@ def test_blocks_of_any_size_give_the_same_rasters(tmp_path, monkeypatch, max_edg
 
 def _of_files(sources, folder, **options):
     folder.mkdir()
-    names = "dtm", "dsm", "chm", "hillshade", "confidence"
+    names = "dtm", "dsm", "chm", "hillshade", "expected_error"
     files = {name: folder / f"{name}.tif" for name in names}
     bare_earth.terrain(sources, **files, **{"threads": 2, "memory": 2.0, **options})
     return [_values(path) for path in files.values()]
@@ -164,7 +164,7 @@ def test_many_files_give_the_rasters_of_one_cell_by_cell(survey, small_blocks, t
     one = _of_files(survey / "one.laz", tmp_path / "one")
     many = _of_files(survey / "many", tmp_path / "many")
     assert _same(one, many)
-    names = "chm", "confidence", "dsm", "dtm", "hillshade"
+    names = "chm", "dsm", "dtm", "expected_error", "hillshade"
     assert sorted(os.listdir(tmp_path / "many")) == [f"{name}.tif" for name in names]
 
 
@@ -241,18 +241,20 @@ def test_a_cancel_leaves_nothing(survey, tmp_path, fraction):
     assert os.listdir(tmp_path / "out") == []
 
 
-def test_confidence_is_low_across_gaps_and_high_where_ground_is_dense(tmp_path):
-    found, x, y = _made(CLOUDS["lake"], tmp_path, names=("confidence",), cell=1.0)
+def test_the_expected_error_is_large_across_gaps_and_small_where_ground_is_dense(tmp_path):
+    found, x, y = _made(CLOUDS["lake"], tmp_path, names=("expected_error",), cell=1.0)
     within, beyond = _is_lake(x, y, -30.0), ~_is_lake(x, y, 30.0) & (np.abs(x) < 270)
-    assert np.nanmedian(found[within]) < 0.7 * np.nanmedian(found[beyond])
-    assert np.nanmin(found) >= 0.0 and np.nanmax(found) <= 1.0
+    assert np.nanmedian(found[within]) > 2.0 * np.nanmedian(found[beyond])
+    sure, _, _ = _made(CLOUDS["lake"], tmp_path, names=("confidence",), cell=1.0)
+    assert np.nanmedian(sure[within]) < np.nanmedian(sure[beyond])
+    assert np.nanmin(sure) >= 0.0 and np.nanmax(sure) <= 1.0
 
 
-def test_confidence_has_no_data_where_the_terrain_has_none(tmp_path):
+def test_the_expected_error_has_no_data_where_the_terrain_has_none(tmp_path):
     along, off = np.mgrid[0:200.0, 0:60.0].reshape(2, -1)
     stripe = _cloud((along + off) / 2, (along - off) / 2, np.zeros(len(along)))
     terrain, _, _ = _made(stripe, tmp_path, cell=1.0)
-    found, _, _ = _made(stripe, tmp_path, names=("confidence",), cell=1.0)
+    found, _, _ = _made(stripe, tmp_path, names=("expected_error",), cell=1.0)
     assert 0.3 < np.isnan(terrain).mean() < 0.7
     assert np.array_equal(np.isnan(found), np.isnan(terrain))
 

@@ -71,12 +71,12 @@ def test_of_ground_alone_there_is_no_surface_of_many_files(survey, tmp_path):
         bare_earth.classify(tmp_path / "in", tmp_path / "out", dsm=dsm, ground_only=True, **SLOPE)
 
 
-def test_the_confidence_of_a_run_that_classifies_is_that_of_its_output(survey, tmp_path):
+def test_the_expected_error_of_a_run_that_classifies_is_that_of_its_output(survey, tmp_path):
     # It is told from the points that are not ground as well.
     one, many, after = (tmp_path / f"{name}.tif" for name in ("one", "many", "after"))
-    bare_earth.classify(survey, tmp_path / "out.laz", confidence=one, **SLOPE)
-    bare_earth.classify(tmp_path / "in", tmp_path / "many", confidence=many, **SLOPE)
-    bare_earth.terrain(tmp_path / "out.laz", confidence=after)
+    bare_earth.classify(survey, tmp_path / "out.laz", expected_error=one, **SLOPE)
+    bare_earth.classify(tmp_path / "in", tmp_path / "many", expected_error=many, **SLOPE)
+    bare_earth.terrain(tmp_path / "out.laz", expected_error=after)
     assert one.read_bytes() == many.read_bytes() == after.read_bytes()
 
 

@@ -63,15 +63,15 @@ def test_each_cell_of_water_has_the_level_of_polygons_and_breaklines(
     assert share_at_level(water, dsm) > 0.97
 
 
-def test_the_confidence_of_ground_points_has_no_value_in_water(surveys, tmp_path):
+def test_the_expected_error_of_ground_points_has_no_value_in_water(surveys, tmp_path):
     source, _ = surveys("lake")
     water, dtm, sure = (tmp_path / name for name in ("water.gpkg", "dtm.tif", "sure.tif"))
     run("water", source, water)
-    run("terrain", source, "--dtm", dtm, "--confidence", sure, "--water", "automatic")
+    run("terrain", source, "--dtm", dtm, "--expected-error", sure, "--water", "automatic")
     ((_, rings),) = features(water)
     polygon = {"type": "Polygon", "coordinates": [ring.tolist() for ring in rings]}
-    with rasterio.open(dtm) as terrain, rasterio.open(sure) as confidence:
-        heights, found = terrain.read(1, masked=True), confidence.read(1, masked=True)
+    with rasterio.open(dtm) as terrain, rasterio.open(sure) as error:
+        heights, found = terrain.read(1, masked=True), error.read(1, masked=True)
         cells = [polygon], heights.shape, terrain.transform
         is_water, is_land = geometry_mask(*cells, invert=True), geometry_mask(*cells, True)
     assert not heights.mask[is_water].any() and found.mask[is_water].all()

@@ -117,7 +117,7 @@ def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
     assert results["POINT_COUNT"] == scene.count
     # What a model can give to its next step.
     assert Path(results["DTM"]).parent == Path(results["CONTOURS"]).parent
-    for name in ("OUTPUT", "DTM", "DSM", "HILLSHADE", "CONFIDENCE", "CONTOURS"):
+    for name in ("OUTPUT", "DTM", "DSM", "HILLSHADE", "EXPECTED_ERROR", "CONTOURS"):
         assert folder in Path(results[name]).parents and Path(results[name]).is_file(), name
     (group,) = root.findGroups()
     assert group.name() == "scene: Flood model"
@@ -125,7 +125,8 @@ def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
     expected = [
         "Contour lines",
         "Classes",
-        "Confidence",
+        "Places to review",
+        "Expected error",
         "Surface model",
         "Terrain model",
         "Hillshade",

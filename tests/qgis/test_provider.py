@@ -61,7 +61,8 @@ PARAMETERS = {
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "CHECKPOINTS", "Z_FIELD", "COVER_FIELD", "NAME_FIELD", "LIMIT",
         "DELIVERY_FOLDER",
-        "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF", "CONTOURS",
+        "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR", "ERROR_CAUSE", "CONFIDENCE",
+        "RELIEF", "CONTOURS",
     ],
     "bareearth:gridminimum": [
         "INPUT", "CRS", "EXTENT", "BOUNDARY",
@@ -122,7 +123,7 @@ PARAMETERS = {
         "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE", "PIT_FREE",
         "RASTER_PER_FILE", "THREADS", "MEMORY", "EXTENT", "BOUNDARY",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
-        "LIMIT", "DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE",
+        "LIMIT", "DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR", "ERROR_CAUSE", "CONFIDENCE",
     ],
     "bareearth:comparesettings": [
         "INPUT", "EXTENT", "CRS", "SETTINGS", "CONTEXT", "THREADS", "MEMORY", "LIMIT",
@@ -137,6 +138,9 @@ PARAMETERS = {
         "ACCURACY_CLASS", "SURVEY_ERROR", "MAX_EDGE", "MIN_CONFIDENCE", "HOLD_OUT",
         "GROUND_CLASSES", "OVERLAP", "VEGETATED", "CONFIDENCE", "EXTENT", "LIMIT", "OUTPUT",
         "REPORT",
+    ],
+    "bareearth:review": [
+        "INPUT", "DTM", "CAUSE", "LEAST_ERROR", "LEAST_AREA", "MOST_PLACES", "OUTPUT", "REPORT",
     ],
     "bareearth:fetch": [
         "ADDRESS", "EXTENT", "BOUNDARY", "RESOLUTION", "LIMIT", "SKIP_MISSING", "TO_UTM",
@@ -177,6 +181,8 @@ OUTPUTS = {
         "DSM",
         "CHM",
         "HILLSHADE",
+        "EXPECTED_ERROR",
+        "ERROR_CAUSE",
         "CONFIDENCE",
         "RELIEF",
         "CONTOURS",
@@ -205,6 +211,8 @@ OUTPUTS = {
         "DSM",
         "CHM",
         "HILLSHADE",
+        "EXPECTED_ERROR",
+        "ERROR_CAUSE",
         "CONFIDENCE",
         "GROUND_COUNT",
         "SURFACE_COUNT",
@@ -243,6 +251,7 @@ OUTPUTS = {
         "MEETS_SPECIFICATION",
         "VERDICT",
     ],
+    "bareearth:review": ["OUTPUT", "REPORT", "PLACE_COUNT", "EXPECTED_RMSE"],
     "bareearth:relief": [
         "OUTPUT_FOLDER",
         "HILLSHADE",

@@ -201,7 +201,12 @@ def test_level_land_is_not_coloured_by_its_noise(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "expected"),
-    [("confidence", (0.0, 1.0)), ("error_map", (0.0, 1.0)), ("chm", (0.0, None))],
+    [
+        ("confidence", (0.0, 1.0)),
+        ("expected_error", (0.0, None)),
+        ("error_map", (0.0, 1.0)),
+        ("chm", (0.0, None)),
+    ],
 )
 def test_ranges_that_mean_something_are_kept(tmp_path, name, expected):
     layer = raster(tmp_path / "r.tif", np.linspace(0.4, 0.6, 100).reshape(10, 10))

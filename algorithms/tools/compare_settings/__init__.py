@@ -35,11 +35,15 @@ class TrialSummary:
         """Return the figures as lines of text for a terminal or a log."""
         wide = max(len(one["name"]) for one in self.settings)
         return [
-            f"{one['name']:<{wide}}  {one['ground_share']:6.2f} % ground, confidence"
-            f" {one['confidence']:3.0f} %; {one['gained']:,} points more and {one['lost']:,}"
-            " less ground than the first"
+            f"{one['name']:<{wide}}  {one['ground_share']:6.2f} % ground, expected RMSE"
+            f" {_metres(one['expected_rmse'])}; {one['gained']:,} points more and"
+            f" {one['lost']:,} less ground than the first"
             for one in self.settings
         ]
+
+
+def _metres(value: float | None) -> str:
+    return "unknown" if value is None else f"{value:.2f} m"
 
 
 def compare(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple, Sequence
 
 import numpy as np
@@ -51,7 +52,7 @@ class Figures(NamedTuple):
     point_count: int
     ground_count: int
     ground_share: float  # percent
-    confidence: float  # mean, in percent
+    expected_rmse: float | None  # of the terrain, in metres; None without terrain
     gained: int  # points that are ground, but not with the first setting
     lost: int  # the reverse
     # mean absolute, in metres, from the first setting; None without terrain
@@ -74,7 +75,7 @@ def figures_of(
         len(ground),
         ground_count,
         100.0 * ground_count / len(ground),
-        100.0 * outcome.confidence,
+        outcome.expected_rmse if math.isfinite(outcome.expected_rmse) else None,
         int(np.count_nonzero(ground & ~before)),
         int(np.count_nonzero(before & ~ground)),
         float(apart.mean()) if apart.size else None,
@@ -145,15 +146,15 @@ def _table(window: Window, figures: Sequence[Figures]) -> tuple[Html, Html]:
             ]
             apart = one.terrain_difference
             differences.append("none" if apart is None else window.units.height(apart))
-        confidence = f"{one.confidence:.0f} %"
-        rows.append((one.label, percent(one.ground_share), confidence, *differences))
+        rmse = "none" if one.expected_rmse is None else window.units.height(one.expected_rmse)
+        rows.append((one.label, percent(one.ground_share), rmse, *differences))
     head = (
-        "Setting", "Ground", "Confidence", "More ground", "Less ground", "Terrain differs by",
+        "Setting", "Ground", "Expected RMSE", "More ground", "Less ground", "Terrain differs by",
     )  # fmt: skip
     return table(rows, head, "lrrrrr", is_named=True), paragraph(
         f"Of the {figures[0].point_count:,} points in the window. Ground: their share that"
-        " is ground. Confidence: the mean probability that the terrain is right, as each"
-        " setting's own points tell it. More, less ground: points that are ground here but not"
+        " is ground. Expected RMSE: of the terrain, as each setting's own points tell it;"
+        " nothing was measured. More, less ground: points that are ground here but not"
         " with the first setting, and the reverse. Terrain differs by: the mean of the absolute"
         " differences in height."
     )

@@ -16,8 +16,8 @@ from ...crs.measurable import require_measurable
 from ...crs.system import Crs
 from ...engine.memory import Resources
 from ...engine.visits import Work
-from ...grids.confidence import confidence
 from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+from ...grids.expected_error import expected_error, expected_rmse
 from ...las.cloud import PointCloud, survey_frame
 from ...las.crs_records import read_crs
 from ...las.lasfile import LasFile
@@ -35,7 +35,7 @@ _SIDE = 250.0  # metres: of the square that is shown if no window is given
 # can have below one metre. Larger cells have whole metres.
 _MOST_CELLS = 300
 _CELL_SIZES = (0.25, 0.5)
-# Distance in metres up to which points around the window are used for the confidence.
+# Distance in metres up to which points around the window are used for the expected error.
 _NEAR = 20.0
 
 
@@ -45,7 +45,7 @@ class Outcome(NamedTuple):
     setting: Setting
     ground: np.ndarray  # bool, (n,)
     terrain: np.ndarray  # float64, (rows, columns): metres, from north to south; NaN for none
-    confidence: float  # mean probability in the window that the terrain is right, 0 to 1
+    expected_rmse: float  # of the terrain in the window, in metres; NaN without ground
 
 
 @dataclass(frozen=True)
@@ -116,8 +116,8 @@ class Window:
         found = [step.applied(cloud, some) for cloud, some in zip(self.clouds, values)]
         classes = np.concatenate([cloud.classification for cloud in found])
         ground = classes == step.selection.to_class
-        sure = self._confidence(ground, selected)
-        return Outcome(setting, ground, self._terrain(ground), sure)
+        rmse = self._expected_rmse(ground, selected)
+        return Outcome(setting, ground, self._terrain(ground), rmse)
 
     def _terrain(self, ground: np.ndarray) -> np.ndarray:
         """Return the heights of the terrain, from north to south."""
@@ -129,18 +129,19 @@ class Window:
         heights = surface.heights(np.tile(x, len(y)), np.repeat(y, len(x)))
         return heights.reshape(self.shape)[::-1]
 
-    def _confidence(self, ground: np.ndarray, selected: np.ndarray) -> float:
-        """Return the mean confidence of the cells of 1 m in the window."""
+    def _expected_rmse(self, ground: np.ndarray, selected: np.ndarray) -> float:
+        """Return the RMSE that the points let expect, of the cells of 1 m in the window."""
+        if not ground.any():
+            return math.nan
         (x, y, _), (width, height) = self.points, self.sides
         near = (x >= -_NEAR) & (y >= -_NEAR) & (x <= width + _NEAR) & (y <= height + _NEAR)
         near &= selected
-        cells, values = confidence(self.points.take(near), ground[near])
+        cells, values = expected_error(self.points.take(near), ground[near])
         rows, columns = (
             slice(max(-first, 0), max(math.ceil(side / cells.size) - first, 0))
             for first, side in zip(cells.first, (height, width))
         )
-        inside = values[rows, columns]
-        return float(inside.mean()) if inside.size else 0.0
+        return expected_rmse(values[rows, columns])
 
 
 def read_points(inputs: Inputs, box: Box | None, context: float, progress: Progress) -> Window:

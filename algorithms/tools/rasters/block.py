@@ -14,8 +14,8 @@ from ...core.progress import SILENT, Progress
 from ...core.threads import over_parts, parts_of
 from ...grids.cell_window import CellWindow
 from ...grids.cells import Cells, are_inside, first_of_each
-from ...grids.confidence import CELL, confidence_in
 from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
+from ...grids.expected_error import CELL, Evidence, causes_of, error_of, evidence
 from ...grids.high_groups import HighGroups
 from ...grids.lattice_sample import LatticeSample
 from ...grids.morphology import within_square
@@ -266,10 +266,14 @@ def _highest(
     return (top, *places(top))
 
 
-def _confidence(
-    step: RasterStep, view: BlockView, window: CellWindow, progress: Progress
+def _of_evidence(
+    values_of: Callable[[Evidence], np.ndarray],
+    step: RasterStep,
+    view: BlockView,
+    window: CellWindow,
+    progress: Progress,
 ) -> _LayerCells:
-    """Return the confidence, computed in cells of 1 m, at the centre of each cell."""
+    """Return what evidence for errors, found in cells of 1 m, tells at the centre of each cell."""
     values = np.full(window.shape, np.nan, dtype=np.float32)
     if not view.points.count or window.is_empty:
         return values, None
@@ -284,7 +288,7 @@ def _confidence(
     (rows, of_rows), (columns, of_columns) = (
         np.unique(places[some], return_inverse=True) for places, some in zip((row, column), inside)
     )
-    known = confidence_in(cells, view.points.z, view.ground, rows, columns)
+    known = values_of(evidence(cells, view.points.z, view.ground, rows, columns))
     values[np.ix_(*inside)] = known[np.ix_(of_rows, of_columns)]
     return values, None
 
@@ -302,5 +306,6 @@ class Layer(NamedTuple):
 LAYERS = {
     "terrain": Layer(_terrain, 3.0, of_ground=True, of_all=False),
     "surface": Layer(_surface, 4.0, of_ground=False, of_all=True),
-    "confidence": Layer(_confidence, 1.5, of_ground=True, of_all=True),
+    "expected_error": Layer(partial(_of_evidence, error_of), 1.5, of_ground=True, of_all=True),
+    "error_cause": Layer(partial(_of_evidence, causes_of), 1.5, of_ground=True, of_all=True),
 }

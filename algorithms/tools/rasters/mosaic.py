@@ -32,7 +32,7 @@ class Mosaic:
     """A layer of all blocks of a survey, without values outside of these and of the outline."""
 
     # Cells of `water` have its level: in the terrain all of them, in the surface those without a
-    # point. The confidence has no value there.
+    # point. The expected error has no value there.
 
     def __init__(
         self,
@@ -72,7 +72,7 @@ class Mosaic:
         elif self._layer == "surface":
             has_top = joined(self._blocks, CONTENTS, strip, np.uint8(0)) >= TOP
             self._water.burn(heights, strip, has_top)
-        elif self._layer == "confidence":
+        elif self._layer in ("expected_error", "error_cause"):
             # It tells what the ground points are worth, and the terrain of these cells has none.
             heights[self._water.inside(strip)] = np.nan
         if self._outlines:

@@ -14,6 +14,7 @@ from typing import Callable, NamedTuple
 import numpy as np
 
 from ...grids.canopy import PIT_PASSES, canopy_height, without_pits
+from ...grids.expected_error import share_over
 from ...grids.hillshade import hillshade, multidirectional_hillshade, slope
 from ...grids.horizons import (
     Cells,
@@ -34,6 +35,9 @@ from ...grids.relief_smoothing import smoothing_reach, without_noise
 from ...rasters import looks
 from ...rasters.looks import Look, Picture, Ramp
 from .parameters import SurfaceModel, TerrainModel
+
+# Distance in metres from the true terrain up to which a cell is right, for the confidence.
+_RIGHT = 0.3
 
 
 class How(NamedTuple):
@@ -115,6 +119,10 @@ def _horizon(how: How) -> int:
     return max(horizon_reach(how.radius, how.cells))
 
 
+def _confidence(error: np.ndarray, terrain: np.ndarray, how: How) -> np.ndarray:
+    return np.where(np.isnan(terrain), np.nan, 1.0 - share_over(_RIGHT, error))
+
+
 _relief = partial(Raster, is_relief=True, is_smoothed=True)
 
 RASTERS = {
@@ -160,15 +168,37 @@ RASTERS = {
         reach=lambda how: 1,
         kind="uint8",
     ),
+    "expected_error": Raster(
+        "Expected error",
+        "How far the terrain model may be off: 95 of 100 errors are expected to be smaller. It is"
+        " large under dense trees, across gaps, at breaks and in low plants.",
+        "Expected error (95 %), {unit}",
+        lambda error, terrain, how: np.where(np.isnan(terrain), np.nan, error),
+        Look(Ramp(looks.ERRORS, low=0.0), 5, hides=1),
+        layers=("expected_error", "terrain"),
+        label="Expected error of the terrain model",
+        is_height=True,
+    ),
+    "error_cause": Raster(
+        "Cause of the expected error",
+        "What makes the expected error large: 1 cells without ground, as under plants, 2 rough"
+        " ground, 3 a slope, 4 a gap, 5 a gap beside a step, 6 low points that are not ground,"
+        " 7 low plants; 0 nothing.",
+        "Cause, 1 to 7",
+        lambda cause, terrain, how: np.nan_to_num(cause + 0 * terrain).astype(np.uint8),
+        Look(Ramp(looks.CAUSES, 0.0, 7.0), 5, hides=1),
+        layers=("error_cause", "terrain"),
+        kind="uint8",
+    ),
     "confidence": Raster(
         "Confidence",
-        "The probability, 0 to 1, that the terrain model is right: low under dense trees, across"
-        " gaps and at breaks.",
+        "The probability, 0 to 1, that the terrain model is at most 0.3 m off. It follows from the"
+        " expected error, which says more.",
         "Confidence, 0 to 1",
-        lambda sure, terrain, how: np.where(np.isnan(terrain), np.nan, sure),
+        _confidence,
         # From 0 to 1, so that also a map of sure cells has a colour.
         Look(Ramp(looks.CONFIDENCE, 0.0, 1.0), 5, hides=1),
-        layers=("confidence", "terrain"),
+        layers=("expected_error", "terrain"),
         label="Confidence of the terrain model",
     ),
     "relief": _relief(

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
-from ...grids.isolines import Isolines
+from ...grids.isolines import rings_of
 from ...grids.lines import along
 from ...grids.morphology import closing, dilation, erosion
 from ..rasters.constraints import STATION
@@ -312,7 +312,7 @@ class _Search:
         is_level = (region.water & region.level).mean() > 0.5 * region.water.mean()
         if is_misfit or (marks.share < _CLASSIFIED and is_level):
             certainty = min(certainty, _MOST_MISFITTING)
-        rings = _rings_of(region.water)
+        rings = [np.pad(ring, ((0, 0), (0, 1))) for ring in rings_of(region.water)]
         if levels.reaches is not None:
             # The level also changes between the corners.
             rings = [along(ring, STATION / cell) for ring in rings]
@@ -356,26 +356,3 @@ def _is_free(inner: np.ndarray, levels: Levels) -> bool:
     few = _MOST_ABOVE * len(inner)
     above, elsewhere = np.count_nonzero(off > _ABOVE), np.count_nonzero(np.abs(off) > _MOST_OFF)
     return bool(above <= few and elsewhere <= max(few, len(off) / 2.0))
-
-
-def _rings_of(cells: np.ndarray) -> list[np.ndarray]:
-    """Return the outline of a connected region, and then those of its holes, as closed rings of
-    row, column and 0, float64 (n, 3), whose corners are cut.
-    """
-    # Whole numbers are centres of cells.
-    heights = np.pad(cells, 1) + 0.5
-    lines = [line.places - 1.0 for line in Isolines(1.0, heights.shape[1]).add(heights, 0, True)]
-    rings: list[np.ndarray] = []
-    for line in sorted(lines, key=lambda line: -abs(_area(line))):
-        # Without the corners that lie on straight lines.
-        on = np.diff(line, axis=0)
-        back = np.roll(on, 1, axis=0)
-        corners = line[:-1][back[:, 0] * on[:, 1] != back[:, 1] * on[:, 0]]
-        ring = np.concatenate((corners, corners[:1]))
-        rings.append(np.pad(ring, ((0, 0), (0, 1))))
-    return rings
-
-
-def _area(ring: np.ndarray) -> float:
-    row, column = ring.T
-    return float((row[:-1] * column[1:] - row[1:] * column[:-1]).sum() / 2.0)

@@ -1,0 +1,271 @@
+"""The expected error of a terrain model: the metres that 95 of 100 errors do not exceed.
+
+It follows from labelled points alone, labelled by any method: seven pieces of evidence are found
+for each cell, and each makes the error larger by a factor from a table. ``python -m
+benchmarks.expected_error`` fits the table and measures how often the errors of real terrain models
+lie within what is expected; docs/check.md has the figures.
+"""
+
+from __future__ import annotations
+
+from typing import Iterator, Mapping, NamedTuple
+
+import numpy as np
+
+from ..core.points import Points
+from .cells import Cells
+from .gradient import length, steepness
+from .inpaint import inpaint
+from .morphology import within_square
+from .parts import parts_with
+
+# Side of the cells in metres. All values below were fitted with it.
+CELL = 1.0
+_NEAR = 2  # cells to each side that are near a cell
+_AROUND = 8  # cells to each side that are round it
+# Weight of the cells round a cell, where the weight of those near it is 1.
+_AROUND_SHARE = 0.05
+# Height in metres above the ground up to which a rejected point may be ground.
+_DOUBTFUL_HEIGHT = 1.0
+# Heights in metres above the ground between which rejected points are of low plants, in which the
+# ground may be too high.
+_LOW_PLANTS = (0.1, 0.3)
+_RELAXATIONS = 2
+_ROUGHEST = 2.0  # largest roughness that counts, m
+_STEEPEST = 8.0  # steepest step that counts, rise over run
+_TINY = 1e-6
+
+LEAST = 0.0792  # the expected error where no evidence makes it larger, m
+
+
+class Evidence(NamedTuple):
+    """The evidence for the error of each cell; grids of float32, shape (rows, columns)."""
+
+    holes: np.ndarray  # share of the cells with points within 2 m that have no ground
+    # mean distance, metres, of ground near the cell from means of 3 x 3 cells
+    roughness: np.ndarray
+    slope: np.ndarray  # rise over run of the ground, at most 8
+    gap: np.ndarray  # distance to the nearest ground cell in metres
+    # log(1 + gap) times the steepest rise over run of the ground within 8 m
+    gap_at_step: np.ndarray
+    # share of the cells with points within 8 m whose lowest point is not ground, although it lies
+    # below the ground or at most 1 m above it
+    doubtful: np.ndarray
+    # share of the points within 8 m that are not ground, and lie 0.1 to 0.3 m above it
+    low_plants: np.ndarray
+
+
+# Values of each piece of evidence, and the factors by which they make the error larger. Between two
+# values the logarithm of the factor is linear.
+Table = Mapping[str, "tuple[tuple[float, float], ...]"]
+FACTORS: Table = {
+    "holes": (
+        (0.0, 1.0),
+        (0.25, 1.18),
+        (0.5, 1.42),
+        (0.75, 1.7),
+        (1.0, 2.03),
+    ),
+    "roughness": (
+        (0.01, 1.0),
+        (0.02, 1.18),
+        (0.04, 1.54),
+        (0.08, 1.99),
+        (0.16, 2.58),
+        (0.32, 3.37),
+        (0.64, 4.26),
+    ),
+    "slope": (
+        (0.0, 1.0),
+        (0.1, 1.23),
+        (0.3, 1.46),
+        (0.7, 1.74),
+        (1.5, 2.11),
+    ),
+    "gap": (
+        (0.0, 1.0),
+        (1.0, 1.07),
+        (2.0, 1.26),
+        (4.0, 1.5),
+        (8.0, 1.77),
+        (16.0, 2.07),
+        (32.0, 2.4),
+    ),
+    "gap_at_step": (
+        (0.0, 1.0),
+        (0.25, 1.14),
+        (0.5, 1.37),
+        (1.0, 1.67),
+        (2.0, 2.05),
+        (4.0, 2.45),
+        (8.0, 2.86),
+    ),
+    "doubtful": (
+        (0.0, 1.0),
+        (0.02, 1.17),
+        (0.05, 1.35),
+        (0.1, 1.53),
+        (0.2, 1.69),
+    ),
+    "low_plants": (
+        (0.0, 1.0),
+        (0.02, 1.2),
+        (0.05, 1.36),
+        (0.1, 1.58),
+        (0.2, 1.9),
+    ),
+}
+# The usual factor of each piece of evidence on these tiles: what is larger is a cause.
+_USUAL = (1.25, 1.74, 1.22, 1.1, 1.14, 1.16, 1.11)
+# As the benchmark found them: the exponent of the Weibull distribution of the errors of a cell, and
+# the RMSE of a tile in relation to the root mean square of what is expected.
+SHAPE = 0.4
+RMSE_SHARE = 0.35
+# Share of the errors that are larger than the expected one.
+BEYOND = 0.05
+
+
+class ExpectedError(NamedTuple):
+    """The expected error of a terrain model."""
+
+    cells: Cells  # of 1 m over all points
+    values: np.ndarray  # float32, (rows, columns): metres
+
+
+def expected_error(points: Points, ground: np.ndarray) -> ExpectedError:
+    """Return the expected error of the terrain made of ground points, for cells of 1 m over all
+    points that took part.
+    """
+    cells = Cells.over(points, CELL)
+    pieces = evidence(cells, points.z, ground, *map(np.arange, cells.shape))
+    return ExpectedError(cells, error_of(pieces))
+
+
+def error_of(pieces: Evidence, factors: Table = FACTORS, least: float = LEAST) -> np.ndarray:
+    """Return the expected error in metres of pieces of evidence as float32, in their shape."""
+    logarithm = np.full(pieces.holes.shape, np.log(least), dtype=np.float32)
+    for one in _logarithms(pieces, factors):
+        logarithm += one
+    return np.exp(logarithm)
+
+
+def causes_of(pieces: Evidence) -> np.ndarray:
+    """Return which piece of evidence makes the error of each cell largest, compared with its usual
+    factor, as uint8: 1 for the first one of `Evidence`, 0 where none is larger than usual.
+    """
+    causes, most = np.zeros(pieces.holes.shape, dtype=np.uint8), np.float32(0.0)
+    for number, one in enumerate(_logarithms(pieces, FACTORS), start=1):
+        more = one - np.float32(np.log(_USUAL[number - 1]))
+        causes[more > most] = number
+        most = np.maximum(most, more)
+    return causes
+
+
+def _logarithms(pieces: Evidence, factors: Table) -> Iterator[np.ndarray]:
+    """Yield the logarithm of the factor of each piece of evidence."""
+    for name, values in pieces._asdict().items():
+        start, factor = np.array(factors[name]).T
+        yield np.interp(values, start, np.log(factor)).astype(np.float32)
+
+
+def share_over(limit: float, error: np.ndarray) -> np.ndarray:
+    """Return the probability that a cell is more than a limit off, both in metres."""
+    return BEYOND ** ((limit / error) ** SHAPE)
+
+
+def expected_rmse(error: np.ndarray) -> float:
+    """Return the RMSE of a terrain model in metres by the expected error of its cells, of which
+    those that are NaN are left out; NaN if all are.
+    """
+    known = error[np.isfinite(error)].astype(np.float64)
+    return RMSE_SHARE * float(np.sqrt(np.mean(known**2))) if len(known) else float("nan")
+
+
+def evidence(
+    cells: Cells, z: np.ndarray, ground: np.ndarray, rows: np.ndarray, columns: np.ndarray
+) -> Evidence:
+    """Return the evidence for the error of some rows and columns of cells of 1 m, both in ascending
+    order, from the heights in metres of all points, and which are ground.
+    """
+    from scipy import ndimage
+
+    if not ground.any():
+        # The ground is farther away than a block sees.
+        nothing = np.zeros((len(rows), len(columns)), dtype=np.float32)
+        far = np.full_like(nothing, np.inf)
+        return Evidence(far, nothing, nothing, far, nothing, nothing, nothing)
+    lowest, heights = cells.minimum(z), cells.minimum(z, np.flatnonzero(ground))
+    occupied, has_ground = np.isfinite(lowest), np.isfinite(heights)
+    surface = inpaint(heights, _RELAXATIONS, cells.first).astype(np.float32)
+    doubtful = occupied & ~has_ground & (lowest - surface < _DOUBTFUL_HEIGHT)
+    low_plants = _low_plants(cells, z, ground, surface)
+    gap = (_distances(has_ground, rows, columns) * cells.size).astype(np.float32)
+    holes, rough, doubts, plants = np.zeros((4, len(rows), len(columns)), dtype=np.float32)
+    holes[:] = 1.0
+    # Far from all points there are no means.
+    near_points = within_square(np.maximum, occupied.view(np.uint8), _AROUND).view(bool)
+    for part in parts_with(near_points, _AROUND + 1):
+        (some_rows, inner_rows), (some_columns, inner_columns) = (
+            _places_in(places, *sides)
+            for places, *sides in zip((rows, columns), part.core, part.inner)
+        )
+        there, has = part.around, has_ground[part.around]
+        near, around = (_mean(occupied[there], reach) for reach in (_NEAR, _AROUND))
+        points = _mean(cells.counts[there], _AROUND)
+        for grid, values in (
+            (holes, np.clip(1.0 - _mean(has, _NEAR) / np.maximum(near, _TINY), 0.0, 1.0)),
+            (rough, _roughness(surface[there], has)),
+            (doubts, _mean(doubtful[there], _AROUND) / np.maximum(around, _TINY)),
+            (plants, _mean(low_plants[there], _AROUND) / np.maximum(points, _TINY)),
+        ):
+            of_rows = values.take(inner_rows, axis=0)
+            grid[some_rows, some_columns] = of_rows.take(inner_columns, axis=1)
+    rise = np.minimum(steepness(surface, cells.size), np.float32(_STEEPEST))
+    slope = rise.take(rows, axis=0).take(columns, axis=1)
+    for axis, places in enumerate((rows, columns)):
+        steepest = ndimage.maximum_filter1d(rise, 2 * _AROUND + 1, axis, mode="nearest")
+        rise = steepest.take(places, axis)
+    return Evidence(holes, rough, slope, gap, np.log1p(gap) * rise, doubts, plants)
+
+
+def _low_plants(cells: Cells, z: np.ndarray, ground: np.ndarray, surface: np.ndarray) -> np.ndarray:
+    """Return the number of points in each cell that are not ground but just above it."""
+    low, high = _LOW_PLANTS
+    above = z - surface.ravel().take(cells.index)
+    return cells.counts_of(~ground & (above > low) & (above <= high))
+
+
+def _distances(which: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """Return the distances in cells of some rows and columns to the nearest of some cells."""
+    from scipy import ndimage
+
+    # Of distances, scipy makes several planes of all cells.
+    nearest = ndimage.distance_transform_edt(~which, return_distances=False, return_indices=True)
+    row, column = nearest.take(rows, axis=1).take(columns, axis=2)
+    north = np.subtract(row, rows[:, None], dtype=np.float64)
+    east = np.subtract(column, columns, dtype=np.float64)
+    return length(north, east)
+
+
+def _places_in(places: np.ndarray, core: slice, inner: slice) -> tuple[slice, np.ndarray]:
+    """Return which of ascending places lie in a part of the grid, and where in its margin."""
+    some = slice(*np.searchsorted(places, (core.start, core.stop)).tolist())
+    return some, places[some] - core.start + inner.start
+
+
+def _roughness(surface: np.ndarray, has_ground: np.ndarray) -> np.ndarray:
+    """Return how far the ground near each cell, or else round it, is from a smoothed surface."""
+    from scipy import ndimage
+
+    apart = np.abs(surface - ndimage.uniform_filter(surface, 3, mode="nearest"))
+    apart = np.where(has_ground, np.minimum(apart, np.float32(_ROUGHEST)), np.float32(0.0))
+    total = _mean(apart, _NEAR) + np.float32(_AROUND_SHARE) * _mean(apart, _AROUND)
+    count = _mean(has_ground, _NEAR) + np.float32(_AROUND_SHARE) * _mean(has_ground, _AROUND)
+    return total / np.maximum(count, np.float32(_TINY))
+
+
+def _mean(values: np.ndarray, reach: int) -> np.ndarray:
+    """Return the mean of the cells up to `reach` to each side; cells beyond the grid are 0."""
+    from scipy import ndimage
+
+    return ndimage.uniform_filter(values.astype(np.float32), 2 * reach + 1, mode="constant")

@@ -1,0 +1,246 @@
+"""Finds the places of a terrain model that a person should look at first."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Iterator
+
+import numpy as np
+
+from ...core.errors import BareEarthError
+from ...core.progress import SILENT, Progress
+from ...core.words import counted
+from ...crs.system import Crs, crs_of_wkt
+from ...crs.wkt import read_wkt
+from ...grids.expected_error import expected_rmse
+from ...rasters.content import Source
+from ...rasters.geotiff import Raster, read_raster
+from ...report.units import Units
+from ...survey.area import Area, Polygon
+from ...survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
+from ...survey.feature_files import FORMATS, Feature, Layer, feature_writer
+from ...survey.shapes import Place
+from ..declaration import RASTER, TERRAIN, FileTool, Input, Output
+from .page import review_html
+from .places import PlaceToReview, Rasters, Review, places_of
+
+# Heights are in the unit of the raster, errors and areas in metres and square metres.
+FIELDS: dict[str, type] = {
+    "RANK": int, "REASON": str, "ERROR": float, "AREA": float, "SHARE": float, "LOW": float,
+    "HIGH": float, CLASS_FIELD: int,
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class ReviewSummary:
+    """The places to review."""
+
+    cell_count: int  # with an expected error
+    expected_rmse: float  # metres, of all these cells
+    limit: float  # metres, the least expected error of places
+    over_count: int  # cells over it
+    place_count: int  # that were written
+    left_out: int  # further places, which weigh less
+    answered: int  # places that were answered before
+    share: float  # of the sum of error times area over the limit, in the places written
+
+    @property
+    def text(self) -> str:
+        """What was found, in a sentence."""
+        more = f" {counted(self.left_out, 'place')} of less weight were left out." * (
+            self.left_out > 0
+        )
+        done = f" {counted(self.answered, 'place')} had an answer." * (self.answered > 0)
+        return (
+            f"{counted(self.place_count, 'place')} to review. The expected RMSE of the terrain"
+            f" model is {self.expected_rmse:.2f} m; {self.over_count / self.cell_count:.1%} of its"
+            f" cells have an expected error over {self.limit:.2f} m.{more}{done}"
+        )
+
+
+def review(
+    source: Source,
+    places: Path | None = None,
+    page: Path | None = None,
+    dtm: Source | None = None,
+    cause: Source | None = None,
+    corrections: Corrections = NO_CORRECTIONS,
+    how: Review = Review(),
+    progress: Progress = SILENT,
+) -> ReviewSummary:
+    """Write the places of a terrain model with a large expected error, which is a raster, as
+    polygons and on a page.
+    """
+    raster = read_raster(source, progress=progress)
+    raster.tell(progress)
+    rasters = _rasters(raster, dtm, cause)
+    units = Units(raster.frame.horizontal_unit, raster.frame.vertical_unit)
+    known = np.isfinite(rasters.error)
+    if not known.any():
+        raise BareEarthError(f"{source} has no expected error. Give the raster of one.")
+    progress(0.3)
+    answered = corrections.located(_place_of(raster), progress).polygons
+    found = places_of(rasters, how, units)
+    done = [place for place in found if _is_answered(place, raster, answered)]
+    left = [place for place in found if place not in done]
+    chosen = left[: how.most_places]
+    progress(0.7)
+    limit = how.limit(rasters.error)
+    total = sum(place.weight for place in left)
+    summary = ReviewSummary(
+        int(np.count_nonzero(known)),
+        expected_rmse(rasters.error),
+        limit,
+        int(np.count_nonzero(rasters.error[known] > limit)),
+        len(chosen),
+        len(left) - len(chosen),
+        len(done),
+        sum(place.weight for place in chosen) / total if total else 1.0,
+    )
+    if places is not None:
+        facts = read_wkt(raster.frame.wkt) if raster.frame.wkt else None
+        layer = Layer("places", "Polygon", FIELDS, raster.frame.wkt, facts and facts.epsg)
+        features = _features(chosen, raster, total)
+        feature_writer(places)(places, features, layer, progress.part(0.7, 0.9))
+    if page is not None:
+        figures = [
+            ("Expected RMSE", units.height(summary.expected_rmse)),
+            (
+                f"Cells over {units.height(limit)}",
+                f"{summary.over_count:,} of {summary.cell_count:,}",
+            ),
+            ("Places", f"{summary.place_count:,} written, {summary.left_out:,} left out"),
+            ("Places with an answer", f"{summary.answered:,}"),
+        ]
+        html = review_html(Path(str(source)).name, rasters, chosen, figures, units)
+        page.write_text(html, encoding="utf-8")
+    progress(1.0)
+    progress.info(summary.text)
+    return summary
+
+
+def _rasters(raster: Raster, dtm: Source | None, cause: Source | None) -> Rasters:
+    """Return the values of rasters that must have the same cells."""
+    width, height = raster.cell_metres
+    if not np.isclose(width, height):
+        raise BareEarthError(f"{raster.source} has cells that are no squares. Resample it.")
+    values = [None if one is None else read_raster(one) for one in (dtm, cause)]
+    for name, one in zip((dtm, cause), values):
+        if one is not None and (one.whole, one.geotransform) != (raster.whole, raster.geotransform):
+            raise BareEarthError(
+                f"{name} has other cells than {raster.source}. Make both in one run of the same"
+                " tool."
+            )
+    terrain, causes = values
+    return Rasters(
+        raster.heights * np.float32(raster.frame.vertical_unit),
+        None if terrain is None else terrain.heights * np.float32(terrain.frame.vertical_unit),
+        None if causes is None else np.nan_to_num(causes.heights),
+        width,
+    )
+
+
+def _corners(places: np.ndarray, raster: Raster) -> np.ndarray:
+    """Return x and y of rows and columns of a raster, (n, 2); the centres of cells are whole."""
+    x, a, b, y, c, d = raster.geotransform
+    row, column = places.T + 0.5
+    return np.column_stack((x + a * column + b * row, y + c * column + d * row))
+
+
+def _is_answered(place: PlaceToReview, raster: Raster, answered: tuple[Polygon, ...]) -> bool:
+    """Return whether the worst cell of a place lies in a polygon with an answer."""
+    if not answered:
+        return False
+    x, y = _corners(np.array([place.worst]), raster).T
+    return bool(Area(None, answered).contains(x, y)[0])
+
+
+def _place_of(raster: Raster) -> Place:
+    """Return the CRS of a raster, for polygons in another one."""
+    crs = crs_of_wkt(raster.frame.wkt) if raster.frame.wkt else None
+    return Place(str(raster.source), crs or Crs())
+
+
+def _features(places: list[PlaceToReview], raster: Raster, total: float) -> Iterator[Feature]:
+    """Yield the places as polygons."""
+    up = raster.frame.vertical_unit
+    for rank, place in enumerate(places, start=1):
+        rings: Polygon = tuple(_corners(ring, raster) for ring in place.rings)
+        yield Feature(
+            (
+                rank, place.reason, round(place.error, 3), round(place.area, 2),
+                round(place.weight / total, 5), place.low / up, place.high / up, None,
+            ),
+            rings,
+        )  # fmt: skip
+
+
+TOOL = FileTool(
+    work=review,
+    sets=(Review,),
+    inputs=(
+        Input(
+            "source",
+            "raster",
+            help="the expected error of a terrain model, as the command terrain makes it",
+            label="Expected error",
+            field_help="The raster of the expected error, as *Terrain, surface and canopy height"
+            " models* makes it.",
+            named="INPUT",
+        ),
+        Input(
+            "dtm",
+            "raster",
+            help="the terrain model of the same run: for heights, pictures and profiles",
+            label="Terrain model",
+            field_help="The terrain model of the same run: for heights, pictures and profiles.",
+            optional=True,
+        ),
+        Input(
+            "cause",
+            "raster",
+            help="the cause of the expected error, of the same run: for the reason of each place",
+            label="Cause of the expected error",
+            field_help="The cause of the expected error, of the same run: for the reason of each"
+            " place.",
+            optional=True,
+        ),
+        Input("corrections", "corrections"),
+    ),
+    outputs=(
+        Output(
+            "places",
+            "features",
+            help=f"the places to write ({', '.join(FORMATS)}); all but .geojson need pyogrio",
+            label="Places to review",
+            named="OUTPUT",
+            is_main=True,
+            look="places",
+        ),
+        Output(
+            "page",
+            "page",
+            help="a page (.html) with the ten places to look at first",
+            label="Page",
+            named="REPORT",
+        ),
+    ),
+    command="review",
+    command_about="Finds the places of a terrain model that a person should look at first: where"
+    " the expected error is large, those with the largest product of error and area first, with"
+    " the reason. Fill in their attribute 'class', and give them to classify as corrections; places"
+    " that corrections answer are left out.",
+    identifier="review",
+    title="Places to review",
+    section="Checks",
+    summary="Finds where a terrain model may be wrong: what to look at first, and why.",
+    about="Finds the places of a terrain model that a person should look at first: where the"
+    " expected error is large, those with the largest product of error and area first, with the"
+    " reason. Step through them with the attribute form, fill in the attribute *class* (2 is"
+    " ground, 1 is not), and give the layer to *Classify ground points* as corrections.",
+    page="check#places-to-review",
+    words=(RASTER, TERRAIN, "review,error,uncertainty,confidence,quality"),
+    run_name="places to review",
+    numbers=(("PLACE_COUNT", "Places"), ("EXPECTED_RMSE", "Expected RMSE, m")),
+)

@@ -1,0 +1,195 @@
+"""The places of a terrain model that a person should look at first, by its expected error."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Iterator, NamedTuple
+
+import numpy as np
+
+from ...core.parameters import ParameterSet, parameter
+from ...grids.expected_error import Evidence
+from ...grids.isolines import rings_of
+from ...report.units import Units
+
+# Places end at the lines of a square grid of this side in metres, so that one can be looked at as a
+# whole: a forest would be a single place.
+_WIDEST = 100.0
+# Share of the cells that are no places, and the least error of places in metres, if the user gives
+# no limit.
+_USUAL = 0.95
+_LEAST = 0.3
+# Cells of no value, or beyond the raster, beside a place: it lies at the border of the survey.
+_BORDER = "at the border of the survey"
+# By the piece of evidence with the largest share in the expected error; {rise} is the difference
+# between the lowest and the highest cell, {width} that of the gap, {error} the expected error.
+_REASONS = {
+    "holes": "hardly any ground under plants or on roofs, {rise} of relief",
+    "roughness": "rough ground: a step, rocks or plants that were kept as ground, {rise} of relief",
+    "slope": "steep ground, {rise} of relief",
+    "gap": "a gap of {width} without ground",
+    "gap_at_step": "a gap of {width} without ground, beside a step or a slope",
+    "doubtful": "plants or ground: low points were not taken for ground, up to {error} off",
+    "low_plants": "low plants: the ground may be up to {error} too high",
+}
+_UNKNOWN = "a large expected error, {rise} of relief"
+
+
+@dataclass(frozen=True)
+class Review(ParameterSet):
+    """Which places are worth a look."""
+
+    least_error: float | None = parameter(
+        None,
+        kind="number",
+        label="Least expected error",
+        unit="m",
+        minimum=0.01,
+        maximum=100.0,
+        empty="automatic",
+        help="Cells with a larger expected error belong to places. Empty: the error that 95 of 100"
+        " cells do not exceed, at least 0.3 m, so that there are not more places than one can look"
+        " at.",
+    )
+    least_area: float = parameter(
+        4.0,
+        label="Least area",
+        unit="m²",
+        minimum=0.0,
+        maximum=1e6,
+        help="Smaller places are left out.",
+    )
+    most_places: int = parameter(
+        200,
+        label="Most places",
+        minimum=1,
+        maximum=100_000,
+        help="The places with the largest product of expected error and area are written.",
+    )
+
+    def limit(self, error: np.ndarray) -> float:
+        """Return the least expected error in metres, given those of all cells."""
+        if self.least_error is not None:
+            return self.least_error
+        return max(float(np.nanquantile(error, _USUAL)), _LEAST)
+
+
+class Rasters(NamedTuple):
+    """What places are found in; float32 (rows, columns), in metres, NaN for no value."""
+
+    error: np.ndarray  # the expected error
+    terrain: np.ndarray | None  # the terrain model
+    cause: np.ndarray | None  # 1 for the first piece of `Evidence`, 0 for none
+    cell: float  # side of a cell in metres
+
+
+class PlaceToReview(NamedTuple):
+    """A connected place; rows and columns are those of the raster, from north and west."""
+
+    window: tuple[slice, slice]
+    cells: np.ndarray  # bool, those of the window that belong to it
+    weight: float  # the sum of expected error times area, m3
+    worst: tuple[int, int]  # row and column of the cell with the largest expected error
+    error: float  # there, in metres
+    area: float  # m2
+    low: float  # lowest and highest cell of the terrain model in metres; NaN without one
+    high: float
+    reason: str
+
+    @property
+    def rings(self) -> list[np.ndarray]:
+        """The outline and those of the holes, row and column, (n, 2); the centres of cells are
+        whole numbers.
+        """
+        rows, columns = self.window
+        return [ring + np.array((rows.start, columns.start)) for ring in rings_of(self.cells)]
+
+
+def places_of(rasters: Rasters, how: Review, units: Units) -> list[PlaceToReview]:
+    """Return the places with a large expected error, those with the largest product of error and
+    area first.
+    """
+    found = [
+        _place(rasters, window, cells, units)
+        for window, cells in _regions(rasters, how.limit(rasters.error))
+        if np.count_nonzero(cells) * rasters.cell**2 >= how.least_area
+    ]
+    return sorted(found, key=lambda place: (-place.weight, place.worst))
+
+
+def _regions(rasters: Rasters, least: float) -> Iterator[tuple[tuple[slice, slice], np.ndarray]]:
+    """Yield the connected regions of cells with a larger expected error, as window and mask."""
+    from scipy import ndimage
+
+    side = max(math.ceil(_WIDEST / rasters.cell), 1)
+    for row in range(0, rasters.error.shape[0], side):
+        for column in range(0, rasters.error.shape[1], side):
+            square = rasters.error[row : row + side, column : column + side]
+            with np.errstate(invalid="ignore"):  # NaN is not larger
+                labels, _ = ndimage.label(square > least, np.ones((3, 3)))
+            for number, (rows, columns) in enumerate(ndimage.find_objects(labels), start=1):
+                window = (
+                    slice(row + rows.start, row + rows.stop),
+                    slice(column + columns.start, column + columns.stop),
+                )
+                yield window, labels[rows, columns] == number
+
+
+def _place(
+    rasters: Rasters, window: tuple[slice, slice], cells: np.ndarray, units: Units
+) -> PlaceToReview:
+    """Return a place with its figures and the reason."""
+    errors = np.where(cells, rasters.error[window], 0.0).astype(np.float64)
+    row, column = np.unravel_index(errors.argmax(), errors.shape)
+    low = high = math.nan
+    if rasters.terrain is not None:
+        heights = rasters.terrain[window][cells]
+        known = heights[np.isfinite(heights)]
+        if len(known):
+            low, high = float(known.min()), float(known.max())
+    return PlaceToReview(
+        window,
+        cells,
+        float(errors.sum()) * rasters.cell**2,
+        (window[0].start + int(row), window[1].start + int(column)),
+        float(errors[row, column]),
+        float(np.count_nonzero(cells)) * rasters.cell**2,
+        low,
+        high,
+        _reason(rasters, window, cells, errors, high - low, units),
+    )
+
+
+def _reason(
+    rasters: Rasters,
+    window: tuple[slice, slice],
+    cells: np.ndarray,
+    errors: np.ndarray,
+    rise: float,
+    units: Units,
+) -> str:
+    """Return in words why the expected error of a place is large."""
+    from scipy import ndimage
+
+    words = _UNKNOWN
+    if rasters.cause is not None:
+        causes = np.where(cells, rasters.cause[window], 0).astype(np.intp)
+        shares = np.bincount(causes.ravel(), errors.ravel())
+        number = int(shares.argmax())
+        if number:
+            words = _REASONS[Evidence._fields[number - 1]]
+    if math.isnan(rise):
+        words = words.replace(", {rise} of relief", "")
+    inner = ndimage.distance_transform_edt(np.pad(cells, 1)).max()
+    said = words.format(
+        rise=units.height(rise),
+        width=units.length(round(2.0 * float(inner) * rasters.cell)),
+        error=units.height(float(errors.max())),
+    )
+    around = tuple(slice(max(part.start - 1, 0), part.stop + 1) for part in window)
+    is_border = any(
+        part.start == 0 or part.stop == whole for part, whole in zip(window, rasters.error.shape)
+    )
+    is_border = is_border or bool(np.isnan(rasters.error[around]).any())
+    return f"{said}, {_BORDER}" if is_border else said
