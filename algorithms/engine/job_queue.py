@@ -18,9 +18,9 @@ from .memory import GIGABYTE
 from .summary import JobCost
 from .workers import Running, Workers, scheduler_gone
 
-# A point takes so many times as long in a block as for reading and writing.
+# The time of a point in a block, in proportion to that of reading and writing it.
 _BLOCK_WEIGHT = 2.0
-# A message names at most so many files.
+# Most files that a message names.
 _MOST_NAMES = 3
 _DIED = (
     "The process that worked on it ended unexpectedly, perhaps because memory was short. Allow"

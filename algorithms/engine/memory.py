@@ -16,8 +16,8 @@ from ..core.threads import available_cpus
 GIGABYTE = 1 << 30
 _UNKNOWN = 4 * GIGABYTE
 _SHARE = 0.5
-# Freed memory is given back after so many seconds of processor time if memory is short: on a busy
-# machine no more often than else, as it must be cleared again before it is used.
+# Seconds of processor time after which freed memory is given back if memory is short: on a busy
+# machine not more often than on others, as it must be cleared again before it is used.
 _SECONDS = 0.4
 _MEMINFO = Path("/proc/meminfo")
 _STATUS = Path("/proc/self/status")

@@ -20,7 +20,7 @@ from .jobs import Job, JobResult, Share, attempt
 from .manifest import folders_of
 from .memory import Resources, give_back, share_one_heap
 
-# When the user cancels, jobs have so many seconds to stop by themselves.
+# Seconds that jobs have to stop by themselves when the user cancels.
 _PATIENCE = 0.7
 
 

@@ -20,9 +20,9 @@ from .lasfile import LasFile
 _POINTS_A_PART = 1 << 15
 # Points of the parts of a cloud.
 _PART = 1 << 19
-# At most so many times the wanted points are read in one go.
+# Points that are read in one go, at most, for each point that is wanted.
 _LOOSE = 4
-# The origin of the frame of a cloud is a multiple of so many units of the CRS.
+# Units of the CRS: the origin of the frame of a cloud is a multiple of this.
 _ORIGINS = 10_000.0
 # Offsets may differ from a multiple of the scale by this share of it, due to rounding.
 _WHOLE = 0.01

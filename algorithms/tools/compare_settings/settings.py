@@ -13,7 +13,7 @@ from ...filters.method import Method
 from ...survey.files import Inputs
 from ..ground.method import TileMethod
 
-# By default at most so many metres are read round the window.
+# Metres round the window that are read by default, at most.
 USUAL_CONTEXT = 50.0
 
 

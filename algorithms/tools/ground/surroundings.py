@@ -15,8 +15,8 @@ from ...grids.cells import Cells, keep_spacing
 
 # The box that all points are in.
 EVERYWHERE = (-np.inf, -np.inf, np.inf, np.inf)
-# All points up to so many metres from a block are used. That is farther than any rule looks that
-# counts points.
+# Metres from a block up to which all points are used: farther than any rule looks that counts
+# points.
 _NEAR = 40.0
 # Side in metres of the cells of whose points only the lowest is used farther away. The cells of the
 # filters are made of such cells, so that their lowest points stay.

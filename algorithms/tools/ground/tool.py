@@ -31,7 +31,7 @@ from .step import LabelGround
 
 @dataclass(frozen=True)
 class ShownTiles(TileOutput):
-    """The same with an overview by default, since QGIS shows the tiles at once."""
+    """How tiles are written, with an overview by default, since QGIS shows them at once."""
 
     overview: bool = parameter_of(TileOutput, "overview", default=True)
 

@@ -30,7 +30,7 @@ from .mosaic import Mosaic, gathered_strips
 from .outlines import CellContents, Outlines, mosaics_of
 from .rows import RASTERS, How, Raster
 
-# Cells up to so many metres from the area are made as well, because the surroundings decide which
+# Metres from the area up to which cells are made as well, because the surroundings decide which
 # gaps lie inside the survey.
 AROUND_AREA = 1000.0
 # Writes a raster, given what `write_geotiff` is given.
