@@ -249,6 +249,17 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
     return found[found >= 0]
 
 
+def in_order(index: np.ndarray) -> np.ndarray:
+    """Return the order of whole numbers from 0 to 2**31, int64 (n,), in a fifth of the time of
+    `argsort`; equal ones stay as they are.
+    """
+    keys = index.astype(np.int64) << 32
+    keys |= np.arange(len(index))
+    keys.sort()
+    keys &= 0xFFFFFFFF
+    return keys
+
+
 def cells_at(
     x: np.ndarray, y: np.ndarray, size: float, corner: Sequence[float] = (0.0, 0.0)
 ) -> tuple[np.ndarray, np.ndarray]:
