@@ -99,8 +99,9 @@ def share_one_heap() -> None:
     """Let all threads of this process, which is ours, take memory from one heap of glibc."""
     # Otherwise there is one for each thread, and each keeps what was freed in it.
     mallopt = _of_c("mallopt")
-    for option in _HEAP if mallopt else ():
-        mallopt(*option)
+    if mallopt is not None:
+        for option in _HEAP:
+            mallopt(*option)
 
 
 def give_back() -> None:
@@ -218,7 +219,8 @@ def _windows_free() -> int | None:
         )
 
     status = Status(length=ctypes.sizeof(Status))
-    if not ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status)):
+    windows = ctypes.windll  # type: ignore[attr-defined]
+    if not windows.kernel32.GlobalMemoryStatusEx(ctypes.byref(status)):
         return None
     return int(status.free)
 

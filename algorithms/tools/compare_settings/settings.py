@@ -32,7 +32,8 @@ class Setting(NamedTuple):
     @property
     def parameters(self) -> ParameterSet:
         """The parameters of the method."""
-        return self.method.parameters(preset=self.preset)
+        parameters: Any = self.method.parameters
+        return parameters(preset=self.preset)
 
     def commands(self, paths: Inputs) -> tuple[str, str]:
         """Return what runs the setting on all points of a file, or inputs of a survey: in a shell,

@@ -176,8 +176,9 @@ class BlockMessages(Notes):
 def tell(progress: Progress, blocks: list[BlockMessages]) -> None:
     """Report each message of the blocks once, and the number of blocks that failed."""
     failed = [block for block in blocks if block.failure is not None]
-    if failed and len(failed) == len(blocks):
-        raise failed[0].failure
+    failures = [block.failure for block in blocks if block.failure is not None]
+    if failures and len(failures) == len(blocks):
+        raise failures[0]
     messages = collections.Counter(m for block in blocks for m in dict.fromkeys(block.messages))
     for block in blocks:
         for stage, seconds in block.seconds.items():
