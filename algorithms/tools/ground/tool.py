@@ -209,7 +209,6 @@ TOOL = MapTool(
 )  # fmt: skip
 TILES_TOOL = replace(
     TOOL,
-    is_survey=True,
     points=Input("input", "files", label="Point clouds"),
     dialog_inputs=(replace(_AREA, advanced=True), _CORRECTIONS, _CONSTRAINTS, _TARGET),
     dialog_outputs=_of_tiles,
