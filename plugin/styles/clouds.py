@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Callable, Iterable
 
 import numpy as np
@@ -22,6 +23,7 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QColor, QPainter
 
+from ...algorithms.las.copc_sample import sample_of
 from ...algorithms.rasters.looks import HEIGHTS, Stops
 from .. import compat
 from ..i18n import mark, tr
@@ -142,14 +144,8 @@ def by_height(
 
 
 def _usual_height(path: str, attribute: str) -> float:
-    """Return a height above nearly all points in the uppermost node of a COPC file that this plugin
-    wrote, which is not checked.
-    """
-    import laspy
-
-    with laspy.CopcReader.open(path) as reader:
-        points = reader.query(level=0)
-        values = np.asarray(points["z" if attribute == "Z" else attribute], dtype=float)
+    """Return a height above nearly all points in the uppermost node of a COPC file."""
+    values = sample_of(Path(path), "z" if attribute == "Z" else attribute)
     values = values[np.isfinite(values)]
     return float(np.quantile(values, _NEARLY_ALL)) if values.size else 0.0
 
