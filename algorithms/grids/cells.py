@@ -18,9 +18,9 @@ from ..core.threads import in_threads, over_parts, parts_of
 _MOST_CELLS = 200_000_000
 _POINTS_A_PART = 1 << 17
 _POINTS_A_COUNT = 1 << 20
-# Values of which the least are found at a time, and how often values are stored before
-# `minimum.at`, which takes eight times as long, finds the rest.
-_VALUES_A_PART, _ROUNDS = 1 << 16, 6
+_VALUES_A_PART = 1 << 16  # values of which the least are found at a time
+# How often values are stored before `minimum.at`, which takes eight times as long, finds the rest.
+_ROUNDS = 6
 # Of elements that are fewer than one in so many cells, the occupied cells are sorted.
 _FEW = 16
 # Side in metres of the blocks in which points are counted. A block without a point is a gap in the
@@ -32,8 +32,9 @@ _SURELY = 4.0
 # Step in metres to which the usual distance between points is rounded by default.
 _SPACING_STEP = 0.5
 # To divide points into groups: cells along the reach (even, because points are dilated by half of
-# them), and the least side of a cell in metres.
-_CELLS_A_REACH, _LEAST_GAP = 10, 5.0
+# them).
+_CELLS_A_REACH = 10
+_LEAST_GAP = 5.0  # metres: least side of such a cell
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ from ..core.threads import over_parts
 from .cells import Cells, cells_at
 from .planes import means_and_moments, plane_slopes
 
-# Nearest neighbours that are used, and how many of them a side needs for a plane.
-_NEIGHBOURS, _LEAST = 16, 4
+_NEIGHBOURS = 16  # nearest neighbours that are used
+_LEAST = 4  # of them on a side, for a plane
 # Number of sides, in evenly spread directions.
 _SIDES = 8
 # The columns of x, y and z among the sums, of which the products are summed up as well.
@@ -25,9 +25,10 @@ _LEAF = 32
 # Square metres that are added to the variances of the neighbours' places, so that there is always a
 # plane.
 _STIFFNESS = 0.1
-# Cells on each side of that of a place in which neighbours are looked for first, and how many times
-# as many cells as points there may be.
-_STENCIL, _MOST_VOID = 3, 8
+# Cells on each side of that of a place in which neighbours are looked for first.
+_STENCIL = 3
+# Most cells for each ground point; with more, neighbours are found by a tree alone.
+_MOST_VOID = 8
 _LAST_BITS = 63  # hold the number of one of 49 cells
 _ANGLES = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
 

@@ -32,7 +32,7 @@ _TIMES_SPREAD = 5.0
 _LEAST_OF_FEW = 5.0
 _FEW = 3
 # The largest distances between ellipsoid and geoid in metres, and those that are common on land.
-_UNDULATIONS = 8.0, 110.0
+_UNDULATIONS = (8.0, 110.0)
 # A standard deviation in median absolute deviations of normal errors.
 _DEVIATION = 1.4826
 
