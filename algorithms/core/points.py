@@ -10,7 +10,7 @@ import numpy as np
 
 from .threads import in_threads
 
-# From so many points on, threads that are free pick the coordinates.
+# Fewest points of which threads that are free pick the coordinates.
 _MANY = 1 << 18
 
 # Smallest x and y, largest x and y.

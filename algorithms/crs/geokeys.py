@@ -9,7 +9,7 @@ of ``LASF_Projection``.
 from __future__ import annotations
 
 import struct
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .wkt import is_unit
 
@@ -90,7 +90,7 @@ def read_geokeys(directory: bytes, doubles: bytes = b"", texts: bytes = b"") -> 
         model = _GEOGRAPHIC if geographic and _PROJECTED_CODE not in keys else _PROJECTED
     is_geographic = model != _PROJECTED
     citations = (_PROJECTED_CITATION, _CITATION, _GEOGRAPHIC_CITATION)
-    codes = [keys.get(key) for key in (_LINEAR_UNIT, _VERTICAL_UNIT)]
+    codes: list[Any] = [keys.get(key) for key in (_LINEAR_UNIT, _VERTICAL_UNIT)]
     vertical, datum = _code(keys, _VERTICAL_CODE), _code(keys, _VERTICAL_DATUM)
     is_above_ellipsoid = vertical in _OLD_ELLIPSOIDS
     if vertical in _OLD_DATUMS:

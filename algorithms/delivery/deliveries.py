@@ -14,8 +14,8 @@ from ..tools.quality.specifications import SPECIFICATIONS
 
 # Name of the raster of the terrain with buildings, which is not among `RASTERS`.
 WITH_BUILDINGS = "terrain_with_buildings"
-# Least ground points in a square metre for cells of so many metres: about one in each cell. Cells
-# of 1 m are usual also in woods, where a cell often has none.
+# Least ground points in a square metre, and the side in metres of the cells that they allow: about
+# one point in each cell. Cells of 1 m are usual also in woods, where a cell often has none.
 _CELLS = ((100.0, 0.1), (16.0, 0.25), (4.0, 0.5), (0.25, 1.0), (0.0625, 2.0))
 _LARGEST_CELL = 5.0
 # The cell sizes that specifications state, and values of the parameters of tools. Beside a shore,

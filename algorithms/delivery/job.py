@@ -31,7 +31,8 @@ from .folder import DeliveryFolder
 from .parameters import AS_DELIVERY, DeliveryOptions, DeliveryTerrain, GivenSet, Settings
 from .summary import DeliverySummary
 
-# Contour lines in a CRS whose heights are feet: so many feet are about half a metre.
+# Feet between contour lines, where heights are in feet, for a metre between them elsewhere: 2 feet
+# are about half a metre, and round.
 _FEET_A_METRE = 4.0
 _ENDINGS = {"raster": ".tif", "page": ".html", "table": ".csv", "folder": ""}
 

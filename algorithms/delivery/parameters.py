@@ -79,7 +79,7 @@ class DeliveryOptions(ParameterSet):
 
 @dataclass(frozen=True)
 class DeliveryTerrain(MapTerrain):
-    """The same as for maps, with a cell size that can be left open."""
+    """The terrain model of a delivery, whose cell size can be left open."""
 
     dtm_cell_size: float | None = parameter_of(  # type: ignore[assignment]
         MapTerrain,
@@ -102,7 +102,7 @@ class DeliveryTerrain(MapTerrain):
 
 @dataclass(frozen=True)
 class DeliveryWater(Water):
-    """The same as for water, with sizes that can be left open."""
+    """The water of a delivery, whose limits can be left open."""
 
     min_area: float | None = parameter_of(  # type: ignore[assignment]
         Water,

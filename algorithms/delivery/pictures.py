@@ -20,7 +20,7 @@ LONGEST_SIDE = 900
 _CELLS = 4_000_000
 _CANOPY = ("#f4f1e4", "#c9d98f", "#7fb258", "#3c7d3c", "#0f4023")
 _OF_HEIGHTS = ("dtm", "dsm", WITH_BUILDINGS)
-# Heights are shaded up to so much.
+# Greatest share of black in the shading of heights.
 _DARKEST = 0.35
 
 

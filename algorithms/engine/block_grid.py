@@ -24,7 +24,7 @@ from ..survey.files import Survey
 from .blocks import Block, Blocks
 from .store import code_of, row_and_column
 
-# Boxes are read wider by so many metres. Later the points are chosen exactly.
+# Metres by which boxes are read wider on each side. Later the points are chosen exactly.
 _MARGIN = 0.1
 # A tile that touches more blocks than this has stray points. Then its points are read to see which
 # blocks they are in.

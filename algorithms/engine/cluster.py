@@ -9,9 +9,8 @@ import os
 import threading
 import time
 from collections import Counter
-from concurrent.futures import Executor
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.errors import BareEarthError, Cancelled
 from ..core.files import write_errors_told
@@ -26,7 +25,7 @@ from .memory import Resources, free_memory
 from .workers import Running, Workers, scheduler_gone
 
 if TYPE_CHECKING:
-    from distributed import Client
+    pass
 
 _CONNECTING = "15s"
 # Seconds between two checks of the workers.
@@ -71,8 +70,8 @@ class Cluster(Workers):
         self._looked = self._seen = 0.0
         # A file that exists as long as the run. When it is gone, the jobs end.
         self._mark: Path | None = None
-        self._client: Client | None = None
-        self._pool: Executor | None = None
+        self._client: Any = None  # of Dask; it is there between `start` and `stop`
+        self._pool: Any = None
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Connect, and refuse no scheduler, no worker, or one that lacks what it needs."""

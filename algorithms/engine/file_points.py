@@ -75,8 +75,9 @@ class FilePoints:
         self.is_in_memory = isinstance(cloud, PointCloud)
         # all points if in memory; else some, once the first were read
         self.cloud: Any = cloud if self.is_in_memory else None
-        self.file: Any = cloud.file if self.is_in_memory else cloud
-        self._target, self._needs_records = target, needs_records
+        self.file: Any = cloud.file if isinstance(cloud, PointCloud) else cloud
+        # points in memory need none
+        self._target, self._needs_records = target or Path(), needs_records
         self._files, self._is_told = contextlib.ExitStack(), False
         self._mapped: list[ValuesOnDisk] = []
         if not self.is_in_memory:

@@ -7,20 +7,21 @@ import re
 from concurrent.futures import BrokenExecutor, CancelledError, Future
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Collection, Sequence
+from typing import Any, Collection, Sequence, Union
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..core.temporary import remove
 from .blockwise import ended
-from .jobs import BlockJob, Job, JobResult, TileJob
+from .jobs import BlockJob, JobResult, TileJob
 from .memory import GIGABYTE
 from .summary import JobCost
 from .workers import Running, Workers, scheduler_gone
 
-# A point takes so many times as long in a block as for reading and writing.
+AnyJob = Union[BlockJob, TileJob]
+# The time of a point in a block, in proportion to that of reading and writing it.
 _BLOCK_WEIGHT = 2.0
-# A message names at most so many files.
+# Most files that a message names.
 _MOST_NAMES = 3
 _DIED = (
     "The process that worked on it ended unexpectedly, perhaps because memory was short. Allow"
@@ -47,29 +48,30 @@ class JobQueue:
         self._workers, self._progress = workers, progress
         # Jobs that were running when a worker died. They are repeated one by one, to find the one
         # that kills its worker. The last one that was repeated:
-        self._suspects: collections.deque[Job] = collections.deque()
-        self._repeated: Job | None = None
+        self._suspects: collections.deque[AnyJob] = collections.deque()
+        self._repeated: AnyJob | None = None
         # Jobs that wait for nothing: the blocks of the first step, and all others.
-        self._blocks: collections.deque[Job] = collections.deque()
-        self._ready: collections.deque[Job] = collections.deque()
+        self._blocks: collections.deque[AnyJob] = collections.deque()
+        self._ready: collections.deque[AnyJob] = collections.deque()
         # Results of blocks that are not there yet, and how many jobs use each result.
         self._missing = {file for job in blocks for file in job.output.files.values()}
         # Results that lack what could not be done round them.
         self._partial: set[Path] = set()
         self._uses = collections.Counter(kept)
         # The jobs that wait for a result, and for how many results they wait.
-        self._waiting: dict[Path, list[Job]] = collections.defaultdict(list)
-        self._lacks: dict[Job, int] = {}
-        for job in (*blocks, *tiles):
+        self._waiting: dict[Path, list[AnyJob]] = collections.defaultdict(list)
+        self._lacks: dict[AnyJob, int] = {}
+        jobs: list[AnyJob] = [*blocks, *tiles]
+        for job in jobs:
             self._add(job, self._blocks if isinstance(job, BlockJob) else self._ready)
-        self._running: dict[Running, Job] = {}
+        self._running: dict[Running, AnyJob] = {}
         # Messages with their files ("" for blocks), by kind, text without numbers, and whether they
         # are about files.
         self._messages: dict[tuple[str, str, bool], dict[str, str]] = {}
-        self._total = max(sum(map(_weight, (*blocks, *tiles))), 1e-9)
+        self._total = max(sum(map(_weight, jobs)), 1e-9)
         self._finished = 0.0
 
-    def _add(self, job: Job, ready: collections.deque[Job]) -> None:
+    def _add(self, job: AnyJob, ready: collections.deque[AnyJob]) -> None:
         """Queue a job, or let it wait for the results that it needs."""
         self._uses.update(job.needs)
         lacking = [file for file in job.needs if file in self._missing]
@@ -143,7 +145,10 @@ class JobQueue:
         if outcome.cost is not None:
             self.costs.append(outcome.cost)
         self._keep_messages(job, outcome)
-        (self._end_tile if isinstance(job, TileJob) else self._end_blocks)(job, outcome)
+        if isinstance(job, TileJob):
+            self._end_tile(job, outcome)
+        else:
+            self._end_blocks(job, outcome)
 
     def _end_blocks(self, job: BlockJob, outcome: JobResult) -> None:
         if outcome.failure is not None and len(job.output.files) > 1:
@@ -157,19 +162,19 @@ class JobQueue:
             if user not in self._lacks:  # it is given up
                 continue
             self._lacks[user] -= 1
-            if outcome.failure is not None and isinstance(user, TileJob):
-                del self._lacks[user]
-                self._finished += _weight(user)
-                self._end_tile(user, outcome)
-                continue
             if outcome.failure is not None:
+                if isinstance(user, TileJob):
+                    del self._lacks[user]
+                    self._finished += _weight(user)
+                    self._end_tile(user, outcome)
+                    continue
                 self._partial.update(user.output.files.values())
             if not self._lacks[user]:
                 del self._lacks[user]
                 self._ready.append(self._marked(user))
         self._release(job)
 
-    def _marked(self, job: Job) -> Job:
+    def _marked(self, job: AnyJob) -> AnyJob:
         """Return a job whose output a later run makes again, if it lacks something."""
         if self._partial.isdisjoint(job.needs):
             return job
@@ -195,14 +200,14 @@ class JobQueue:
             self._progress.info(outcome.result.text)
         self._release(job)
 
-    def _release(self, job: Job) -> None:
+    def _release(self, job: AnyJob) -> None:
         """Remove the results of blocks that nobody else needs."""
         for file in job.needs:
             self._uses[file] -= 1
             if not self._uses[file] and file not in self._missing:
                 remove(file)
 
-    def _keep_messages(self, job: Job, outcome: JobResult) -> None:
+    def _keep_messages(self, job: AnyJob, outcome: JobResult) -> None:
         """Collect the messages of a job; without those that only give counts of a tile."""
         name = job.tile.path.name if isinstance(job, TileJob) else ""
         for kind, text in outcome.messages:
@@ -252,6 +257,6 @@ def _without_numbers(text: str) -> str:
     return re.sub(r"\S*\d\S*|\S+\.la[sz]\b\S*", "#", text)
 
 
-def _weight(job: Job) -> float:
+def _weight(job: AnyJob) -> float:
     """Return the cost of a job, as a number of points to read and write."""
     return float(job.tile.count) if isinstance(job, TileJob) else _BLOCK_WEIGHT * job.count

@@ -16,8 +16,8 @@ from ..core.threads import available_cpus
 GIGABYTE = 1 << 30
 _UNKNOWN = 4 * GIGABYTE
 _SHARE = 0.5
-# Freed memory is given back after so many seconds of processor time if memory is short: on a busy
-# machine no more often than else, as it must be cleared again before it is used.
+# Seconds of processor time after which freed memory is given back if memory is short: on a busy
+# machine not more often than on others, as it must be cleared again before it is used.
 _SECONDS = 0.4
 _MEMINFO = Path("/proc/meminfo")
 _STATUS = Path("/proc/self/status")
@@ -99,8 +99,9 @@ def share_one_heap() -> None:
     """Let all threads of this process, which is ours, take memory from one heap of glibc."""
     # Otherwise there is one for each thread, and each keeps what was freed in it.
     mallopt = _of_c("mallopt")
-    for option in _HEAP if mallopt else ():
-        mallopt(*option)
+    if mallopt is not None:
+        for option in _HEAP:
+            mallopt(*option)
 
 
 def give_back() -> None:
@@ -218,7 +219,8 @@ def _windows_free() -> int | None:
         )
 
     status = Status(length=ctypes.sizeof(Status))
-    if not ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status)):
+    windows = ctypes.windll  # type: ignore[attr-defined]
+    if not windows.kernel32.GlobalMemoryStatusEx(ctypes.byref(status)):
         return None
     return int(status.free)
 

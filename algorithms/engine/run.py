@@ -20,7 +20,7 @@ from .memory import Resources
 from .options import TileOutput
 from .step import PointStep, Step, placed
 from .survey_run import work_on_survey
-from .values import PointValues, StoreValues, with_values
+from .values import PointValues, with_values
 from .visits import Work, visited
 from .workers import Threads, Workers
 
@@ -164,7 +164,7 @@ class FileRun:
         for work, result, rest in zip(works, results, writing):
             step = work.step
             if isinstance(step, PointStep):
-                self._values.append(StoreValues(step, work.store))
+                self._values.append(PointValues(step, work.store))
             else:
                 result = [found for _, found in result]
             frame = survey_frame(points.cloud.crs, step.origin)

@@ -26,16 +26,18 @@ _FAILURE = "no ground"
 
 
 class PointValues:
-    """The value that a step found for each point of a file."""
+    """The value that a step found for each point of a file, in a store of all of its parts."""
 
-    step: PointStep
     failure = ""  # why some points have none; empty if all have
     # bool, (k,): which points that `of` was last asked for lie in blocks that failed
     lost: np.ndarray | None = None
 
+    def __init__(self, step: PointStep, store: Store) -> None:
+        self.step, self._store = step, store
+
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
         """Return the values of the next points, given their indices in the file."""
-        raise NotImplementedError
+        return self._store.values(self._store.starts.index(where.start))
 
     def check(self) -> None:
         """Refuse a file if some values were not used."""
@@ -65,17 +67,6 @@ def applied(values: Sequence[PointValues], where: slice, part: PointCloud) -> Po
             if found.lost is not None:
                 part = replace(part, withheld=part.withheld | found.lost)
     return part
-
-
-class StoreValues(PointValues):
-    """The values in a store of all parts of one file."""
-
-    def __init__(self, step: PointStep, store: Store) -> None:
-        self.step, self._store = step, store
-
-    def of(self, where: slice, part: PointCloud) -> np.ndarray:
-        """Return the values of the points of a part."""
-        return self._store.values(self._store.starts.index(where.start))
 
 
 @dataclass(frozen=True, eq=False)

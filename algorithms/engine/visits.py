@@ -24,7 +24,7 @@ from .memory import GIGABYTE, Cost, GivingBack, Resources, give_back
 from .memory_store import MemoryStore
 from .store import BlockPoints, Corner, Marks, Store
 
-# Blocks that take so many bytes give their memory back to the system when they are done.
+# Bytes: blocks that take more give their memory back to the system when they are done.
 _MUCH = 100_000_000
 # Bytes that stay in memory for each point that a step has seen, while others work on its block.
 _BYTES_KEPT = 70
@@ -146,7 +146,7 @@ def _visited(
     resources: Resources,
     is_wanted: Callable[[Block], bool] | None,
 ) -> list[Any]:
-    """Do the same for steps with equal blocks."""
+    """Let steps with equal blocks work; see `visited`."""
     todo: dict[Block, dict[int, Visit]] = defaultdict(dict)
     for number, work in enumerate(works):
         blocks, store = work.step.blocks, work.store

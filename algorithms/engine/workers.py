@@ -10,7 +10,7 @@ import threading
 import time
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..core.temporary import remove_leftovers
 from ..core.threads import Counter, SharedThreads
@@ -20,7 +20,7 @@ from .jobs import Job, JobResult, Share, attempt
 from .manifest import folders_of
 from .memory import Resources, give_back, share_one_heap
 
-# When the user cancels, jobs have so many seconds to stop by themselves.
+# Seconds that jobs have to stop by themselves when the user cancels.
 _PATIENCE = 0.7
 
 
@@ -32,7 +32,7 @@ def scheduler_gone() -> str:
 class Running(NamedTuple):
     """A running job: the future of its `JobResult`, and its progress, if that is known."""
 
-    future: Future
+    future: Future[JobResult]
     progress: JobProgress
 
 
@@ -78,7 +78,8 @@ class Threads(Workers):
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Prepare for jobs."""
         super().start(folder, least, blocks, tiles)
-        self._stop, self._futures = threading.Event(), []
+        self._stop = threading.Event()
+        self._futures: list[Future[JobResult]] = []
         self._pool = ThreadPoolExecutor(self.at_once, thread_name_prefix="tile")
         self._threads = SharedThreads(self.resources.thread_count)
 
@@ -111,13 +112,14 @@ class Processes(Workers):
         self._folder = folder
         self._context = multiprocessing.get_context("spawn")
         self._stop = self._context.Event()
-        self._known: dict[int, object] = {}
+        self._known: dict[int, Any] = {}
         self._open()
 
     def _open(self) -> None:
         free = self._context.Value("i", self.resources.thread_count)
+        begin: Any = _begin
         values = self._stop, free, self.share.thread_count, names_in_use()
-        self._pool = ProcessPoolExecutor(self.at_once, self._context, _begin, values)
+        self._pool = ProcessPoolExecutor(self.at_once, self._context, begin, values)
 
     def submit(self, job: Job) -> Running:
         """Start a job."""

@@ -11,17 +11,18 @@ import numpy as np
 from ..core.points import Points
 from .cells import Cells, spacing
 
-# Least side of a cell in metres. Where points are sparse, it is half of their spacing, in steps of
-# so many metres.
-_CELL, _CELL_STEP = 1.0, 0.5
+# Metres: least side of a cell. Where points are sparse, it is half of their spacing, as a multiple
+# of the step.
+_CELL = 1.0
+_CELL_STEP = 0.5
 # Step in metres to which the spacing is rounded. It is finer than elsewhere, because the largest
 # rise of a surface depends on it.
 _SPACING_STEP = 0.25
-# A cell has the height of the nearest cell with a point, up to so many spacings away.
+# Spacings up to which a cell has the height of the nearest cell with a point.
 _FILLED = 1.5
-# From point to point, a surface rises by at most so many metres, plus so many for each metre of
-# distance.
-STEP, STEP_SLOPE = 0.2, 0.2
+# Metres by which a surface rises from point to point, at most, and for each metre between them.
+STEP = 0.2
+STEP_SLOPE = 0.2
 # Width of the border in metres, in addition to the spacing: as much as is tested round a cell.
 BORDER = 10.0
 

@@ -6,9 +6,10 @@ import numpy as np
 
 from .morphology import median_of_nine
 
-# Pits lie deeper than this below the mean of their eight neighbours, in metres. They are filled in
-# so many passes, since those of several cells are filled from their borders.
-_PIT, PIT_PASSES = 2.0, 3
+# Pits lie deeper than this below the mean of their eight neighbours, in metres.
+_PIT = 2.0
+# Passes in which they are filled, since those of several cells are filled from their borders.
+PIT_PASSES = 3
 
 
 def canopy_height(surface: np.ndarray, terrain: np.ndarray) -> np.ndarray:

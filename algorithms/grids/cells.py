@@ -18,9 +18,9 @@ from ..core.threads import in_threads, over_parts, parts_of
 _MOST_CELLS = 200_000_000
 _POINTS_A_PART = 1 << 17
 _POINTS_A_COUNT = 1 << 20
-# Values of which the least are found at a time, and how often values are stored before
-# `minimum.at`, which takes eight times as long, finds the rest.
-_VALUES_A_PART, _ROUNDS = 1 << 16, 6
+_VALUES_A_PART = 1 << 16  # values of which the least are found at a time
+# How often values are stored before `minimum.at`, which takes eight times as long, finds the rest.
+_ROUNDS = 6
 # Of elements that are fewer than one in so many cells, the occupied cells are sorted.
 _FEW = 16
 # Side in metres of the blocks in which points are counted. A block without a point is a gap in the
@@ -32,8 +32,9 @@ _SURELY = 4.0
 # Step in metres to which the usual distance between points is rounded by default.
 _SPACING_STEP = 0.5
 # To divide points into groups: cells along the reach (even, because points are dilated by half of
-# them), and the least side of a cell in metres.
-_CELLS_A_REACH, _LEAST_GAP = 10, 5.0
+# them).
+_CELLS_A_REACH = 10
+_LEAST_GAP = 5.0  # metres: least side of such a cell
 
 
 @dataclass(frozen=True)
@@ -247,6 +248,17 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
         undecided = np.flatnonzero(several.take(cell))
         which, cell = which.take(undecided), cell.take(undecided)
     return found[found >= 0]
+
+
+def in_order(index: np.ndarray) -> np.ndarray:
+    """Return the order of whole numbers from 0 to 2**31, int64 (n,), in a fifth of the time of
+    `argsort`; equal ones stay as they are.
+    """
+    keys = index.astype(np.int64) << 32
+    keys |= np.arange(len(index))
+    keys.sort()
+    keys &= 0xFFFFFFFF
+    return keys
 
 
 def cells_at(

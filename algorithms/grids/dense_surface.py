@@ -30,9 +30,8 @@ _RIM = WIDEST
 # Only vertices within so many cells are triangulated. The others are needed where a circle holds
 # any.
 _NARROW_RIM = 2
-# Rounding error of a vertex at the border of a tile, in lattice cells, and of an anchor, as a share
-# of a cell.
-_A_LITTLE, _ROUNDING = 0.01, 1e-6
+_A_LITTLE = 0.01  # lattice cells: rounding error of a vertex at the border of a tile
+_ROUNDING = 1e-6  # share of a cell: rounding error of an anchor
 
 
 class DenseSurface:

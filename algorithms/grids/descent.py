@@ -6,19 +6,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-# Heights this near to a level, in metres, count fully; others by their distance: a median.
-_NEAR, _ROUNDS = 0.02, 6
-# Levels are smoothed over so many stations to learn which end of a chain is the upper one.
+# Metres: heights this near to a level count fully, others by their distance, so that in these
+# rounds the level becomes a median.
+_NEAR = 0.02
+_ROUNDS = 6
+# Stations over which levels are smoothed to learn which end of a chain is the upper one.
 _SMOOTH = 3.0
-# A chain that is so many metres lower between its ends has two upper ends, such as two rivers that
+# Metres: a chain that is lower by this between its ends has two upper ends, such as two rivers that
 # meet where the survey ends.
 _VALLEY = 0.3
-# Weight of a station without heights, compared to a height; rounds of projections.
-_NO_HEIGHT, _PROJECTIONS, _SAME = 1e-4, 200, 1e-4
-# Heights so many metres from those of the next stations do not count. So the end of a chain is not
-# that of a single wall.
-_STRAY, _STRAY_STATIONS = 0.5, 2
-# What a percentile differs from the median is taken from so many stations on each side.
+_NO_HEIGHT = 1e-4  # weight of a station without heights, compared to a height
+_PROJECTIONS = 200  # most rounds of projections
+_SAME = 1e-4  # metres: levels that move by less in a round are final
+# Metres from the median height of the next stations, this many on each side, beyond which heights
+# do not count. So the end of a chain is not that of a single wall.
+_STRAY = 0.5
+_STRAY_STATIONS = 2
+# Stations on each side from which is taken what a percentile differs from the median.
 _STATIONS = 5
 
 

@@ -11,7 +11,9 @@ from .dense_surface import VERTICES_A_SIDE, DenseSurface
 
 # Distance of the vertices of the TIN, in mean distances of ground points, and its limits in metres.
 # Where points are dense, more vertices change the heights by only a centimetre or two.
-_SPACINGS, _LEAST, _MOST = 2.0, 0.1, 0.5
+_SPACINGS = 2.0
+_LEAST = 0.1
+_MOST = 0.5
 # A road lies on the ground if it is so near to the TIN of the ground points, in metres: far more
 # than a kerb or the crown of a road, and less than the clearance below a bridge.
 _ON_GROUND = 1.0

@@ -29,14 +29,15 @@ from .local_trend import TRUNCATE, trend_slopes
 Cells = tuple[float, float]
 
 _DIRECTIONS = 16
-# Places along a direction are this far apart, in cells; beyond `_EVERY` cells, in this proportion
-# to their distance.
-_STEP, _EVERY, _FARTHER = 1 / 3, 64.0, 1 / 96
-# Height of the eyes above the terrain in metres, and directions in which they look.
-_EYES, _VIEWS = 1.7, 24
-# An observer looks at so many distances between the two radii, or at fewer if these lie less than
-# one cell apart.
-_DISTANCES, _ROUNDING = 10, 1e-6
+_STEP = 1 / 3  # cells between places along a direction
+_EVERY = 64.0  # cells: farther places are apart by a share of their distance
+_FARTHER = 1 / 96  # this share
+_EYES = 1.7  # metres: height of the eyes above the terrain
+_VIEWS = 24  # directions in which they look
+# Distances between the two radii at which an observer looks, fewer if they lie less than one cell
+# apart.
+_DISTANCES = 10
+_ROUNDING = 1e-6  # share of a step, so that rounding leaves out no distance
 # Cells that are worked on together: they stay in the cache of a processor.
 PIECE = 40_000
 

@@ -8,13 +8,15 @@ RELAXATIONS = 12
 # Share of unknown cells above which it is faster to compute all cells.
 _MANY = 0.15
 _SAMPLES = 1000
-# Rows that are relaxed together, so few that they stay in the processor's cache, and the number of
-# cells from which on it is worth it. Cells farther than so many from all known ones are only
-# interpolated: nobody measured there.
-_STRIP, _MANY_CELLS, _FAR = 64, 1 << 16, 128
+# Rows that are relaxed together: they stay in the processor's cache.
+_STRIP = 64
+_MANY_CELLS = 1 << 16  # from which on it is worth it
+# Cells this many cells away from all known ones are only interpolated: nobody measured there.
+_FAR = 128
 # Step in metres to which the usual height is rounded, so that a few cells do not change it.
 _LEVEL = 128.0
-_QUARTER, _THREE_QUARTERS = np.float32(0.25), np.float32(0.75)
+_QUARTER = np.float32(0.25)
+_THREE_QUARTERS = np.float32(0.75)
 
 
 # Row and column of the first cell of a grid, counted in the grid of the CRS.

@@ -13,7 +13,11 @@ _LEVELS = 1 << 24
 # Edges of a square of four cells: north, east, south, west. For each set of corners that are at or
 # above the level (1 northwest, 2 northeast, 4 southeast, 8 southwest), the edges where a line comes
 # in and goes out; higher ground is on its left. Two opposite corners have a second line.
-_NORTH, _EAST, _SOUTH, _WEST, _NONE = 0, 1, 2, 3, -1
+_NORTH = 0
+_EAST = 1
+_SOUTH = 2
+_WEST = 3
+_NONE = -1
 _LINES = {
     1: (_WEST, _NORTH), 2: (_NORTH, _EAST), 4: (_EAST, _SOUTH), 8: (_SOUTH, _WEST),
     3: (_WEST, _EAST), 6: (_NORTH, _SOUTH), 12: (_EAST, _WEST), 9: (_SOUTH, _NORTH),

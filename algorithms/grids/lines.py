@@ -10,9 +10,11 @@ from ..core.points import Box
 from .cells import are_inside, cells_at, numbered
 from .descent import Network, descent
 
-# Stations this near in metres are one. A line joins another one if it ends so many times half the
-# width of the water from it, and so many metres more.
-_MEET, _WIDER, _JOINED = 0.1, 1.5, 10.0
+_MEET = 0.1  # metres: stations this near are one
+# A line joins another one if it ends within a multiple of half the width of the water, and metres
+# beyond it.
+_WIDER = 1.5
+_JOINED = 10.0
 
 _SHIFT = 32
 # Number of nearest points of a place among which one on each side of the line is searched.

@@ -18,8 +18,12 @@ from .morphology import median_of_nine, within_square
 
 # Directions in which the surroundings are looked at.
 SIDES = 8
-# Rounds in which the plane is fitted; in the first ones, heights far from it still count.
-_ROUNDS, _WIDE_ROUNDS, _WIDE, _NARROW = 6, 2, 3.0, 2.0
+# Rounds in which the plane is fitted. In the first ones, heights far from it still count.
+_ROUNDS = 6
+_WIDE_ROUNDS = 2
+# The scale of the weights, as a multiple of the usual misfit, in these rounds and in the others.
+_WIDE = 3.0
+_NARROW = 2.0
 # Least distance in metres from the plane at which a height counts less.
 _EXACT = 0.1
 # Side in cells of the squares over which the slope of the terrain is averaged.

@@ -25,8 +25,10 @@ _LEVELS = (4.0, 1.0)
 _MOST_CELLS = 1e8
 # Squared distances to the centre of a cell are rounded to this share of its squared side.
 _CENTRAL = 1e-6
-# Points farther away than so many cells of the grid, and than so many metres, have no effect.
-_REACH, _LEAST_REACH = 4.0, 40.0
+# Points farther away than this, in cells of the grid, and than the least reach, in metres, have no
+# effect.
+_REACH = 4.0
+_LEAST_REACH = 40.0
 # Factors of a hash of x and y, and how many of its bits are used.
 _MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F], dtype=np.uint64)
 _BITS = 20

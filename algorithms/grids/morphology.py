@@ -6,13 +6,17 @@ import numpy as np
 
 from ..core.threads import in_threads
 
-# Heights are rounded to steps of so many metres. The step is doubled until the range has at most so
-# many steps, which fit into 16 bits. The middle of the range is put on a multiple of so many steps,
-# so that the rounding of a height does not depend on the other heights.
-_STEP, _MOST_STEPS, _LEVEL_STEPS = 0.01, 65_000, 12_800
-# Heights more than so many metres above or below all but this share of the cells are clipped: they
-# stand out anyway.
-_BEYOND, _NEARLY_ALL = 200.0, 0.001
+# Metres: heights are rounded to this step, which is doubled until the range has few enough steps
+# for 16 bits.
+_STEP = 0.01
+_MOST_STEPS = 65_000
+# The middle of the range is put on a multiple of this many steps, so that the rounding of a height
+# does not depend on the other heights.
+_LEVEL_STEPS = 12_800
+# Metres above or below all but this share of the cells beyond which heights are clipped: they stand
+# out anyway.
+_BEYOND = 200.0
+_NEARLY_ALL = 0.001
 # Cells of a strip with its margin, so few that they stay in the processor's cache.
 _CELLS_A_STRIP = 1 << 17
 

@@ -12,8 +12,9 @@ import numpy as np
 from ..core.progress import SILENT, Progress
 from .morphology import closing, dilation
 
-# Cells are kept in parts of so many rows and columns. Files have blocks of as many rows.
-_ROWS, _COLUMNS = 256, 4096
+# Rows and columns of a part of the cells. Files have blocks of as many rows.
+_ROWS = 256
+_COLUMNS = 4096
 # Cells that are worked on at a time.
 _CELLS_A_STRIP = 4_000_000
 # Largest radius in cells. With larger ones, cells are put together first.

@@ -8,10 +8,11 @@ import numpy as np
 
 # Side in cells of the squares of which parts are made.
 _SQUARE = 16
-# A part costs as much as so many cells more than it has. It is divided where that saves so large a
-# share of what it costs.
-_COST_OF_A_PART, _LEAST_SAVED = 4096, 0.1
-# A part is not divided if so large a share of its squares is wanted.
+# Cells that cost as much as a part does beside its own cells.
+_COST_OF_A_PART = 4096
+# A part is divided where that saves at least this share of what it costs.
+_LEAST_SAVED = 0.1
+# Share of its squares that are wanted from which on a part is not divided.
 _SOLID = 0.9
 
 _Slices = tuple[slice, slice]

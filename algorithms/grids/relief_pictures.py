@@ -36,9 +36,10 @@ _LEVEL = _Land((0.9, 1.0), (85.0, 93.0), (15.0, 0.0), 15.0, (0.8, 2.0))
 _AZIMUTH = 315.0
 # How many radii away cells still matter to VAT.
 VAT_RADII = _LEVEL.radii[1]
-# Slope in degrees that is as red as can be, and differences of openness in degrees that are black
-# and white. Level land is brighter than the middle.
-_REDDEST, _DARKEST, _BRIGHTEST = 45.0, -10.0, 4.0
+_REDDEST = 45.0  # degrees: slope that is as red as can be
+# Degrees: differences of openness that are black and white. Level land is brighter than the middle.
+_DARKEST = -10.0
+_BRIGHTEST = 4.0
 
 
 def archaeological_topography(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:

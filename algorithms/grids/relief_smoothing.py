@@ -22,9 +22,11 @@ import numpy as np
 from ..core.threads import in_threads
 from .local_trend import TRUNCATE, local_trend, reach_of
 
-# Standard deviation of the surroundings: so many metres, but not more than so many cells. If it is
-# smaller than the last number of cells, nothing is smoothed.
-_METRES, _MOST_CELLS, _LEAST_CELLS = 2.0, 4.0, 0.5
+# Standard deviation of the surroundings in metres, and its limits in cells: with fewer nothing is
+# smoothed.
+_METRES = 2.0
+_MOST_CELLS = 4.0
+_LEAST_CELLS = 0.5
 # The structure is looked at in surroundings wider by this factor.
 _WIDER = 1.5
 # Noise, as a slope, that is smoothed by half.

@@ -13,9 +13,10 @@ from .lines import NearPlaces
 from .morphology import within_square
 from .tin import Tin
 
-# Up to so many cells from a line, or so many distances between ground points, the terrain is the
-# TIN of all points. They are not thinned, so that two lines close together stay separate.
-_CELLS, _SPACINGS = 3.0, 3.0
+# Cells from a line, or distances between ground points, up to which the terrain is the TIN of all
+# points. They are not thinned, so that two lines close together stay separate.
+_CELLS = 3.0
+_SPACINGS = 3.0
 
 
 def follow_edges(

@@ -15,9 +15,9 @@ from .delaunay_walk import NOWHERE, enclosing_triangles, listed, picked
 # Cells to each side of a place in which its triangle is searched, one after the other.
 _WINDOWS = (2, 4, 8)
 WIDEST = _WINDOWS[-1]
-# Places that are looked at by one thread, vertices near them that are looked at together, and the
-# least number that can surround a place.
-_PLACES_A_PART, _TOGETHER, _LEAST = 1 << 14, 1 << 17, 3
+_PLACES_A_PART = 1 << 14  # places that are looked at by one thread
+_TOGETHER = 1 << 17  # vertices near them that are looked at together
+_LEAST = 3  # vertices that can surround a place
 
 
 class CellVertices:

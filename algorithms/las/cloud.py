@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Iterator, NamedTuple, Sequence
+from typing import Any, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
@@ -20,9 +20,9 @@ from .lasfile import LasFile
 _POINTS_A_PART = 1 << 15
 # Points of the parts of a cloud.
 _PART = 1 << 19
-# At most so many times the wanted points are read in one go.
+# Points that are read in one go, at most, for each point that is wanted.
 _LOOSE = 4
-# The origin of the frame of a cloud is a multiple of so many units of the CRS.
+# Units of the CRS: the origin of the frame of a cloud is a multiple of this.
 _ORIGINS = 10_000.0
 # Offsets may differ from a multiple of the scale by this share of it, due to rounding.
 _WHOLE = 0.01
@@ -75,7 +75,7 @@ class PointCloud:
 
     def take(self, which: np.ndarray | slice) -> PointCloud:
         """Return the points that a mask, indices or a slice select, without the records."""
-        columns = {name: column[which] for name, column in self.columns.items()}
+        columns: dict[str, Any] = {name: column[which] for name, column in self.columns.items()}
         return replace(self, records=None, **columns)
 
     def parts(self) -> Iterator[tuple[slice, PointCloud]]:
@@ -115,11 +115,11 @@ class PointCloud:
     def frame(self) -> Frame:
         """The default frame of `points`, with its origin near the smallest x and y."""
         # The origin is a multiple of a large number, so that it hardly depends on the extent.
-        origin = tuple(
+        x, y = (
             math.floor((minimum * scale + offset) / _ORIGINS) * _ORIGINS
             for minimum, scale, offset in zip(self.lowest, self.scale, self.offset)
         )
-        return replace(survey_frame(self.crs), origin=origin)
+        return replace(survey_frame(self.crs), origin=(x, y))
 
     def points(self, which: np.ndarray | slice, frame: Frame | None = None) -> Points:
         """Return the points of a mask or indices in metres from the origin of a frame, that of the
@@ -143,15 +143,15 @@ class PointCloud:
         if isinstance(which, np.ndarray) and which.dtype == bool:
             which = np.flatnonzero(which)
         axes = self._axes(self.frame if frame is None else frame)[:count]
-        is_slice = isinstance(which, slice)
         columns = [self.x, self.y, self.z][:count]
-        if is_slice:
+        chosen = None if isinstance(which, slice) else which
+        if chosen is None:
             columns = [column[which] for column in columns]
-        length = len(columns[0]) if is_slice else len(which)
+        length = len(columns[0]) if chosen is None else len(chosen)
         metres = [np.empty(length) for _ in axes]
 
         def convert(part: slice) -> None:
-            picked = _picked(columns, part if is_slice else which[part])
+            picked = _picked(columns, part if chosen is None else chosen[part])
             for axis, integers, target in zip(axes, picked, metres):
                 axis.convert(integers, target[part])
 
@@ -172,7 +172,8 @@ class PointCloud:
             self._axes(frame), zip(self.lowest, self.highest), corners.T
         ):
             axis.convert(np.array(lowest_and_highest), target)
-        return tuple(corners.ravel().tolist())
+        west, south, east, north = corners.ravel().tolist()
+        return west, south, east, north
 
     def _axes(self, frame: Frame) -> list[_Axis]:
         origin = (*frame.origin, 0.0)
@@ -194,7 +195,7 @@ def joined(parts: Sequence[PointCloud]) -> PointCloud:
         for name, column in part.columns.items():
             columns.setdefault(name, []).append(column)
     # One column after the other, so that not all are in memory twice at the same time.
-    whole = {name: np.concatenate(columns.pop(name)) for name in list(columns)}
+    whole: dict[str, Any] = {name: np.concatenate(columns.pop(name)) for name in list(columns)}
     return replace(parts[0], from_zero=any(part.from_zero for part in parts), **whole)
 
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 # Points decompressed at once.
 _BATCH = 1_000_000
-# A point may lie outside its cube by so many steps of the scale, since writers round coordinates
+# Steps of the scale by which a point may lie outside its cube, since writers round coordinates
 # after they have sorted the points into nodes.
 _ROUNDING_STEPS = 2
 _DEEPEST = 30

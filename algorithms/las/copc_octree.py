@@ -22,11 +22,11 @@ from .records import column
 
 # The grid of a node has 2 to the power of this cells along each side.
 _GRID_BITS = 7
-# A node takes all points if there are at most so many.
+# Most points that one node takes together with all that would be below it.
 _LEAF_POINTS = 100_000
-# So few points get no node of their own, but stay with the node above.
+# Fewer points get no node of their own, but stay with the node above.
 _SMALL_NODE = 500
-# The cube has 2 to the power of this cells along each side. Three times so many bits fit into 64.
+# The cube has 2 to the power of this cells along each side: the bits of all three fit into 64.
 _CUBE_BITS = 21
 _DEEPEST = _CUBE_BITS - _GRID_BITS
 # Number of depths for which points are taken at a time. With more than `_GRID_BITS`, the cells of

@@ -259,8 +259,8 @@ class LasFile:
         with open_source(self.path) as file, damage_told(self.path):
             file.seek(self.points_start)
             table = lazrs.read_chunk_table(file, lazrs.LazVlr(self.laszip))
-            compression, place = Compression.of(self.laszip), self.points_start + 8
-            if not compression.table_fits(table, self.count, self._room):
+            compression, place = Compression.of(self.laszip or b""), self.points_start + 8
+            if compression is None or not compression.table_fits(table, self.count, self._room):
                 raise damaged(self.path)
             head = self.chunk_head
             for _, size in table if head.layers else ():

@@ -12,7 +12,8 @@ from ..core.unnamed import reach_disk
 from .lasfile import LasFile, Unpacked
 from .records import read_records
 
-# Records are kept only if the disk has room for so many bytes a point, several times as many.
+# Records are kept only if the disk has room for this many bytes a point, several times as many as
+# they have.
 _BYTES_A_POINT = 100
 
 

@@ -69,7 +69,7 @@ class ErrorCells(ParameterSet):
 
 @dataclass(frozen=True)
 class ArrayTerrain(TerrainModel):
-    """The same with NaN for no data, as arrays have it."""
+    """A terrain model with NaN for no data, as arrays have it."""
 
     raster_nodata: float | None = parameter_of(TerrainModel, "raster_nodata", default=None)
 

@@ -67,7 +67,7 @@ def columns_of(values: SimpleNamespace) -> dict[str, Any]:
 
 
 def _columns_of(values: SimpleNamespace) -> dict[str, Any]:
-    """Return the same of any arrays."""
+    """Return the columns of points by their fields, whatever holds them."""
     points = values.points
     if isinstance(points, (str, PathLike)) or hasattr(points, "chunk_iterator"):
         raise BareEarthError(
@@ -113,7 +113,7 @@ def _known(points: Any, names: Iterable[Any]) -> dict[str, Any]:
 
 
 def _of_frame(values: SimpleNamespace) -> dict[str, Any]:
-    """Return the same of a GeoDataFrame or a GeoSeries, whose geometry counts before columns."""
+    """Return the columns of a GeoDataFrame or a GeoSeries, whose geometry counts before columns."""
     points, shapes = values.points, values.points.geometry
     refuse_beside(values, f"{FRAME} has", COORDINATES[1:])
     if not (shapes.geom_type == "Point").all():

@@ -12,6 +12,7 @@ from typing import Any, Callable, Collection, Iterable, Mapping
 
 from ..core.parameters import Declaration, ParameterSet
 from ..crs.stated import crs_text
+from ..engine.summary import TileSummary
 from ..filters import METHODS
 from ..tools.ground.method import TileMethod
 from .arguments import KINDS, REQUIRED, Argument, Kind
@@ -65,7 +66,6 @@ class Function:
     run: Callable[[SimpleNamespace, list[ParameterSet]], Any]
     result: type | None = None  # class of what it returns
     gives: Kind | None = None  # what it returns, if that is no class of ours
-    is_survey_if_many: bool = False  # whether it returns a `SurveySummary` of many files
     has_method: bool = False  # whether it takes the parameters of a ground filter
     # Further names of parameters, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
@@ -101,7 +101,7 @@ class Function:
             returns = f"\n\nReturns\n-------\n{self.gives.type}\n    {self.gives.words}"
         if self.result is not None:
             first = (self.result.__doc__ or "").partition("\n")[0]
-            many = "; of many files a `SurveySummary`." if self.is_survey_if_many else "."
+            many = "; of many files a `SurveySummary`." if self._tells_of_tiles else "."
             text = f"{first.rstrip('.')}{many}"
             returns = f"\n\nReturns\n-------\n{self.result.__name__}\n    {text}"
         return f"{about}\n\nParameters\n----------\n{sections}{returns}\n{_RAISES}"
@@ -112,7 +112,12 @@ class Function:
         if self.gives is not None:
             return self.gives.type
         name = "None" if self.result is None else self.result.__name__
-        return f"{name} | Any" if self.is_survey_if_many else name
+        return f"{name} | Any" if self._tells_of_tiles else name
+
+    @property
+    def _tells_of_tiles(self) -> bool:
+        """Whether it writes points, and so returns a `SurveySummary` of many files."""
+        return self.result is not None and issubclass(self.result, TileSummary)
 
     @property
     def signature(self) -> inspect.Signature:

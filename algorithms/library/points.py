@@ -91,8 +91,8 @@ def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud
 def cloud_with_ground(
     values: SimpleNamespace, ground: GroundClasses, progress: Progress
 ) -> PointCloud:
-    """Return the same, of which the points of the mask `ground`, and no others, have the first of
-    the ground classes; without a mask the points as they are.
+    """Return the points as `cloud_of`, of which those of the mask `ground`, if there is one, and no
+    others have the first of the ground classes.
     """
     cloud, classes = cloud_of(values, progress), [*ground.ground_classes]
     if values.ground is None:

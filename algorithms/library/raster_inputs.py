@@ -33,7 +33,7 @@ def raster_of(given: Any, with_cells: bool = True) -> str | MemoryRaster:
 
 
 def heights_of(given: Any) -> str | MemoryRaster:
-    """Return the same of a raster of heights; refuse one in memory that is a picture."""
+    """Return a raster of heights as `raster_of` does; refuse one in memory that is a picture."""
     raster = raster_of(given)
     if isinstance(raster, MemoryRaster) and raster.content.values.dtype == np.uint8:
         raise BareEarthError('Give a raster of heights, such as terrain(points)["dtm"].')

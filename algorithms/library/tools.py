@@ -185,7 +185,6 @@ def _of_point_tool(command: str) -> Function:
         (*tool.sets, TileInput, TileOutput, Resources),
         partial(_run_on_points, tool),
         tool.step.summary_type,
-        is_survey_if_many=True,
     )  # fmt: skip
 
 
@@ -228,7 +227,6 @@ def _of_map_tool(command: str) -> Function:
         tool.sets,
         partial(_run_on_points, tool),
         Summary if tool.classifies else RasterSize,
-        is_survey_if_many=tool.classifies,
         has_method=tool.classifies,
     )
 

@@ -42,7 +42,7 @@ class Transform(NamedTuple):
         return Transform(a * k + b * n, a * m + b * o, x, d * k + e * n, d * m + e * o, y)
 
     def __matmul__(self, given: Any) -> Any:
-        """Return the same, as newer versions of affine ask for it."""
+        """Return what `*` returns; newer versions of affine ask for `@`."""
         return self * given
 
     def to_gdal(self) -> tuple[float, ...]:

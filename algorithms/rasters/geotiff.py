@@ -20,9 +20,11 @@ from ..crs.wkt import read_wkt
 from .content import MOST_CELLS, Content, Source, Window, read_content, tell_of_undeclared
 
 NODATA = -9999.0
-# In a raster with more cells, points must cover at least this share, as squares of 1 km or blocks.
+# In a raster with more cells, points must cover at least this share, as squares or blocks.
 # Otherwise it is only large because of a few points with stray coordinates.
-_MANY_CELLS, _SQUARE, _LEAST_COVERED = 10_000_000, 1000.0, 0.01
+_MANY_CELLS = 10_000_000
+_LEAST_COVERED = 0.01
+_SQUARE = 1000.0  # metres: side of a square
 _STEP = 1 << 20
 NO_GROUND = (
     "There is no ground point to make a terrain model of. Check the selection of points and the"

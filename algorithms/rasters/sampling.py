@@ -17,10 +17,11 @@ from ..crs.wkt import read_wkt
 from .content import MemoryRaster, Source, tell_of_undeclared
 from .geotiff import read_raster, tell_of_units
 
-# Cells along a side of the squares that are read, and how many of these stay in memory.
-_SIDE, _MOST_KEPT = 512, 16
-# If nearly all points lie so many metres above or below a terrain model, something is wrong.
-FAR_ABOVE, FAR_BELOW = 20.0, 2.0
+_SIDE = 512  # cells along a side of the squares that are read
+_MOST_KEPT = 16  # of these in memory
+# Metres above or below a terrain model: if nearly all points lie farther, something is wrong.
+FAR_ABOVE = 20.0
+FAR_BELOW = 2.0
 # Points from which this is known.
 _ENOUGH = 1_000_000
 _STATE_IT = (

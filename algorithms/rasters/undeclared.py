@@ -13,12 +13,15 @@ _USUAL = (
     -999.0, -9999.0, -10_000.0, -32_767.0, -32_768.0, -99_999.0, -999_999.0, -(2.0**31),
     9999.0, 32_767.0, 65_535.0, 99_999.0, 999_999.0,
 )  # fmt: skip
-_LOW, _HIGH = -999.0, 9999.0  # between these is none of them
+# Between these is none of them.
+_LOW = -999.0
+_HIGH = 9999.0
 # No terrain is so high or so low, in any unit; the least number of float32 is.
 _ABSURD = 1e9
 # Terrain reaches them only over heights between: no other height is nearer to one of them than
 # this, in the unit of the band, and than this share of the range of all others.
-_FAR, _SHARE = 500.0, 0.1
+_FAR = 500.0
+_SHARE = 0.1
 
 
 class Undeclared(NamedTuple):

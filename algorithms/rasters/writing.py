@@ -30,7 +30,8 @@ _OPTIONS = {
     "OVERVIEW_RESAMPLING": "AVERAGE", "NUM_THREADS": "ALL_CPUS",
 }  # fmt: skip
 # In that file: cells along the edge of a tile, and bytes for the index of a tile.
-_TILE, _BYTES_ABOUT_A_TILE = 256, 512
+_TILE = 256
+_BYTES_ABOUT_A_TILE = 512
 _WAITING = {"TILED": "YES", "BIGTIFF": "IF_SAFER", "SPARSE_OK": "TRUE"}
 
 

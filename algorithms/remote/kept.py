@@ -29,7 +29,7 @@ from .whole import WholePart
 
 # Of the names of folders; 16 of the 64 digits of a hash, since paths must be short for Windows.
 DIGITS = 16
-# Units of points whose CRS is not known may be feet: about so many are a metre.
+# Units in a metre of points whose CRS is not known: they may be feet.
 _UNITS_A_METRE = 3.3
 
 

@@ -23,7 +23,7 @@ _Result = TypeVar("_Result")
 # Servers allow about six connections.
 _THREADS = 6
 _ATTEMPTS = 6
-# An address gets a signature so many times: one that comes may have expired already.
+# Signatures that an address gets, at most: the first may have expired when it comes.
 _SIGNED = 2
 # Seconds before the second attempt, doubled before each further one, and the most that a server may
 # ask for.

@@ -32,8 +32,9 @@ Check = Callable[[int, Headers], Optional[int]]
 class WebReader:
     """Base of what reads from web servers; several threads can use it at the same time."""
 
-    # Seconds that an answer may take, beside those of its bytes at so many a second.
-    patience, least_speed = 30.0, 10_000.0
+    # Seconds that an answer may take, beside those of its bytes at the least speed.
+    patience = 30.0
+    least_speed = 10_000.0  # bytes a second
 
     def __init__(self) -> None:
         self.requests = self.received = 0  # and bytes of answers

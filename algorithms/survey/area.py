@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 
@@ -55,11 +56,12 @@ class Area(Geometry):
         """Smallest x and y, largest x and y; smallest above largest if the area is empty."""
         boxes = [_bounds(polygon) for polygon in self.polygons if polygon]
         if not boxes:
-            return self.box
+            return cast(Box, self.box)  # an area has polygons or a box
         lowest, highest = np.min(boxes, axis=0)[:2], np.max(boxes, axis=0)[2:]
         if self.box is not None:
             lowest, highest = np.maximum(lowest, self.box[:2]), np.minimum(highest, self.box[2:])
-        return (*map(float, lowest), *map(float, highest))
+        (west, south), (east, north) = lowest.tolist(), highest.tolist()
+        return west, south, east, north
 
     def buffered_box(self, distance: float) -> Box:
         """Return the bounds, wider by a distance in units of the CRS on each side."""

@@ -15,11 +15,11 @@ from ..las.opening import open_las
 from ..las.reading import read_cloud
 from .window import read_window
 
-# Points are compared in strips from west to east with about so many points, to bound memory.
+# Points of a strip: they are compared in strips from west to east, to bound memory.
 _STRIP = 1 << 22
 # Files of which fewer points are common do not show the same survey.
 _LEAST_SHARE = 0.01
-# Times are used if so large a share of the points at the same places has equal ones.
+# Share of the points at the same places that must have equal times; else times are not used.
 _TRUSTED = 0.5
 # Every place that coordinates can have, as a finite box: west, south, east, north.
 _EVERYWHERE = (-1e300, -1e300, 1e300, 1e300)

@@ -69,6 +69,11 @@ class Inputs(Tuple[Path, ...]):
         vars(new).update({**vars(self), **changed})
         return new
 
+    @property
+    def output_kind(self) -> str:
+        """The kind of output that their points are written into: a survey becomes a folder."""
+        return "folder" if self.is_survey else "cloud"
+
     def open_file(self) -> LasFile:
         """Open the only file."""
         return open_las(self[0], self.stated) if self.opened is None else self.opened.tiles[0]

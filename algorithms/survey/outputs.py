@@ -11,7 +11,6 @@ from ..las.writing import check_writable
 from ..rasters.virtual import folder_of, virtual_of
 from ..rasters.writing import check_raster
 from .feature_files import feature_writer, files_beside
-from .files import Inputs
 from .vpc import check_vpc
 
 
@@ -27,10 +26,9 @@ def check_outputs(wanted: Iterable[tuple[str, Path]], sources: Sequence[Path] = 
 
 def check_kind(kind: str, path: Path, sources: Sequence[Path] = ()) -> None:
     """Refuse an output that has an unsuitable name or folder, is a source, or is in use, or whose
-    format needs a library that is missing; what the clouds of a survey become is a folder.
+    format needs a library that is missing.
     """
-    is_survey = isinstance(sources, Inputs) and sources.is_survey
-    if kind == "folder" or (kind == "cloud" and is_survey):
+    if kind == "folder":
         # A run makes it if its own folder exists.
         if not path.exists():
             check_output(path)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 
@@ -69,7 +70,7 @@ class PointChooser:
         """
         if self.area is not None:
             if not counts.inside:
-                raise self.no_point_in_area(str(path), counts.bounds)
+                raise self.no_point_in_area(str(path), cast(Box, counts.bounds))
             progress.info(f"{counts.inside:,} of {counts.points:,} points lie in the area.")
         self.selection.tell(counts, path, progress, self.area is not None)
         if not counts.by_hand:
@@ -82,7 +83,7 @@ class PointChooser:
 
     def no_point_in_area(self, of: str, box: Box) -> BareEarthError:
         """Return the error for an area without points; `box` holds all points `of` some files."""
-        return outside("the area", self.area.bounds, of, box)
+        return outside("the area", cast(Area, self.area).bounds, of, box)
 
     def tell_of_corrections(self, progress: Progress) -> None:
         """Warn that no point gets its class from the polygons of the corrections, if any."""

@@ -46,8 +46,8 @@ class Geometry:
     """Base of what holds lines and polygons: an area, corrections, constraints."""
 
     def located(self, place: Place, progress: Progress = SILENT) -> Any:
-        """Return the same with all lines and polygons in the CRS of the points; refuse a kind of
-        them that all lies outside of the points.
+        """Return it with all lines and polygons in the CRS of the points; refuse a kind of them
+        that all lies outside of the points.
         """
         raise NotImplementedError
 

@@ -57,19 +57,19 @@ def read_boundary(source: Any) -> tuple[Polygon, ...]:
 
 
 def read_corrections(source: Any) -> Corrections:
-    """Read the polygons of the same with their classes, and nothing else."""
+    """Read the polygons of a source with their classes, and nothing else."""
     found = _shapes(source, "Polygon", _polygon_with_class)
     polygons, classes = zip(*found)
     return Corrections(Shapes(polygons, found.crs, found.source), classes)
 
 
 def read_lines(source: Any) -> tuple[np.ndarray, ...]:
-    """Read the lines of the same, and nothing else."""
+    """Read the lines of a source, and nothing else."""
     return _shapes(source, "LineString", lambda corners, _: _line(corners))
 
 
 def read_points(source: Any) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
-    """Read x, y and z of the points of the same, float64 (3,), NaN for z where there is none, and
+    """Read x, y and z of the points of a source, float64 (3,), NaN for z where there is none, and
     all of their attributes.
     """
     return _shapes(source, "Point", lambda place, attributes: (_line([place])[0], attributes))

@@ -21,14 +21,14 @@ from ..rasters.geotiff import Raster, read_raster
 from ..survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from .declaration import FileTool, Input, Output
 
-# A map with about so many lines is easy to read.
+# Lines of a map, about: it is easy to read then.
 _LINES = 20
 _STEPS = (1.0, 2.0, 5.0, 10.0)
 # A smaller interval, in metres, would show noise.
 _LEAST = 0.2
 # So many lines cannot be told apart; with more, memory would not be bounded.
 _MOST_LEVELS = 20_000
-# One of so many lines is drawn thick, and has its height as a label.
+# Every fifth line is drawn thick, and has its height as a label.
 INDEX = 5
 # Cells that are worked on at a time.
 _CELLS = 4_000_000

@@ -263,7 +263,6 @@ class MapTool(Tool):
     method: str = ""  # the ground filter of the dialog, if it has only one
     # Whether it finds the ground, by any filter, and writes points; otherwise they are classified.
     classifies: bool = False
-    is_survey: bool = False  # whether one file, too, is written into a folder
 
     @property
     def writes_points(self) -> bool:

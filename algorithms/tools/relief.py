@@ -64,7 +64,7 @@ class ReliefPictures(ParameterSet):
 
     @property
     def terrain(self) -> TerrainModel:
-        """The same as parameters of rasters of the terrain."""
+        """Its values as parameters of rasters of the terrain."""
         return TerrainModel(**vars(self))
 
 

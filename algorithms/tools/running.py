@@ -104,10 +104,10 @@ def _folder_among(outputs: Mapping[str, Path]) -> Path:
 def _kinds(tool: Tool, points: Inputs, outputs: Mapping[str, Path]) -> Iterator[tuple[str, Path]]:
     """Yield the kinds and paths of the outputs, but for those in a folder that the run makes."""
     kinds = {one.name: one.kind for one in tool.all_outputs}
-    kinds.update(output="cloud", vpc="list")
+    kinds.update(output=points.output_kind, vpc="list")
     folder = outputs.get("output") if points.is_survey else None
     for name, path in outputs.items():
-        if name == "vpc" and not points.is_survey:
+        if name == "vpc" and folder is None:
             continue  # one file has no list
         if folder is None or path.parent != folder or folder.exists():
             yield kinds[name], path

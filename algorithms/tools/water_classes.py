@@ -102,8 +102,8 @@ def classes_at_water(
     """Return the classes of points, uint8 (n,), with those of water and of ignored ground beside
     its shore; points that are not ground keep their class.
     """
-    # Places and polygons are in the CRS, of which a unit is so many metres. The classes 9 and 20
-    # are those of the Lidar Base Specification 2.1 of the U.S. Geological Survey.
+    # Places and polygons are in units of the CRS, distances in metres. The classes 9 and 20 are
+    # those of the Lidar Base Specification 2.1 of the U.S. Geological Survey.
     found, which = classes.copy(), np.flatnonzero(ground)
     if not polygons or not len(which):
         return found

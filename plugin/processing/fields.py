@@ -25,7 +25,7 @@ _CHECK_WIDGET = f"{__package__}.widgets.CheckWidget"
 _SYMBOLS = {"deg": "°"}
 _LISTS = ("numbers", "integers")
 _FEWEST_DECIMALS = 3
-# The help explains at most so many choices, and only names those of longer lists.
+# Most choices that the help explains; it only names those of longer lists.
 _MOST_EXPLAINED = 12
 
 

@@ -33,7 +33,7 @@ class MapAlgorithm(ToolAlgorithm):
         super().__init__(tool)
         self._inputs = list(tool.all_inputs)
         self._outputs = list(tool.dialog_outputs())
-        if tool.is_survey:
+        if tool.points.kind == "files":
             self.cancelled = TILES_STAY
 
     def chosen(
@@ -61,7 +61,7 @@ class MapAlgorithm(ToolAlgorithm):
 
         tool, given = self._tool, {**inputs, "input": self.inputs, "crs": self.stated}
         done = run(tool, given, outputs, chosen, progress)
-        if tool.is_survey:
+        if tool.points.kind == "files":
             progress.info(f"{done.text}.")
             outputs["vpc"] = done.vpc
         elif tool.classifies:

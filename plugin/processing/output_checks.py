@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any, Sequence
+from typing import Any
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -14,6 +13,7 @@ from qgis.core import (
 
 from ...algorithms.core.errors import OutputInUse
 from ...algorithms.survey.feature_files import FORMATS
+from ...algorithms.survey.files import Inputs
 from ...algorithms.survey.outputs import check_kind
 from ...algorithms.survey.vpc import SUFFIX
 from ..styles import loaded
@@ -24,7 +24,7 @@ def check_outputs(
     algorithm: QgsProcessingAlgorithm,
     parameters: dict[str, Any],
     context: QgsProcessingContext,
-    sources: Sequence[Path],
+    sources: Inputs,
 ) -> None:
     """Refuse, as the run would, files in missing folders or with unsuitable names or endings."""
     for output in algorithm.destinationParameterDefinitions():
@@ -32,7 +32,7 @@ def check_outputs(
         if path is None:
             continue
         try:
-            check_kind(_kind_of(output), path, sources)
+            check_kind(_kind_of(output, sources), path, sources)
         except OutputInUse:
             # Layers let go of their files before the run, which asks again.
             is_main = loaded.in_main_thread()
@@ -40,10 +40,10 @@ def check_outputs(
                 raise
 
 
-def _kind_of(output: QgsProcessingParameterDefinition) -> str:
+def _kind_of(output: QgsProcessingParameterDefinition, sources: Inputs) -> str:
     """Return the kind of an output."""
     if isinstance(output, QgsProcessingParameterFolderDestination):
         return "folder"
     ending = f".{output.defaultFileExtension()}"
     kinds = {".html": "page", ".tif": "raster", SUFFIX: "list"}
-    return "features" if ending in FORMATS else kinds.get(ending, "cloud")
+    return "features" if ending in FORMATS else kinds.get(ending, sources.output_kind)

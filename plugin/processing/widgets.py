@@ -41,7 +41,7 @@ from .compositions import DELIVERY, FOLDER
 from .remote import ADDRESS, PART, REMOTE, extent_of_map
 
 _STATE = Qt.ItemDataRole.CheckStateRole
-# A box with choices is at least so many letters wide.
+# Letters: least width of a box with choices.
 _LEAST_LETTERS = 16
 # Values of Qt.CheckState in items. The names do not work in the same way in PyQt 5 and 6.
 _UNCHECKED = 0

@@ -10,9 +10,7 @@ import numpy as np
 import pytest
 
 from bare_earth import BareEarthError, Cancelled
-from bare_earth.algorithms.core import exchange as exchange_module
 from bare_earth.algorithms.core.errors import OutputInUse
-from bare_earth.algorithms.core.exchange import exchange
 from bare_earth.algorithms.core.files import (
     Outputs,
     check_distinct,
@@ -23,6 +21,8 @@ from bare_earth.algorithms.core.files import (
     temporary_folder,
 )
 from bare_earth.algorithms.core.temporary import remove, remove_leftovers, shown
+from bare_earth.algorithms.delivery import folder as delivery_folder
+from bare_earth.algorithms.delivery.folder import exchange
 from bare_earth.algorithms.engine.manifest import names_beside
 
 
@@ -418,7 +418,7 @@ def test_folders_are_exchanged_as_a_whole_or_not_at_all(number, windows, tmp_pat
     # Seen only in the middle.
     windows.hold(old / "d", number)
     with monkeypatch.context() as patch:
-        patch.setattr(exchange_module, "check_free", lambda path: None)
+        patch.setattr(delivery_folder, "check_free", lambda path: None)
         with pytest.raises(BareEarthError):
             exchange(moves, outdated, aside)
     assert {path.name: path.read_text() for path in old.iterdir()} == dict.fromkeys("bcd", "old")

@@ -12,8 +12,7 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.noise import noise_of_squares
 from bare_earth.algorithms.grids.cells import Cells, spacing
 from bare_earth.algorithms.tools.ground import step
-from bare_earth.algorithms.tools.ground.labelling import blocks_of
-from bare_earth.algorithms.tools.ground.surroundings import near, tell_spacing, thinned
+from bare_earth.algorithms.tools.ground.labelling import blocks_of, near, tell_spacing, thinned
 
 BOX = near((0.0, 0.0, 100.0, 100.0))
 

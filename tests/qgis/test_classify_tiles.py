@@ -63,7 +63,7 @@ def test_a_folder_is_classified_and_the_log_says_how_to_repeat_it(tiles, folder,
     assert [value["assets"]["data"]["href"] for value in listed["features"]] == [
         f"./{number}.laz" for number in range(4)
     ]
-    assert "0.laz: 25,600 points" in log.text and "4 of 4 files are done" in log.text
+    assert "0.laz: 23,728 of 25,600 points" in log.text and "4 of 4 files are done" in log.text
     loaded = str(out / "classified.vpc") in context.layersToLoadOnCompletion()
     assert loaded == ("vpc" in QgsProviderRegistry.instance().providerList())
     told = f"This QGIS cannot show such a file as a layer. It is at {out / 'classified.vpc'}."

@@ -10,7 +10,7 @@ import numpy as np
 from ...core.points import Points
 from ...core.progress import SILENT
 from ...core.threads import over_parts
-from ...grids.cells import Cells
+from ...grids.cells import Cells, in_order
 from ...grids.gradient import steepness
 from ...grids.morphology import within_square
 from ...grids.side_planes import Sides
@@ -69,16 +69,18 @@ class Shrubs(PointRule):
     ) -> np.ndarray:
         """Return which of the judged seeds lie above the planes of all sides."""
         blocks = Cells.over(seeds, width)
-        mean = mean_surface(seeds, np.arange(seeds.count), blocks, width)
-        above = seeds.z - blocks.interpolated(mean, seeds.x, seeds.y)
+        lowest = blocks.lowest_points(seeds)
+        mean = mean_surface(seeds, lowest, blocks, width)
         slope = steepness(mean, width).ravel()[blocks.index]
-        open_ = self.height + self.per_slope * width * slope
-        allowed = np.where(in_wood, self.in_woods, open_)
-        doubtful = above > np.where(in_wood, self.in_woods, self.height)
-        doubtful = np.flatnonzero(doubtful & judged & (slope <= self.steepest))
+        doubtful = np.flatnonzero(judged & (slope <= self.steepest))
+        least = np.where(in_wood, self.in_woods, self.height)[doubtful]
+        x, y, z = seeds.take(doubtful)
+        doubtful = doubtful[z - blocks.interpolated(mean, x, y) > least]
         # The planes are those round the middle of a quarter of a block, for all seeds in it.
         quarters = Cells.over(seeds, width / 2.0)
-        doubtful = doubtful[np.argsort(quarters.index[doubtful], kind="stable")]
+        doubtful = doubtful[in_order(quarters.index[doubtful])]
+        open_ = self.height + self.per_slope * width * slope[doubtful]
+        limit = np.where(in_wood[doubtful], self.in_woods, open_)
         which, first = np.unique(quarters.index[doubtful], return_index=True)
         row, column = np.divmod(which, quarters.columns)
         x, y = (
@@ -86,10 +88,8 @@ class Shrubs(PointRule):
             for number, start in ((column, quarters.first_column), (row, quarters.first_row))
         )
         middles = Points(x, y, blocks.interpolated(mean, x, y))
-        lowest = seeds.take(blocks.lowest_points(seeds))
-        sides = Sides(lowest, _REACH * width, _APART * width, blocks)
-        ends = np.append(first, len(doubtful))
-        above, limit = np.empty(len(doubtful)), allowed[doubtful]
+        sides = Sides(seeds.take(lowest), _REACH * width, _APART * width, blocks)
+        ends, above = np.append(first, len(doubtful)), np.empty(len(doubtful))
 
         def judge(part: slice) -> None:
             some, places = slice(ends[part.start], ends[part.stop]), middles.take(part)

@@ -34,7 +34,7 @@ _SCHEMES = {
     "ign": "Vegetation low below 0.5 m, medium to 1.5 m, high above (IGN)",
     OWN: "Vegetation by limits of your own",
 }
-# At most so many metres below its lower limit a point still counts as above ground: rounding.
+# Metres below its lower limit at which a point still counts as above ground: rounding.
 _ROUNDING = 1e-6
 
 

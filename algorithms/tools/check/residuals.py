@@ -25,14 +25,14 @@ FIELDS: dict[str, type] = {
     "NAME": str, "COVER": str, "KIND": str, "STATE": str, "Z": float, "GROUND": float,
     "ERROR": float, "DTM": float, "DTM_ERROR": float,
 }  # fmt: skip
-# An offset that is told is larger than this, in metres, and than so many times its spread.
+# An offset is told if it is larger than this, in metres, and than this multiple of its spread.
 _LEAST = 1.0
 _TIMES_SPREAD = 5.0
-# The same for one or two checkpoints, which have no spread.
+# With one or two checkpoints, which have no spread, it is larger than this, in metres.
 _LEAST_OF_FEW = 5.0
 _FEW = 3
 # The largest distances between ellipsoid and geoid in metres, and those that are common on land.
-_UNDULATIONS = 8.0, 110.0
+_UNDULATIONS = (8.0, 110.0)
 # A standard deviation in median absolute deviations of normal errors.
 _DEVIATION = 1.4826
 

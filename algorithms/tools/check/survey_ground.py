@@ -27,8 +27,8 @@ from ...survey.files import Sources, Survey, open_survey
 from ...survey.ground_classes import GroundClasses, GroundCounts
 from ...survey.shapes import Place
 
-# Points near places are kept in so many rounds, with more for the places that are not certain yet.
-# In dense land the first is enough.
+# Points near a place that are kept in each round; all rounds but the first are for the places that
+# are not certain yet. In dense land the first is enough.
 _ROUNDS = (64, 1024, 65_536)
 # Most points that are kept at a time, at about 60 bytes each.
 _MOST_KEPT = 1 << 22

@@ -13,7 +13,7 @@ from ...filters.method import Method
 from ...survey.files import Inputs
 from ..ground.method import TileMethod
 
-# By default at most so many metres are read round the window.
+# Metres round the window that are read by default, at most.
 USUAL_CONTEXT = 50.0
 
 
@@ -32,7 +32,8 @@ class Setting(NamedTuple):
     @property
     def parameters(self) -> ParameterSet:
         """The parameters of the method."""
-        return self.method.parameters(preset=self.preset)
+        parameters: Any = self.method.parameters
+        return parameters(preset=self.preset)
 
     def commands(self, paths: Inputs) -> tuple[str, str]:
         """Return what runs the setting on all points of a file, or inputs of a survey: in a shell,

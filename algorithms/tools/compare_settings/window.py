@@ -149,7 +149,11 @@ def read_points(inputs: Inputs, box: Box | None, context: float, progress: Progr
     message tells, and in `context` metres round it.
     """
     # An error says if the window is invalid, too wide or empty.
-    area, reading = None if box is None else Area(tuple(map(float, box))), progress
+    area, reading = None, progress
+    if box is not None:
+        west, south, east, north = map(float, box)
+        area = Area((west, south, east, north))
+    files: Sequence[LasFile]
     if not inputs.is_survey:
         las = inputs.open_file()
         files, crs, extent = [las], read_crs(las), las.box
@@ -167,10 +171,10 @@ def read_points(inputs: Inputs, box: Box | None, context: float, progress: Progr
         area = Area(_nearest_window(files, unit, progress.part(0.8, 0.9)))
         window = _read(files, crs, area, context / unit, progress.quiet().part(0.9, 1.0))
     if wanted is None:
-        progress.choice(f"window {where}, {box_in_words(area.box)}")
+        progress.choice(f"window {where}, {box_in_words(area.bounds)}")
     if not (window.count and window.inside.any()):
         raise BareEarthError(
-            f"No point lies in the window ({box_in_words(area.box)}): the points lie in"
+            f"No point lies in the window ({box_in_words(area.bounds)}): the points lie in"
             f" {box_in_words(extent)}. Give the window in the CRS of the points."
         )
     return window
@@ -180,7 +184,7 @@ def _read(
     files: Sequence[LasFile], crs: Crs, area: Area, context: float, progress: Progress
 ) -> Window:
     """Return the points in the area and round it, up to a distance in units of the CRS."""
-    west, south, east, north = area.box
+    west, south, east, north = area.bounds
     widest = max(east - west, north - south) * crs.horizontal_unit
     if widest > _WIDEST:
         raise BareEarthError(
@@ -192,7 +196,7 @@ def _read(
         files = [file for file in files if may_touch(file, box)]
     parts = progress.shares(*[1.0] * len(files))
     clouds = [read_window(las, box, part) for las, part in zip(files, parts)]
-    return Window(tuple(cloud for cloud in clouds if cloud.count), crs, area.box)
+    return Window(tuple(cloud for cloud in clouds if cloud.count), crs, area.bounds)
 
 
 def _middle_window(files: Sequence[LasFile], unit: float) -> Box:

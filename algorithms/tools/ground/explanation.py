@@ -52,13 +52,13 @@ class ExplainedCells(NamedTuple):
         return cls(row, column, decided.codes[first], size, decided.rules)
 
     def in_cells_of(self, size: float) -> ExplainedCells:
-        """Return the same in smaller cells, as parts of a survey that are not sparse have; each
+        """Return the codes in smaller cells, as parts of a survey that are not sparse have; each
         gets the code of the cell that holds its centre.
         """
         if size == self.size:
             return self
         start = np.stack((self.row, self.column)) * self.size / size
-        # The first centre that is not before the cell, and so many more.
+        # The first centre that is not before the cell, and the first that is behind it.
         first = np.ceil(start - 0.5).astype(np.int64)
         end = np.ceil(start + self.size / size - 0.5).astype(np.int64)
         parts = []

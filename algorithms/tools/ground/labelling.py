@@ -11,25 +11,34 @@ import numpy as np
 
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet
-from ...core.points import Box
+from ...core.points import Box, Points
 from ...core.progress import Notes, Progress
 from ...engine.blocks import Blocks
 from ...engine.store import BlockPoints
 from ...engine.visits import Visit
 from ...filters import method_of
 from ...filters.method import Decisions, warn_of_extent, warn_of_little_ground
+from ...filters.stages.noise import UNTHINNED
 from ...filters.stages.outliers import below_ground
 from ...grids.bridge_decks import bridge_decks
-from ...grids.cells import apart
+from ...grids.cells import Cells, apart, keep_spacing
 from ...grids.high_groups import HighGroups
 from ...las.return_numbers import MULTI_RETURN
 from ...survey.selection import Selection
 from .explanation import ExplainedCells
-from .surroundings import EVERYWHERE, near, tell_spacing, thinned
 
 # Shares of the time of a block for finding bridges, and low outliers.
 _BRIDGES_SHARE = 0.15
 _LOW_SHARE = 0.1
+# The box that all points are in.
+_EVERYWHERE = (-np.inf, -np.inf, np.inf, np.inf)
+# Metres from a block up to which all points are used: farther than any rule looks that counts
+# points. Farther away points matter by the surface that they lie on alone, so that the lowest of
+# them are enough, which saves time and memory where points are dense.
+_NEAR = 40.0
+# Side in metres of the cells of whose points only the lowest is used farther away. The cells of the
+# filters are made of such cells, so that their lowest points stay.
+_CELL = 0.5
 
 
 class Label(IntEnum):
@@ -57,7 +66,7 @@ def labelled(
     )
     # Classic presets do what another program does with all points.
     is_classic = method_of(parameters).is_classic(parameters)
-    box = EVERYWHERE if is_classic else near((west, south, east, north))
+    box = _EVERYWHERE if is_classic else near((west, south, east, north))
     contents = thinned(visit.contents(progress.part(0.0, 0.15)), box)
     core = visit.core(contents)
     positions = contents.positions if core.all() else contents.positions[core]
@@ -176,8 +185,9 @@ class BlockMessages(Notes):
 def tell(progress: Progress, blocks: list[BlockMessages]) -> None:
     """Report each message of the blocks once, and the number of blocks that failed."""
     failed = [block for block in blocks if block.failure is not None]
-    if failed and len(failed) == len(blocks):
-        raise failed[0].failure
+    failures = [block.failure for block in blocks if block.failure is not None]
+    if failures and len(failures) == len(blocks):
+        raise failures[0]
     messages = collections.Counter(m for block in blocks for m in dict.fromkeys(block.messages))
     for block in blocks:
         for stage, seconds in block.seconds.items():
@@ -191,3 +201,37 @@ def tell(progress: Progress, blocks: list[BlockMessages]) -> None:
             f"No ground was found in {len(failed)} of {len(blocks)} blocks: their"
             f" {sum(block.count for block in failed):,} points are not ground. {failed[0].failure}"
         )
+
+
+def near(box: Box) -> Box:
+    """Return the box round a block in which all points are used."""
+    west, south, east, north = box
+    return west - _NEAR, south - _NEAR, east + _NEAR, north + _NEAR
+
+
+def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
+    """Return the points of a block and its buffer, without most of those far from a `near` box."""
+    if not contents.points.count or contents.points.are_within(box):
+        return contents
+    stays = contents.points.within(box)
+    # One side after the other, since a grid of all would have many cells in the middle.
+    west, south, east, north = box
+    x, y = contents.points.x, contents.points.y
+    beside = (y >= south) & (y < north)
+    for side in (y < south, y >= north, beside & (x < west), beside & (x >= east)):
+        far = np.flatnonzero(side)
+        if len(far):
+            some = contents.points.take(far)
+            stays[far[Cells.over(some, _CELL).lowest_points(some)]] = True
+    stays |= contents.known
+    return contents.take(stays)
+
+
+def tell_spacing(points: Points, box: Box) -> None:
+    """Let points have the spacing and the noise of those in a box, which are not thinned."""
+    if points.are_within(box):
+        return
+    inside = points.within(box)
+    if inside.any():
+        keep_spacing(points, points.take(inside))
+        points.found[UNTHINNED] = box

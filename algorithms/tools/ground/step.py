@@ -112,7 +112,7 @@ class LabelGround(PointStep):
     def decided(
         self, part: PointCloud, values: np.ndarray, inside: np.ndarray, by_hand: ByHand | None
     ) -> PointCloud:
-        """Return the same, given which points lie in the area, and the corrections by hand."""
+        """Return what `applied` does, given which points lie in the area, and those set by hand."""
         ground, low, decks, high = (values == label for label in Label)
         classes = self.selection.classes(part, ground, low, inside, decks, by_hand, high)
         part = with_classes(part, classes, self.selection.remember_classes)

@@ -31,7 +31,7 @@ from .step import LabelGround
 
 @dataclass(frozen=True)
 class ShownTiles(TileOutput):
-    """The same with an overview by default, since QGIS shows the tiles at once."""
+    """How tiles are written, with an overview by default, since QGIS shows them at once."""
 
     overview: bool = parameter_of(TileOutput, "overview", default=True)
 
@@ -209,7 +209,6 @@ TOOL = MapTool(
 )  # fmt: skip
 TILES_TOOL = replace(
     TOOL,
-    is_survey=True,
     points=Input("input", "files", label="Point clouds"),
     dialog_inputs=(replace(_AREA, advanced=True), _CORRECTIONS, _CONSTRAINTS, _TARGET),
     dialog_outputs=_of_tiles,

@@ -74,7 +74,7 @@ class Quality:
 
     @property
     def meets_specification(self) -> bool | None:
-        """The same; None also if there is no specification to compare with."""
+        """Whether all comparisons pass; None also if there is no specification to compare with."""
         return self.passes if self.comparison else None
 
     @property

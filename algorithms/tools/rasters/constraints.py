@@ -13,7 +13,7 @@ from ...las.cloud import PointCloud
 from ...survey.area import Area, Polygon
 from ...survey.shapes import Geometry, Place, located
 
-# Ground points up to so many metres from a line or border give its height.
+# Metres from a line or border up to which ground points give its height.
 NEAR = 10.0
 # Metres between vertices along a river.
 STATION = 5.0

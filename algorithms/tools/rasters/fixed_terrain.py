@@ -28,7 +28,7 @@ _FEWEST = 8  # of these points; with fewer there is no level
 _SQUARE = 2.0  # metres: side of the squares whose points count as one, their mean
 # Metres between vertices inside water.
 _INSIDE = 10.0
-# Lines are used up to so many metres beyond the points of a block.
+# Metres beyond the points of a block up to which lines are used.
 _BEYOND = 20.0
 # Places on a line for each cell in which points are thinned: the line misses no cell.
 PER_CELL = 4.0

@@ -15,7 +15,7 @@ from ...grids.outline import Outline, strips
 from ...grids.tin import Tin
 from ...survey.area import Area
 
-# A place within so many metres of the shore lies in the water: the border belongs to it.
+# Metres from the shore within which a place lies in the water: the border belongs to it.
 _ON_SHORE = 1e-3
 
 

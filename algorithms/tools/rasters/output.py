@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any, Callable, Mapping, Sequence
@@ -15,26 +15,53 @@ from ...core.points import Box, Frame, box_in_words, box_round
 from ...core.progress import SILENT, Progress
 from ...engine.summary import FileSummary
 from ...grids.cell_window import CellWindow
-from ...rasters.cell_grid import (
-    MOST_CELLS,
-    no_points,
-)
+from ...rasters.cell_grid import ANYWHERE, MOST_CELLS, CellGrid, RasterTarget, no_points
 from ...rasters.geotiff import NO_GROUND, RasterGrid, check_cells
 from ...rasters.virtual import folder_of, virtual_of, write_virtual
 from ...rasters.writing import Band, Rows, raster_file, write_geotiff
 from ...survey.area import Area
-from .block import BlockRasters
-from .drawing import Drawing
+from .block import BlockRasters, RasterStep
+from .fixed_terrain import FixedTerrain
 from .level_water import WaterCells
 from .mosaic import Mosaic, gathered_strips
 from .outlines import CellContents, Outlines, mosaics_of
-from .rows import RASTERS, How, Raster
+from .parameters import SurfaceModel, TerrainModel
+from .rows import RASTERS, How, Raster, RasterFiles
 
-# Cells up to so many metres from the area are made as well, because the surroundings decide which
+# Metres from the area up to which cells are made as well, because the surroundings decide which
 # gaps lie inside the survey.
 AROUND_AREA = 1000.0
 # Writes a raster, given what `write_geotiff` is given.
 WriteCells = Callable[[Path, Rows, RasterGrid, float, Progress, str], None]
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """The rasters to make, and all that their cells depend on beside the points."""
+
+    files: RasterFiles = field(default_factory=RasterFiles)
+    model: TerrainModel = field(default_factory=TerrainModel)
+    surface: SurfaceModel = field(default_factory=SurfaceModel)
+    per_file: bool = False  # each of many files gets its own rasters
+    fixed: FixedTerrain | None = None  # the vertices of the constraints, once they are found
+    target: RasterTarget = ANYWHERE  # a grid or an extent that the rasters must have
+    placed_cells: CellGrid | None = None  # where the cells lie, once the CRS is known
+    area: Area | None = None  # without values outside, where points still take part
+
+    @property
+    def cells(self) -> CellGrid:
+        """Where the cells lie; before that is known, as in metres."""
+        return self.placed_cells or self.model.cells(1.0)
+
+    @property
+    def cell(self) -> float:
+        """Side of a cell in metres."""
+        return self.cells.metres
+
+    @property
+    def of_block(self) -> RasterStep:
+        """Makes the rasters of a single block."""
+        return RasterStep(self.cell, self.files.layers, self.surface.max_edge)
 
 
 @dataclass(frozen=True)

@@ -113,7 +113,7 @@ class TerrainModel(ParameterSet):
 
 @dataclass(frozen=True)
 class MapTerrain(TerrainModel):
-    """The same with four lights by default, since landforms can run in any direction."""
+    """A terrain model with four lights by default, since landforms can run in any direction."""
 
     hillshade_light: str = parameter_of(TerrainModel, "hillshade_light", default="multidirectional")
 

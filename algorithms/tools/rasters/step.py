@@ -34,9 +34,8 @@ from ...survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
 from ...survey.shapes import Place
 from .block import LAYERS, BlockRasters, BlockView
 from .constraints import NO_CONSTRAINTS, Constraints
-from .drawing import Drawing
 from .fixed_terrain import fixed_terrain
-from .output import AROUND_AREA, RasterSize, no_point_in, write_rasters
+from .output import AROUND_AREA, Drawing, RasterSize, no_point_in, write_rasters
 
 # Points are thinned to one a cell unless the cells are more than ten times as many as the points,
 # of which hardly two would share one.
