@@ -153,7 +153,8 @@ def causes_of(pieces: Evidence) -> np.ndarray:
     """Return which piece of evidence makes the error of each cell largest, compared with its usual
     factor, as uint8: 1 for the first one of `Evidence`, 0 where none is larger than usual.
     """
-    causes, most = np.zeros(pieces.holes.shape, dtype=np.uint8), np.float32(0.0)
+    causes = np.zeros(pieces.holes.shape, dtype=np.uint8)
+    most = np.zeros(pieces.holes.shape, dtype=np.float32)
     for number, one in enumerate(_logarithms(pieces, FACTORS), start=1):
         more = one - np.float32(np.log(_USUAL[number - 1]))
         causes[more > most] = number

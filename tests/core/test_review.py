@@ -1,0 +1,113 @@
+"""Places to review: where the expected error is large, why, and without what has an answer."""
+
+import json
+
+import laspy
+import numpy as np
+import pytest
+
+import bare_earth
+from bare_earth import BareEarthError
+from bare_earth.algorithms.cli import main
+
+pyogrio = pytest.importorskip("pyogrio")
+pytest.importorskip("shapely")
+GAP = (40.0, 70.0)
+
+
+@pytest.fixture(scope="module")
+def rasters(tmp_path_factory):
+    """Return the rasters of level land of 100 m with a gap of 30 m in its ground, below trees."""
+    folder = tmp_path_factory.mktemp("review")
+    random = np.random.default_rng(7)
+    x, y = random.uniform(0, 100, (2, 30_000))
+    gap = (x > GAP[0]) & (x < GAP[1]) & (y > GAP[0]) & (y < GAP[1])
+    z = 50.0 + random.normal(0, 0.02, len(x)) + np.where(gap, 9.0, 0.0)
+    las = laspy.LasData(laspy.LasHeader(point_format=6, version="1.4"))
+    las.header.scales = [0.001] * 3
+    las.header.offsets = [0.0] * 3
+    las.x, las.y, las.z, las.classification = x + 500_000, y + 5_600_000, z, np.where(gap, 5, 2)
+    las.write(folder / "in.laz")
+    paths = {name: folder / f"{name}.tif" for name in ("dtm", "expected_error", "error_cause")}
+    bare_earth.terrain(folder / "in.laz", crs=25832, dtm_cell_size=1.0, **paths)
+    return folder
+
+
+def reviewed(folder, **values):
+    """Return the places of a review, as a GeoDataFrame, and its summary."""
+    places = folder / "places.gpkg"
+    summary = bare_earth.review(
+        folder / "expected_error.tif", places, dtm=folder / "dtm.tif",
+        cause=folder / "error_cause.tif", **values,
+    )  # fmt: skip
+    return pyogrio.read_dataframe(places), summary
+
+
+def test_the_first_place_is_the_gap_with_its_reason_and_its_page(rasters):
+    page = rasters / "page.html"
+    found, summary = reviewed(rasters, page=page)
+    first = found.iloc[0]
+    assert list(found.RANK) == list(range(1, len(found) + 1)) and found["class"].isna().all()
+    assert "gap" in first.REASON or "hardly any ground" in first.REASON
+    middle = first.geometry.centroid
+    assert abs(middle.x - 500_055) < 5 and abs(middle.y - 5_600_055) < 5
+    assert found.crs.to_epsg() == 25832
+    assert 49.8 < first.LOW <= first.HIGH < 50.3
+    assert summary.place_count == len(found) and 0.05 < summary.expected_rmse < 1.0
+    text = page.read_text(encoding="utf-8")
+    assert first.REASON in text and "<svg" in text and "nothing was measured" in text
+    assert "http://" not in text.replace("http://www.w3.org", "")
+
+
+def test_few_places_are_written_and_the_others_counted(rasters):
+    found, summary = reviewed(rasters, least_error=0.08, least_area=1.0, most_places=1)
+    assert len(found) == summary.place_count == 1
+    assert summary.left_out > 0 and f"{summary.left_out:,} place" in summary.text
+    assert found.SHARE[0] < 1.0
+
+
+def test_answers_are_left_out_and_become_corrections(rasters, tmp_path):
+    found, summary = reviewed(rasters)
+    found.loc[0, "class"] = 5
+    answered = tmp_path / "answered.gpkg"
+    pyogrio.write_dataframe(found, answered)
+    left, again = reviewed(rasters, corrections=answered)
+    assert again.answered == 1 and len(left) == summary.place_count - 1
+    # Those without a class correct nothing.
+    bare_earth.classify(
+        rasters / "in.laz", tmp_path / "out.laz", crs=25832, method="slope", corrections=answered
+    )
+    inside = laspy.read(tmp_path / "out.laz")
+    x, y = np.asarray(inside.x) - 500_000, np.asarray(inside.y) - 5_600_000
+    middle = (np.abs(x - 55) < 10) & (np.abs(y - 55) < 10)
+    assert (inside.classification[middle] == 5).all()
+
+
+def test_corrections_of_which_none_has_a_class_are_refused(rasters, tmp_path):
+    reviewed(rasters)
+    with pytest.raises(BareEarthError, match="class of each polygon"):
+        bare_earth.classify(
+            rasters / "in.laz", tmp_path / "out.laz", crs=25832,
+            corrections=rasters / "places.gpkg",
+        )  # fmt: skip
+
+
+def test_rasters_of_two_runs_are_refused(rasters, tmp_path):
+    bare_earth.terrain(rasters / "in.laz", crs=25832, dtm_cell_size=2.0, dtm=tmp_path / "dtm.tif")
+    with pytest.raises(BareEarthError, match="other cells"):
+        bare_earth.review(
+            rasters / "expected_error.tif", tmp_path / "p.gpkg", dtm=tmp_path / "dtm.tif"
+        )
+    assert not (tmp_path / "p.gpkg").exists()
+
+
+def test_the_command_without_a_terrain_model_or_causes(rasters, tmp_path, capsys):
+    places = tmp_path / "places.geojson"
+    page = tmp_path / "page.html"
+    arguments = [str(rasters / "expected_error.tif"), str(places), "--page", str(page), "--json"]
+    assert main(["review", *arguments]) == 0
+    told = json.loads(capsys.readouterr().out)
+    content = json.loads(places.read_text(encoding="utf-8"))
+    assert len(content["features"]) == told["place_count"] > 0
+    assert content["features"][0]["properties"]["LOW"] is None
+    assert "Without a terrain model" in page.read_text(encoding="utf-8")
