@@ -4,13 +4,17 @@ import json
 
 import numpy as np
 import pytest
+from runs import CancelAt
 from surveys import ORIGIN, write_points
 
-from bare_earth import BareEarthError, contours
+from bare_earth import BareEarthError, Cancelled, classify, contours
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.isolines import Isolines
 from bare_earth.algorithms.tools import contours as contours_module
+from bare_earth.algorithms.tools import map_tool
 from bare_earth.algorithms.tools.contours import INDEX, Contours
+from bare_earth.algorithms.tools.running import run
 
 rasterio = pytest.importorskip("rasterio")
 EAST, NORTH = ORIGIN[:2]
@@ -212,6 +216,28 @@ def test_the_commands_draw_the_same_lines(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         "a.geojson", "b.geojson", "c.geojson", "dtm.tif", "in.laz", "out.laz",
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize("many", [False, True])
+def test_a_cancel_while_lines_are_drawn_leaves_no_raster(many, tmp_path):
+    x, y = np.random.default_rng(1).uniform(0.0, 60.0, (2, 4000))
+    (tmp_path / "in").mkdir()
+    source = write_points(tmp_path / "in" / "a.las", x, y, 100.0 + x / 9.0)
+    maps = {"dtm": tmp_path / "dtm.tif", "contours": tmp_path / "lines.geojson"}
+    given = (source.parent, tmp_path / "out") if many else (source, tmp_path / "out.las")
+    with pytest.raises(Cancelled):
+        classify(*given, method="slope", progress=CancelAt(0.95), **maps)
+    names = {path.name for path in tmp_path.iterdir()} - {"in"}
+    assert names == ({"out"} if many else set())  # finished tiles stay
+
+
+def test_points_that_nobody_asks_for_are_not_kept(tmp_path):
+    x, y = np.random.default_rng(1).uniform(0.0, 60.0, (2, 4000))
+    source = write_points(tmp_path / "a.las", x, y, 100.0 + x / 9.0)
+    outputs = {"dtm": tmp_path / "dtm.tif"}
+    done = run(map_tool("classify"), {"input": source}, outputs, [METHODS["slope"].parameters()])
+    assert done.class_counts[2] > 3000
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.las", "dtm.tif"]
 
 
 def test_what_cannot_be_drawn_is_one_sentence(tmp_path, capsys, monkeypatch):
