@@ -625,7 +625,8 @@ def test_the_command_delivers_and_prints_the_figures(scene, tmp_path, capsys):
     assert main([*words, "--dtm-cell-size", "2", "--hold-out-share", "none"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["cell_size"] == 2.0 and told["check"] is None and told["quality"]["points"]
-    assert set(told["layers"]) == {"dtm", "dsm", "hillshade", "contours"}
+    reviewed = {"expected_error", "error_cause", "places"}
+    assert set(told["layers"]) == {"dtm", "dsm", "hillshade", "contours", *reviewed}
     assert all(os.path.exists(path) for path in told["layers"].values())
 
 
@@ -660,7 +661,9 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     first, *rows = capsys.readouterr().out.splitlines()
     assert first.startswith(f"{target}: {summary.ground_count:,} of {summary.point_count:,} points")
     told = {row[:11].rstrip(): row[12:] for row in rows}
-    titles = ["classes", "water", "accuracy", "held out", "comparisons", "cell size", "page"]
+    titles = ["classes", "water", "accuracy", "held out", "comparisons", "expected", "cell size"]
+    titles.append("page")
+    assert re.search(r"expected RMSE of the terrain model is \d+\.\d\d m", told["expected"])
     assert list(told) == titles and told["accuracy"].startswith("not measured")
     counts = (f"{value}: {count:,}" for value, count in summary.class_counts.items())
     assert told["classes"] == ", ".join(counts) and told["cell size"] == "1 m"
@@ -692,7 +695,7 @@ def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
     assert main(["deliver", "drone-site", str(scene[1]), str(tmp_path / "out"), *words]) == 0
     rows = capsys.readouterr().out.splitlines()[1:]
     titles = [row[:11].rstrip() for row in rows]
-    assert titles == ["classes", "checkpoints", "verdict", "cell size", "page"]
+    assert titles == ["classes", "checkpoints", "verdict", "expected", "cell size", "page"]
     assert rows[2].endswith(
         "meet the class of 0.1 m, by 3 of the 30 checkpoints that the standard asks for."
     )

@@ -57,7 +57,9 @@ def made(folder, source, *options, names=NAMES, fails=False):
     """Make rasters with the command; return the open rasters, or what it says."""
     folder.mkdir(exist_ok=True)
     paths = {name: folder / f"{name}.tif" for name in names}
-    rasters = [word for name, path in paths.items() for word in (f"--{name}", path)]
+    rasters = [
+        word for name, path in paths.items() for word in (f"--{name.replace('_', '-')}", path)
+    ]
     code, _, errors = said("terrain", source, *rasters, *options)
     if fails:
         assert code and not list(folder.iterdir())

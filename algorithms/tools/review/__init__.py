@@ -65,7 +65,7 @@ def review(
     page: Path | None = None,
     dtm: Source | None = None,
     cause: Source | None = None,
-    corrections: Corrections = NO_CORRECTIONS,
+    corrections: Corrections | None = None,
     how: Review = Review(),
     progress: Progress = SILENT,
 ) -> ReviewSummary:
@@ -80,7 +80,7 @@ def review(
     if not known.any():
         raise BareEarthError(f"{source} has no expected error. Give the raster of one.")
     progress(0.3)
-    answered = corrections.located(_place_of(raster), progress).polygons
+    answered = (corrections or NO_CORRECTIONS).located(_place_of(raster), progress).polygons
     found = places_of(rasters, how, units)
     done = [place for place in found if _is_answered(place, raster, answered)]
     left = [place for place in found if place not in done]

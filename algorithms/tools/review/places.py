@@ -20,8 +20,8 @@ _WIDEST = 100.0
 # no limit.
 _USUAL = 0.95
 _LEAST = 0.3
-# Cells of no value, or beyond the raster, beside a place: it lies at the border of the survey.
-_BORDER = "at the border of the survey"
+# Of a place beside cells without a value.
+_BORDER = "beside water or the border of the survey"
 # By the piece of evidence with the largest share in the expected error; {rise} is the difference
 # between the lowest and the highest cell, {width} that of the gap, {error} the expected error.
 _REASONS = {
