@@ -16,7 +16,7 @@ from ..state import GridState
 _PIT_SHARE = 0.9
 # Rounds in which regions that others hid are tested again.
 _ROUNDS = 3
-# A cell is even within so many metres of the mean of two opposite neighbours.
+# Metres from the mean of two opposite neighbours within which a cell is even.
 _BEND = 0.15
 # Regions of the first and of the second cell of pairs of cells; -1 for cells that are not raised.
 _Pairs = tuple[np.ndarray, np.ndarray]
