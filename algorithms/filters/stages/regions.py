@@ -306,8 +306,8 @@ class Rocks(Rule):
     area: float = 200.0  # least area in square metres
     # Least standard deviation in metres of its heights, and of its heights above the ground.
     deviation: float = 5.0
-    # A roof is lower, or level: then a band of so many metres holds more than this share of its
-    # cells.
+    # A roof is lower, or level: then a band of heights, in metres, holds more than this share of
+    # its cells.
     band: float = 3.0
     band_share: float = 1.0 / 3.0
 

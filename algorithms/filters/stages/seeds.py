@@ -18,7 +18,7 @@ from ..state import GridState, State
 # Largest spacing in metres at which cells hold many points, and show breaks by themselves.
 DENSE_SPACING = 0.17
 _NO_SEED = "No point can be taken for ground with certainty."
-# Points up to so many metres above the lowest one of their cell count as near it, and on slopes
+# Metres above the lowest point of their cell up to which points count as near it, and on slopes
 # what the ground rises within the cell.
 _NEAR = 0.6
 # Side in metres of the square in which they are counted.
