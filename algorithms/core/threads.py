@@ -128,7 +128,7 @@ def workers() -> int:
 
 
 def may_use(count: int) -> contextlib.AbstractContextManager[None]:
-    """Let the calling thread use so many threads, including itself, while the block runs."""
+    """Let the calling thread use `count` threads, including itself, while the block runs."""
     return SharedThreads(count).used()
 
 

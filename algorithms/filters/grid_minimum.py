@@ -42,9 +42,10 @@ _CELL_STEP = 0.5
 _NEARLY = 0.05
 # Least side in metres of the cells in which points are counted if those of the filter are too many.
 _DENSITY_BLOCK = 10.0
-# Points affect each other within so many times the largest object, and within at least so many
+# Points affect each other within this multiple of the largest object, and in any case within these
 # metres.
-_REACH_OBJECTS, _LEAST_REACH = 2.0, 100.0
+_REACH_OBJECTS = 2.0
+_LEAST_REACH = 100.0
 
 # The preset with the rules of the paper.
 CLASSIC = "paper"

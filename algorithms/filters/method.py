@@ -29,9 +29,8 @@ TERRAINS = {
 NOT_GROUND = 100
 # Usual width in metres of the largest building; few are wider.
 _USUAL_OBJECT = 50.0
-# Side in metres of the cells in which ground is counted, and the least usual share of the cells
-# with points that have ground.
-_CELL, _LEAST_GROUND = 1.0, 0.02
+_CELL = 1.0  # metres: side of the cells in which ground is counted
+_LEAST_GROUND = 0.02  # least usual share of the cells with points that have ground
 # If more than this share of the points is ground, cells need not be counted: enough have ground.
 _SURELY_ENOUGH = 0.1
 

@@ -21,9 +21,8 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from .state import GridState, RuleTime, State
 
-# Largest usual share of low outliers among the lowest points, and the least number of cells for
-# which a share means something.
-_MOST_OUTLIERS, _LEAST_CELLS = 0.02, 500
+_MOST_OUTLIERS = 0.02  # largest usual share of low outliers among the lowest points
+_LEAST_CELLS = 500  # for which a share means something
 
 
 class Stage(Enum):

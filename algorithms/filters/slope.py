@@ -27,15 +27,17 @@ from .stages.seeds import LowestPoints, Seeds
 from .stages.tolerance import ToleranceSurface
 from .whitebox import StandsAbove
 
-# Points affect each other within so many search radii. On one scale, this is just what erosion,
-# dilation and comparison need. It is at least so many metres if the radius follows from the points.
-_REACH_RADII, _REACH_RADII_ON_ONE_SCALE, _LEAST_REACH = 5.0, 3.01, 100.0
-# The same, as a multiple of the largest building.
+# Search radii within which points affect each other. On one scale, this is just what erosion,
+# dilation and comparison need.
+_REACH_RADII = 5.0
+_REACH_RADII_ON_ONE_SCALE = 3.01
+_LEAST_REACH = 100.0  # metres: least such distance if the radius follows from the points
+# This distance, as a multiple of the largest building.
 _REACH_BUILDINGS = 2.0
 _WHITEBOX_RADIUS = 2.0
 # The preset with the rules of Whitebox's filter.
 CLASSIC = "whitebox"
-# If the search radius is given, the largest building is so many times as wide.
+# Width of the largest building in search radii, if the radius is given.
 _WIDEST = 2.0
 
 

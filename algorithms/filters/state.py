@@ -16,7 +16,7 @@ from ..grids.morphology import within_square
 
 # Least spacing of points in metres; a smaller one counts as this.
 _LEAST_SPACING = 0.01
-# Clouds from images have points at most so many metres apart, and pulses with one return only.
+# Metres between the points of clouds from images, at most, whose pulses have one return only.
 _IMAGE_SPACING = 0.22
 # Gaps up to twice this width, in cells, count as surveyed.
 _GAP = 4

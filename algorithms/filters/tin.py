@@ -37,11 +37,12 @@ from .stages.tolerance import PlainSurface, ToleranceSurface
 
 # Least spacing of points in metres; a smaller one counts as this.
 _LEAST_SPACING = 0.01
-# Up to so many square metres, what is tall and slender is an A-frame or a polytunnel, not a hill.
+# Square metres up to which what is tall and slender is an A-frame or a polytunnel, not a hill.
 _SMALL = 600.0
-# Points affect each other within so many times the largest building, and within at least so many
-# metres.
-_REACH_BUILDINGS, _LEAST_REACH = 1.2, 100.0
+# Points affect each other within this multiple of the largest building, and in any case within
+# these metres.
+_REACH_BUILDINGS = 1.2
+_LEAST_REACH = 100.0
 # The preset with the rules of another program.
 CLASSIC = "lidar360"
 

@@ -22,16 +22,18 @@ from ..grids.morphology import erosion
 from .pipeline import PointRule, Stage
 from .state import State
 
-# Points of a strip: its arrays fit into the processor's cache. It is at least so many radii wide,
-# because the points within a radius of it are read as well.
-_POINTS_A_STRIP, _LEAST_WIDTH = 150_000, 8.0
-# Most cells along a radius; most cells for each point, or in all if that is more.
-_MOST_CELLS_A_RADIUS, _MOST_CELLS_A_POINT, _ALWAYS_ALLOWED = 48, 4, 1_000_000
+_POINTS_A_STRIP = 150_000  # its arrays fit into the processor's cache
+# Radii: least width of a strip, because the points within a radius of it are read as well.
+_LEAST_WIDTH = 8.0
+_MOST_CELLS_A_RADIUS = 48
+# Most cells for each point, or in all if that is more.
+_MOST_CELLS_A_POINT = 4
+_ALWAYS_ALLOWED = 1_000_000
 # Bounds are widened by this, in cells, metres or radii, so that rounding never decides. Points are
 # compared without it.
 _ROUNDING = 1e-5
-# Pairs of points and their nearest ones that are looked up at once, and points that are grown.
-_PAIRS_A_STEP, _GROWN_A_STEP = 2_000_000, 20_000
+_PAIRS_A_STEP = 2_000_000  # pairs of points and their nearest ones that are looked up at once
+_GROWN_A_STEP = 20_000  # points whose radius grows at once
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,7 @@ class StandsAbove(PointRule):
     height: float  # height threshold in metres
     # Whether heights above a surface that follows the terrain are compared (white top-hat).
     top_hat: bool = True
-    # The radius of a point with fewer neighbours grows until it has so many.
+    # The radius of a point with fewer neighbours grows until it has this many.
     min_neighbours: int = 0
 
     def apply(self, state: State) -> None:

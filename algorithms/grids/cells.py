@@ -21,7 +21,7 @@ _POINTS_A_COUNT = 1 << 20
 _VALUES_A_PART = 1 << 16  # values of which the least are found at a time
 # How often values are stored before `minimum.at`, which takes eight times as long, finds the rest.
 _ROUNDS = 6
-# Of elements that are fewer than one in so many cells, the occupied cells are sorted.
+# Cells for each element from which on the occupied cells are sorted.
 _FEW = 16
 # Side in metres of the blocks in which points are counted. A block without a point is a gap in the
 # survey.

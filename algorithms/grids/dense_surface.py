@@ -24,11 +24,10 @@ from .surface import CellLattice, Surface
 # Cells of the lattice along the side of a raster cell, so that the centre of a raster cell is a
 # corner of four lattice cells.
 VERTICES_A_SIDE = 2
-# Vertices within so many lattice cells of the remaining queries are used. The circumcircle of a
+# Lattice cells from the remaining queries within which vertices are used. The circumcircle of a
 # triangle over a gap holds no vertex, so it hardly reaches into land where each cell has one.
 _RIM = WIDEST
-# Only vertices within so many cells are triangulated. The others are needed where a circle holds
-# any.
+# Cells within which vertices are triangulated. The others are needed where a circle holds any.
 _NARROW_RIM = 2
 _A_LITTLE = 0.01  # lattice cells: rounding error of a vertex at the border of a tile
 _ROUNDING = 1e-6  # share of a cell: rounding error of an anchor

@@ -23,7 +23,7 @@ _STEPS = 6
 _EDGES_A_PART = 1 << 15
 # Most rounds of flips. Far fewer are enough, unless rounding makes the flips endless.
 _MOST_STEPS = 1000
-# Where four vertices lie on one circle, coordinates are compared in so many steps a metre.
+# Steps a metre in which coordinates are compared where four vertices lie on one circle.
 _STEPS_A_METRE = 1e5
 
 

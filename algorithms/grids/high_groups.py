@@ -28,9 +28,9 @@ class HighGroups:
     height: float = 10.0  # metres above all other points of the place, and between its groups
     points: int = 20  # largest number of points of a group
     width: float = 5.0  # largest width of a group in metres
-    reach: float = 10.0  # the place reaches at least so many metres from the group
-    row: float = 25.0  # groups of a row, such as a wire, are at most so many metres apart
-    row_climb: float = 0.2  # and one is higher by at most 2 m and so many times their distance
+    reach: float = 10.0  # metres that the place reaches from the group, at least
+    row: float = 25.0  # metres between groups of a row, such as a wire, at most
+    row_climb: float = 0.2  # and one is higher by 2 m and this share of their distance, at most
     row_share: float = 0.35  # largest width of a row by its length, both as standard deviations
     most: int = 3  # a row of more groups is an object
 

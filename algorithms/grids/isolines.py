@@ -33,7 +33,7 @@ _SADDLES = {
 class Isoline(NamedTuple):
     """A line of equal height."""
 
-    level: int  # its height is so many times the interval
+    level: int  # its height in intervals
     # float64 (n, 2), row and column of its corners; whole numbers are centres of cells.
     places: np.ndarray
 

@@ -21,7 +21,7 @@ TILE = 512
 _POINTS_A_PART = 1 << 17
 # Rounding error of a coordinate on the border of a cell, as a share of the cell.
 _ROUNDING = 1e-6
-# Squared distances to the centre of a cell are rounded to so many parts of a squared cell.
+# Parts of a squared cell to which squared distances to the centre of a cell are rounded.
 # Smaller differences depend on the origin of the coordinates.
 _DISTANCES = 1e6
 # Row and column of a tile.

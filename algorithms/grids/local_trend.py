@@ -8,7 +8,7 @@ import numpy as np
 
 from .planes import means_and_moments, plane_slopes
 
-# Cells farther than so many standard deviations have no weight.
+# Standard deviations beyond which cells have no weight.
 TRUNCATE = 3.0
 # Cells along a side of the pieces in which edges are worked on.
 _PIECE = 256

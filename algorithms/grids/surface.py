@@ -16,15 +16,17 @@ from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates, triangles
 
 # Most vertices of a block: so few that all threads have work, and that progress and cancel do not
 # have to wait.
-_VERTICES_A_BLOCK = 25_000
+_VERTICES_A_BLOCK = 6_000
 # Width of the margin that is triangulated with a block, as a share of the block's longer side.
-_MARGIN = 0.06
+_MARGIN = 0.03
 # Most triangulations of the vertices round the queries that blocks leave. A few are enough, unless
 # rounding makes the search endless.
 _MOST_STEPS = 1000
 # Rounding error in metres of a query on the hull.
 _ON_HULL = 1e-6
-# Rounding: a vertex inside a circle by less than this share of the radius counts as on it.
+# Rounding: a vertex counts as on a circle if its power, squared metres, is less than this share of
+# the radius times its distance from a corner. By its distance from the centre, nothing would be
+# inside the wide circles of slivers along the hull.
 _ON_CIRCLE = 1e-9
 # Most cells for each query in the rectangle of a block's queries. With more, it is faster to locate
 # each query than to go through all cells.
@@ -183,9 +185,7 @@ class Surface:
         progress(0.4)
         triangle = _located(tin, x, y, cells)
         progress(0.6)
-        is_left = np.zeros(len(x), dtype=bool)
-        if not is_one_block:
-            is_left = (triangle < 0) & (self._depth(x, y) >= _ON_HULL)
+        is_left = (triangle < 0) & (not is_one_block)
         if not (is_one_block and are_all):
             inside = np.flatnonzero(triangle >= 0)
             in_circle = self._in_circles(tin, triangle[inside], borders if are_all else None)
@@ -211,7 +211,7 @@ class Surface:
         # The time depends on the number of triangles that hold queries, not on that of the queries:
         # a lake has many more cells than vertices on its shore.
         heights, active = np.full(len(x), np.nan), np.arange(len(x))
-        used, added = np.union1d(vertices, self._hull[2]), self._hull[2]
+        used, hull = np.union1d(vertices, self._hull[2]), self._hull[2]
         for _ in range(_MOST_STEPS):
             tin, some = Tin(*self._vertices.take(used)), (x[active], y[active])
             triangle = _located(tin, *some, cells)
@@ -224,8 +224,9 @@ class Surface:
             if not len(active):
                 break
             corners = used[tin.source[np.unique(tin.triangles[triangle[is_new]])]]
-            added = np.union1d(added, in_circle[is_new])
-            used = np.union1d(corners, added)
+            # Each new vertex lowers the paraboloid over its queries, so that this ends without the
+            # vertices that were added for others.
+            used = np.unique(np.concatenate((corners, hull, in_circle[is_new])))
         return heights
 
     def _depth(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -252,8 +253,9 @@ class Surface:
         used, back = np.unique(triangle, return_inverse=True)
         corners = tin.triangles[used].T
         # Relative to a corner, because large coordinates lose digits.
-        x, y, radius = circumcircles(*(axis[corners] - axis[corners[0]] for axis in (tin.x, tin.y)))
-        x, y = x + tin.x[corners[0]], y + tin.y[corners[0]]
+        corner = tin.x[corners[0]], tin.y[corners[0]]
+        to_x, to_y, radius = circumcircles(tin.x[corners] - corner[0], tin.y[corners] - corner[1])
+        x, y = corner[0] + to_x, corner[1] + to_y
         # Three vertices on one line have no circle; they only occur along the hull.
         is_open = np.isfinite(x) & np.isfinite(y) & np.isfinite(radius)
         if window is not None:
@@ -263,8 +265,12 @@ class Surface:
             is_open &= ~(is_inside & (y - radius > south) & (y + radius < north))
         found, open_ = np.full(len(used), -1), np.flatnonzero(is_open)
         if len(open_):
-            nearest, vertex = self._tree.query(np.column_stack((x[open_], y[open_])))
-            is_in = nearest < radius[open_] * (1.0 - _ON_CIRCLE) - _ON_CIRCLE
+            vertex = self._tree.query(np.column_stack((x[open_], y[open_])))[1]
+            along, up = (
+                axis.take(vertex) - start[open_] for axis, start in zip(self._vertices, corner)
+            )
+            power = along * (along - 2.0 * to_x[open_]) + up * (up - 2.0 * to_y[open_])
+            is_in = power < -_ON_CIRCLE * radius[open_] * np.hypot(along, up)
             found[open_[is_in]] = vertex[is_in]
         return found[back]
 

@@ -21,7 +21,7 @@ from ..crs.wkt import of_map, read_wkt, with_unit_of_heights
 from .geotiff import Raster, RasterGrid
 from .libraries import GdalErrors, library
 
-# A raster with up to so many cells is collected in memory, which is faster than in a file.
+# Most cells of a raster that is collected in memory, which is faster than in a file.
 _MOST_IN_MEMORY = 64_000_000
 # Cells along a side of a block of the file.
 BLOCK_SIDE = 256

@@ -144,7 +144,7 @@ def encoding_of(headers: Headers) -> str:
 
 
 def unpacked(address: str, data: bytes, most: int) -> bytes:
-    """Return a whole file that a server compressed by gzip, of at most so many bytes."""
+    """Return a whole file that a server compressed by gzip, of at most `most` bytes."""
     stream = zlib.decompressobj(wbits=31)
     try:
         found = stream.decompress(data, most + 1)

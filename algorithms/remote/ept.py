@@ -294,7 +294,7 @@ class EptPart:
         return count
 
     def _whole(self, name: str, most: int) -> bytes:
-        """Return a file of the data set, of at most so many bytes."""
+        """Return a file of the data set, of at most `most` bytes."""
         place = beside(self._address, name)
         if is_address(place):
             return self._transfers.read_whole(place, most)

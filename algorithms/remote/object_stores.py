@@ -38,7 +38,7 @@ class StoreReader:
         return data, before
 
     def read_whole(self, address: str, most: int) -> bytes:
-        """Return a whole object of at most so many bytes."""
+        """Return a whole object of at most `most` bytes."""
         state = self._state(address)
         if state.size > most:
             raise too_large(address, f"has {state.size:,} bytes")

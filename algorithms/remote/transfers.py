@@ -58,7 +58,7 @@ class Reader(Protocol):
         """Return bytes of a file, of the known version of it."""
 
     def read_whole(self, address: str, most: int) -> bytes:
-        """Return a whole file of at most so many bytes."""
+        """Return a whole file of at most `most` bytes."""
 
     def place_of(self, address: str) -> str:
         """Return the address to which another one led before."""
@@ -178,7 +178,7 @@ class Transfers:
         return self._patiently(address, ask)
 
     def read_whole(self, address: str, most: int) -> bytes:
-        """Return a whole file of at most so many bytes."""
+        """Return a whole file of at most `most` bytes."""
         reader = self._reader(address)
         return self._patiently(address, lambda place: reader.read_whole(place, most))
 
@@ -227,7 +227,7 @@ class Transfers:
         return [results[number] for number in range(len(tasks))]
 
     def whole(self, address: str, most: int) -> bytes:
-        """Return a whole file of at most so many bytes, while the caller can cancel."""
+        """Return a whole file of at most `most` bytes, while the caller can cancel."""
         return self.one(lambda: self.read_whole(address, most))
 
     def _watch(self) -> None:

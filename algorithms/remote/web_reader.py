@@ -56,7 +56,7 @@ class WebReader:
         return data, states[-1]
 
     def read_whole(self, address: str, most: int) -> bytes:
-        """Return a whole file of at most so many bytes."""
+        """Return a whole file of at most `most` bytes."""
         encodings: list[str] = []
 
         def check(status: int, headers: Headers) -> int | None:
@@ -80,13 +80,13 @@ class WebReader:
     def _ask(
         self, place: str, headers: dict[str, str], check: Check, most: int, is_named: bool
     ) -> bytes | str:
-        """Return the bytes of at most so many of an answer that passes a check, or where a redirect
-        leads; `is_named` if the user named the host.
+        """Return at most `most` bytes of an answer that passes a check, or where a redirect leads;
+        `is_named` if the user named the host.
         """
         raise NotImplementedError
 
     def _get(self, address: str, headers: dict[str, str], check: Check, most: int) -> bytes:
-        """Return the bytes of at most so many of an answer that passes a check."""
+        """Return at most `most` bytes of an answer that passes a check."""
         headers = {
             "User-Agent": f"BareEarth/{__version__}",
             "Accept-Encoding": "identity",

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+import scipy.interpolate
 import scipy.spatial
 from matrices import covering
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids import surface as module
 from bare_earth.algorithms.grids.surface import Surface
-from bare_earth.algorithms.grids.tin import Tin
+from bare_earth.algorithms.grids.tin import Tin, hull_corners
 
 
 def _scatter(count=3000, seed=1, size=100.0):
@@ -97,6 +98,30 @@ def test_a_plane_on_a_regular_grid_is_exact_to_its_border(small_blocks):
     at_x, at_y = np.random.default_rng(1).uniform(0.0, 49.0, (2, 3000))
     at_x, at_y = np.append(at_x, x), np.append(at_y, y)
     assert np.allclose(surface.heights(at_x, at_y), 3.0 + 0.2 * at_x - 0.1 * at_y, atol=1e-9)
+
+
+@pytest.mark.parametrize("is_thinned", [False, True])
+def test_slivers_along_a_border_that_is_straight_but_for_centimetres(monkeypatch, is_thinned):
+    random = np.random.default_rng(4)
+    x, y = np.round(random.uniform(0.0, (20.0, 400.0), (1500, 2)), 2).T
+    x[:200] = np.round(random.uniform(0.0, 0.03, 200), 2)
+    # Over a paraboloid, it does not matter which diagonal divides four vertices on a circle.
+    z, meshed = x**2 + (y - 200.0) ** 2, None
+    at_x, at_y = (
+        np.round(random.uniform(0.0, 0.03, 400), 2),
+        np.round(random.uniform(1.0, 399.0, 400), 2),
+    )
+    if is_thinned:
+        meshed = random.random(1500) < 0.3
+        meshed[hull_corners(x, y)] = True
+    else:
+        monkeypatch.setattr(module, "_VERTICES_A_BLOCK", 300)
+    found = Surface(Points(x, y, z), meshed).heights(at_x, at_y)
+    all_together = scipy.interpolate.LinearNDInterpolator(np.column_stack((x, y)), z)
+    expected = all_together(at_x, at_y)
+    inside = np.isfinite(expected)
+    assert np.count_nonzero(inside) > 300
+    np.testing.assert_allclose(found[inside], expected[inside], atol=1e-3)
 
 
 def test_the_order_of_the_points_does_not_matter(small_blocks):

@@ -25,8 +25,9 @@ from ..pipeline import PointRule, Stage
 from ..state import State
 from .seeds import DENSE_SPACING, openness
 
-# Seeds are neighbours within so many times their spacing, and within at least so many metres.
-_SPACINGS, _LEAST_REACH = 5.0, 6.0
+# Seeds are neighbours within this multiple of their spacing, and in any case within these metres.
+_SPACINGS = 5.0
+_LEAST_REACH = 6.0
 # Half the width, in spacings, of the windows of a mean surface.
 _MEAN_SPACINGS = 1.5
 
@@ -103,7 +104,7 @@ class LevelSeeds(PointRule):
     level: float = 0.25
     misfit: float = 0.3
     passes: int = 2  # how often points join the ground
-    step: float = 1.5  # they join within so many spacings of the ground each time
+    step: float = 1.5  # spacings of the ground within which they join each time
     steepest: float = 1.5  # largest rise over run from the seeds within that distance
     # They join only where it is open, as under trees plants are level with something, too: least
     # share of the points round about that lie near the lowest points of their cells.

@@ -28,7 +28,7 @@ from ..state import State
 
 # Metres between the virtual points round the survey.
 _RING_SPACING = 5.0
-# A candidate lies within so many iteration distances of the seeds' smooth surface. No facet would
+# Iteration distances from the seeds' smooth surface within which candidates lie. No facet would
 # come close to a candidate farther away.
 _REACHABLE = 3.0
 # If the 3 x 3 cells round a candidate hold more vertices, its triangle is too small to take it.

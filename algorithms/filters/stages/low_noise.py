@@ -19,7 +19,8 @@ from ..state import State
 _CELL = 1.0
 # Distances from the lowest point of a group, as multiples of its width: up to the first, points
 # below the plane are of the group; beyond the second, others as low show that it is none.
-_OF_GROUP, _BESIDE_GROUP = 1.5, 1.25
+_OF_GROUP = 1.5
+_BESIDE_GROUP = 1.25
 # Fewest heights on a water surface that show its level.
 _LEAST_HEIGHTS = 6
 # The deviation of a normal distribution as a multiple of the median of its absolute values.
@@ -44,8 +45,8 @@ class LowGroups(PointRule):
     deviations: float = 4.0
     ring: float = 6.0  # radius of the surroundings in metres
     ring_cells: int = 4  # least radius of the surroundings in cells, for sparse points
-    level: float = 0.25  # a height belongs to the plane up to so many metres from it
-    sides: int = 5  # on so many of eight sides, half of the heights must belong to the plane
+    level: float = 0.25  # metres: a height belongs to the plane up to this far from it
+    sides: int = 5  # of eight, on which half of the heights must belong to the plane
     # Most heights beyond the group that are as low, as a share of those on the plane.
     most_beside: float = 0.0
     # Points of the ground lie above a group as densely as beside it: half of its points have one no
@@ -212,12 +213,12 @@ class BelowWater(PointRule):
     sizes: tuple[float, ...] = (4.0, 8.0)
     reach: int = 4  # radius of the surroundings in cells
     sparse: float = 0.5  # water has less than this share of the usual number of points
-    # At least this share of the heights lie within so many metres of each other.
+    # At least this share of the heights lie this near to each other, in metres.
     band: float = 0.1
     least_share: float = 0.4
-    # Other heights may be lower than the water by so many metres without being below it.
+    # Metres by which other heights may be lower than the water without being below it.
     shore: float = 0.25
-    sides: int = 6  # on so many of eight sides, half of the heights must not be below the water
+    sides: int = 6  # of eight, on which half of the heights must not be below the water
     depth: float = 0.4  # least depth in metres of noise below the water
     most: float = 0.1  # noise has less than this share of the usual number of points
 

@@ -11,21 +11,25 @@ from ...core.threads import in_threads, parts_of
 from ...grids.cell_blocks import CellBlocks
 from ...grids.cells import Cells
 
-# Noise is measured within so many metres of the lowest points, in cells with at least so many
-# points. This percentile of the cells is used, because most have plants as well.
-_NOISE_WINDOW, _NOISE_POINTS, _NOISE_PERCENTILE = 0.6, 8, 25
-# Largest distance in metres of noise from the lowest points, and the steps a metre to which rises
-# are rounded.
-_FARTHEST, _STEPS_A_METRE = 2.4, 1 << 14
-# Where few points lie in a cell, noise is measured in squares of so many cells along a side. This
-# percentile of the squares is used, because more squares than cells have plants.
-_SQUARE, _SQUARE_PERCENTILE = 3, 10
-# Points within so many times the noise belong to the ground. A mean needs at least so many of them,
-# and is computed so often.
-_NOISE_FACTOR, _MEAN_POINTS, _MEANS = 2.5, 4, 2
-# The lowest of n points lies below the ground by so many times the noise, times sqrt(2 ln n).
+# Metres from the lowest points within which noise is measured.
+_NOISE_WINDOW = 0.6
+_NOISE_POINTS = 8  # fewest points of a cell in which it is measured
+# This percentile of the cells is used, because most have plants as well.
+_NOISE_PERCENTILE = 25
+_FARTHEST = 2.4  # metres: largest distance of noise from the lowest points
+_STEPS_A_METRE = 1 << 14  # to which rises are rounded
+# Cells along a side of the squares in which noise is measured where few points lie in a cell.
+_SQUARE = 3
+# This percentile of the squares is used, because more squares than cells have plants.
+_SQUARE_PERCENTILE = 10
+# Points within this multiple of the noise belong to the ground.
+_NOISE_FACTOR = 2.5
+_MEAN_POINTS = 4  # fewest of them for a mean
+_MEANS = 2  # how often the mean is computed
+# The lowest of n points lies below the ground by the noise times this, times sqrt(2 ln n).
 _LOWEST_FACTOR = 0.8
-_POINTS_A_PART, _POINTS_A_SUM = 1 << 15, 1 << 19
+_POINTS_A_PART = 1 << 15
+_POINTS_A_SUM = 1 << 19
 # Under this name points tell the box outside of which only the lowest of them are left: these are
 # less noisy than all.
 UNTHINNED = "unthinned"

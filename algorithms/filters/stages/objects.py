@@ -28,8 +28,8 @@ from .regions import Regions
 
 # Least side in metres of the blocks in which the density is measured.
 _DENSITY_BLOCK = 10.0
-# Largest slope (rise over run) of the surface that counts, and relaxations across its gaps.
-_STEEPEST, _RELAXATIONS = 5.0, 2
+_STEEPEST = 5.0  # rise over run: largest slope of the surface that counts
+_RELAXATIONS = 2  # across its gaps
 # Metres beyond an object within which a cell as high is of its rim.
 _RIM = 2.0
 
@@ -158,7 +158,7 @@ class TallObjects(GridRule):
     writes: ClassVar = ("objects", "plateaus", "raised")
 
     objects: RaisedObjects  # the rule for a region
-    above: float  # single cells so many metres above the ground of their block are objects as well
+    above: float  # metres: single cells this far above the ground of their block are objects, too
     block: float = 1.0  # side of a block in metres; a block has at least 2 x 2 cells
     steepest: float = 5.0  # largest slope (rise over run) of the ground that counts
 
@@ -196,7 +196,7 @@ class BlockPits(GridRule):
     stage: ClassVar = Stage.OUTLIERS
     writes: ClassVar = ("heights",)
 
-    # Low noise is so many metres below the usual lowest points round it, and narrower than this.
+    # Metres that low noise is below the usual lowest points round it, and its greatest width.
     depth: float = 2.0
     width: float = 10.0
     block: float = 1.0  # side in metres of the blocks in which it is searched
@@ -231,7 +231,7 @@ class Rims(GridRule):
     objects: RaisedObjects  # the rule for a region
     height: float  # whatever stands this far above the ground beside it is removed, in metres
     passes: int = 2  # the first removal uncovers more
-    # The unevenness of the terrain is added so many times to the height of rims.
+    # Multiple of the unevenness of the terrain that is added to the height of rims.
     roughness: float = 2.0
     objects_grow_back: bool = False  # whether cells of tall objects may grow back, too
 
@@ -260,7 +260,7 @@ class FineSeeds(PointRule):
     stage: ClassVar = Stage.SEEDS
     writes: ClassVar = ("grids", "seeds", "waiting")
 
-    height: float  # the point is at most so many metres from the surface
+    height: float  # metres: farthest that the point is from the surface
     size: float = 1.0  # side of a fine cell in metres
     # It may lie off the surface by this share of the rise over a wide cell in addition.
     unevenness: float = 0.6

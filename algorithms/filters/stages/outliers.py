@@ -27,11 +27,11 @@ from ..pipeline import GridRule, PointRule, Rule, Stage
 from ..state import GridState, State
 from .seeds import DENSE_SPACING
 
-# A cell of an even surface is at most so many metres off the median of the 3 x 3 cells round it.
+# Metres that a cell of an even surface is off the median of the 3 x 3 cells round it, at most.
 _EVEN = 0.3
 
-# Side in metres of the cells of the ground below which points are searched, and how many at a time.
-_CELL, _CHUNK = 1.0, 1 << 20
+_CELL = 1.0  # metres: side of the cells of the ground below which points are searched
+_CHUNK = 1 << 20  # points that are searched at a time
 
 
 @dataclass(frozen=True)
@@ -114,12 +114,12 @@ class UnderCanopy(Rule):
     # The lowest points are those of a canopy if their median distance from a plane is more than so
     # many metres.
     roughness: float = 2.5
-    # They are looked at up to so many metres, and so many cells, away.
+    # Distance up to which they are looked at, in metres and in cells.
     reach: float = 6.0
     reach_cells: int = 4
-    # A pit that is deeper than so many times this distance is an outlier all the same.
+    # A pit that is deeper than this multiple of the distance is an outlier all the same.
     depth: float = 6.0
-    # The plane is fitted without the points so many metres round the pit, which may belong to it.
+    # Metres round the pit: the plane is fitted without the points there, which may belong to it.
     pit: float = 2.0
 
     def of_ground(
@@ -182,8 +182,8 @@ class IsolatedLowPoints(GridRule):
     writes: ClassVar = ("heights",)
 
     depth: float = 0.6  # least depth in metres below the cells round it
-    least_even: int = 6  # at least so many of the eight cells round it are even
-    least_points: int = 4  # its cell has at least so many points
+    least_even: int = 6  # of the eight cells round it
+    least_points: int = 4  # of its cell
     gap: float = 0.7  # the next point of the cell is higher by at least this share of the depth
     corroborated: Corroborated | None = Corroborated()
 

@@ -16,7 +16,7 @@ from ..state import GridState
 _PIT_SHARE = 0.9
 # Rounds in which regions that others hid are tested again.
 _ROUNDS = 3
-# A cell is even within so many metres of the mean of two opposite neighbours.
+# Metres from the mean of two opposite neighbours within which a cell is even.
 _BEND = 0.15
 # Regions of the first and of the second cell of pairs of cells; -1 for cells that are not raised.
 _Pairs = tuple[np.ndarray, np.ndarray]
@@ -306,8 +306,8 @@ class Rocks(Rule):
     area: float = 200.0  # least area in square metres
     # Least standard deviation in metres of its heights, and of its heights above the ground.
     deviation: float = 5.0
-    # A roof is lower, or level: then a band of so many metres holds more than this share of its
-    # cells.
+    # A roof is lower, or level: then a band of heights, in metres, holds more than this share of
+    # its cells.
     band: float = 3.0
     band_share: float = 1.0 / 3.0
 

@@ -18,15 +18,17 @@ from ..state import GridState, State
 # Largest spacing in metres at which cells hold many points, and show breaks by themselves.
 DENSE_SPACING = 0.17
 _NO_SEED = "No point can be taken for ground with certainty."
-# Points up to so many metres above the lowest one of their cell count as near it, and on slopes
+# Metres above the lowest point of their cell up to which points count as near it, and on slopes
 # what the ground rises within the cell.
 _NEAR = 0.6
 # Side in metres of the square in which they are counted.
 _WIDTH = 5.0
 _POINTS_A_PART = 1 << 16
-# States of a point on a grid: not the lowest of its cell; on an object or a low outlier; perhaps
-# ground; ground.
-_HIDDEN, _OBJECT, _OPEN, _GROUND = range(4)
+# States of a point on a grid.
+_HIDDEN = 0  # not the lowest of its cell
+_OBJECT = 1  # on an object, or a low outlier
+_OPEN = 2  # perhaps ground
+_GROUND = 3
 
 
 @dataclass(frozen=True)

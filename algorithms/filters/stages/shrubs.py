@@ -18,8 +18,10 @@ from ..pipeline import PointRule, Stage
 from ..state import State
 from .breaks import mean_surface, openness_of
 
-# Seeds of blocks are neighbours within so many times their width, and not within this share of it.
-_REACH, _APART = 5.0, 0.5
+# Seeds of blocks are neighbours within this multiple of their width, but not within this share of
+# it.
+_REACH = 5.0
+_APART = 0.5
 # Places at which planes are laid at a time.
 _AT_ONCE = 1 << 11
 
@@ -41,7 +43,7 @@ class Shrubs(PointRule):
     height: float = 0.3
     per_slope: float = 0.15
     misfit: float = 0.5  # the share of the misfit of a plane that is added
-    # A group of such seeds that is so many metres long is a bank or a dyke, and stays.
+    # Metres: a group of such seeds that is as long is a bank or a dyke, and stays.
     longest: float = 10.0
     tallest: float = 2.0  # metres above the planes of a rock, which stays but under trees
     in_woods: float = 0.15  # least height under trees, on any slope

@@ -17,14 +17,16 @@ from ..state import State
 from .noise import below_middle, from_middle, middle_of_noise, noise_of_squares
 from .seeds import DENSE_SPACING
 
-# Metres over which the surface is smoothed to move vertices along its slope, how often they are
-# moved, and the steepest slope for this (rise over run).
-_SLOPE_SMOOTHING, _MOVES, _STEEPEST = 1.5, 2, 1.5
+# Metres over which the surface is smoothed to move vertices along its slope.
+_SLOPE_SMOOTHING = 1.5
+_MOVES = 2  # how often they are moved
+_STEEPEST = 1.5  # steepest slope for this, rise over run
 # Metres over which the surface is smoothed for the slope that is added to the tolerances.
 _FACET_SMOOTHING = 0.7
 # The tolerance on slopes is proportional to the spacing of the points, between these two spacings
 # in metres.
-_SPARSE, _DENSE = 1.0, 0.25
+_SPARSE = 1.0
+_DENSE = 0.25
 # Largest spacing in metres at which the noise is measured in each cell, because the lowest of many
 # points in a cell lies below the ground.
 _NOISE_SPACING = 0.36
@@ -93,7 +95,7 @@ class MeasuredNoise(Rule):
             above = of_noise if spacing <= DENSE_SPACING else max(above, of_noise)
         elif _NOISE_SPACING < spacing <= _SPARSE:
             noise = noise_of_squares(points, cells, surface, slopes)
-            # The surface goes through the lowest point of a cell, which has about so many.
+            # The surface goes through the lowest of the points of a cell: this many, about.
             number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
             least = (self.sparse_factor + float(below_middle(number))) * noise - self.usual
             above = max(above, least) if noise <= self.most_sparse else above

@@ -105,7 +105,7 @@ class Grid(NamedTuple):
         return x - east * self.size, y - north * self.size
 
     def parts(self, multiple: int = 2) -> list[slice]:
-        """Return slices of rows that fit into memory, multiples of so many, from south to north."""
+        """Return slices of rows that fit into memory, in multiples, from south to north."""
         rows = self.window.rows
         step = max(_TOGETHER // self.window.columns // multiple, 1) * multiple
         return [slice(start, min(start + step, rows)) for start in range(0, rows, step)]

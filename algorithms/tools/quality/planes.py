@@ -60,7 +60,7 @@ def planes(
 
 
 def _summed(values: np.ndarray, window: int) -> np.ndarray:
-    """Return the sums over the cells up to so many to each side."""
+    """Return the sums over the cells up to `window` cells to each side."""
     from scipy import ndimage
 
     for axis in (0, 1):
