@@ -23,7 +23,7 @@ _WRITES = "import bare_earth; bare_earth.classify({0!r}, 'out.laz', threads=1)"
 _READS = "import laspy; from bare_earth import arrays; las = laspy.read({0!r})\n"
 _LABELS = f"{_READS}las.classification = arrays.classify(las, threads=1)\n"
 _BLOCKS = "from bare_earth import arrays; import dask; blocks = arrays.blocks({0!r})\n"
-_PRODUCTS = ("dtm", "dsm", "chm", "hillshade", "confidence")
+_PRODUCTS = ("dtm", "dsm", "chm", "hillshade", "expected_error")
 _RUNS = {
     "laspy reads and writes": f"{_READS}las.write('out.laz')",
     "files: classify()": _WRITES,

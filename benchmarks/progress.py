@@ -27,7 +27,7 @@ from bare_earth.algorithms.tools.ground.output import Output
 from bare_earth.algorithms.tools.rasters.parameters import MapTerrain
 from bare_earth.algorithms.tools.running import run as work
 
-_RASTERS = ("dtm", "dsm", "chm", "hillshade", "confidence")
+_RASTERS = ("dtm", "dsm", "chm", "hillshade", "expected_error")
 
 
 class Recorder(Progress):

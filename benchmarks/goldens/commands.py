@@ -12,7 +12,10 @@ _PICTURES = (
     " --negative-openness OUT/negative.tif --local-dominance OUT/dominance.tif"
     " --vat OUT/vat.tif --red-relief OUT/red.tif"
 )
-_MODELS = "--dtm OUT/dtm.tif --dsm OUT/dsm.tif --chm OUT/chm.tif --confidence OUT/confidence.tif"
+_MODELS = (
+    "--dtm OUT/dtm.tif --dsm OUT/dsm.tif --chm OUT/chm.tif --confidence OUT/confidence.tif"
+    " --expected-error OUT/error.tif --error-cause OUT/cause.tif"
+)
 _KNOWN = (
     "--breaklines breaklines.geojson --water water.geojson --rivers rivers.geojson"
     " --no-ground no-ground.geojson"
@@ -108,6 +111,8 @@ COMMANDS = {
     " terrain/file/confidence.tif --report OUT/page.html --table OUT/points.csv --residuals"
     " OUT/points.geojson --accuracy-class 0.1 --json",
     "check/survey": f"check truth {_CHECKPOINTS} --hold-out 0.1 --residuals OUT/points.gpkg",
+    "review": "review terrain/file/error.tif OUT/places.gpkg --dtm terrain/file/dtm.tif --cause"
+    " terrain/file/cause.tif --page OUT/page.html --json",
     "quality/file": "quality truth.laz --specification lbs-ql1 --page OUT/page.html --folder OUT/q"
     " --json",
     "quality/survey": "quality truth --specification linz --page OUT/page.html",

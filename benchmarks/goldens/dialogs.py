@@ -18,7 +18,7 @@ from .digests import Digests, of_text
 from .inputs import write_inputs
 from .running import of_folder, working_in
 
-_RASTERS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE")
+_RASTERS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "EXPECTED_ERROR")
 _CLASSES = {"LOW_NOISE_CLASS": True, "HIGH_NOISE_CLASS": True, "BRIDGE_CLASS": 17}
 _KNOWN = {
     "BREAKLINES": "breaklines.geojson", "WATER": "water.geojson", "RIVERS": "rivers.geojson",
@@ -68,6 +68,10 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
     "relief": ("relief", {
         "INPUT": "terrain/dtm.tif", "KINDS": ["hillshade", "vat", "sky-view", "local-relief"],
         "OUTPUT_FOLDER": "OUT/all",
+    }),
+    "review": ("review", {
+        "INPUT": "terrain/expected_error.tif", "DTM": "terrain/dtm.tif", "OUTPUT": "OUT/places.gpkg",
+        "REPORT": "OUT/page.html",
     }),
     "off-terrain": ("removeoffterrainobjects", {"INPUT": "terrain/dsm.tif", "OUTPUT": "OUT/a.tif"}),
     "above-ground": ("classifyaboveground", {

@@ -173,7 +173,9 @@ class CompositionAlgorithm(ToolAlgorithm):
 
     def _show_layers(self, done: Any, first: str, context: QgsProcessingContext) -> None:
         """Let QGIS load rasters, lines and polygons; `first` is visible at first."""
-        looks = {"water": layers.WATER, "breaklines": layers.BREAKLINES}
+        looks = {
+            "water": layers.WATER, "breaklines": layers.BREAKLINES, "places": layers.PLACES,
+        }  # fmt: skip
         if done.interval is not None:
             looks["contours"] = layers.contours(done.interval)
         if done.check is not None:
