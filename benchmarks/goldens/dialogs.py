@@ -70,7 +70,8 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
         "OUTPUT_FOLDER": "OUT/all",
     }),
     "review": ("review", {
-        "INPUT": "terrain/expected_error.tif", "DTM": "terrain/dtm.tif", "OUTPUT": "OUT/places.gpkg",
+        "INPUT": "terrain/expected_error.tif", "DTM": "terrain/dtm.tif",
+        "OUTPUT": "OUT/places.gpkg",
         "REPORT": "OUT/page.html",
     }),
     "off-terrain": ("removeoffterrainobjects", {"INPUT": "terrain/dsm.tif", "OUTPUT": "OUT/a.tif"}),

@@ -16,6 +16,10 @@
         <translation>1 bis 255</translation>
     </message>
     <message>
+        <source>1 to 7</source>
+        <translation>1 bis 7</translation>
+    </message>
+    <message>
         <source>1 where ground points are far away</source>
         <translation>1, wo Bodenpunkte weit entfernt sind</translation>
     </message>
@@ -138,6 +142,14 @@
     <message>
         <source>Canopy height (CHM)</source>
         <translation>Kronenhöhe (nDOM)</translation>
+    </message>
+    <message>
+        <source>Cause</source>
+        <translation>Ursache</translation>
+    </message>
+    <message>
+        <source>Cause of the expected error</source>
+        <translation>Ursache des erwarteten Fehlers</translation>
     </message>
     <message>
         <source>Cell size</source>
@@ -460,6 +472,22 @@
         <translation>Alle {}</translation>
     </message>
     <message>
+        <source>Expected RMSE, m</source>
+        <translation>Erwarteter RMSE, m</translation>
+    </message>
+    <message>
+        <source>Expected error</source>
+        <translation>Erwarteter Fehler</translation>
+    </message>
+    <message>
+        <source>Expected error (95 %)</source>
+        <translation>Erwarteter Fehler (95 %)</translation>
+    </message>
+    <message>
+        <source>Expected error of the terrain model</source>
+        <translation>Erwarteter Fehler des Geländemodells</translation>
+    </message>
+    <message>
         <source>Extent</source>
         <translation>Ausdehnung</translation>
     </message>
@@ -530,6 +558,10 @@
     <message>
         <source>Finds vegetation, buildings and bridges in a point cloud whose ground is known.</source>
         <translation>Findet Vegetation, Gebäude und Brücken in einer Punktwolke, deren Boden bekannt ist.</translation>
+    </message>
+    <message>
+        <source>Finds where a terrain model may be wrong: what to look at first, and why.</source>
+        <translation>Findet, wo ein Geländemodell falsch sein kann: was zuerst anzusehen ist, und warum.</translation>
     </message>
     <message>
         <source>First and single returns</source>
@@ -654,6 +686,10 @@
     <message>
         <source>Grid size</source>
         <translation>Rasterweite</translation>
+    </message>
+    <message>
+        <source>Ground</source>
+        <translation>Boden</translation>
     </message>
     <message>
         <source>Ground and height above ground</source>
@@ -864,12 +900,20 @@
         <translation>Letzte und einzige Echos (Nummer des Echos = Anzahl der Echos)</translation>
     </message>
     <message>
+        <source>Least area</source>
+        <translation>Kleinste Fläche</translation>
+    </message>
+    <message>
         <source>Least area of a roof</source>
         <translation>Kleinste Fläche eines Dachs</translation>
     </message>
     <message>
         <source>Least confidence</source>
         <translation>Geringste Verlässlichkeit</translation>
+    </message>
+    <message>
+        <source>Least expected error</source>
+        <translation>Kleinster erwarteter Fehler</translation>
     </message>
     <message>
         <source>Least height of a roof</source>
@@ -916,6 +960,10 @@
         <translation>Längste Kante eines Dreiecks</translation>
     </message>
     <message>
+        <source>Low noise</source>
+        <translation>Tiefes Rauschen</translation>
+    </message>
+    <message>
         <source>Lowest height</source>
         <translation>Kleinste Höhe</translation>
     </message>
@@ -960,10 +1008,6 @@
         <translation>Größte Geländeneigung</translation>
     </message>
     <message>
-        <source>Shift that would remove the mean difference [m]</source>
-        <translation>Verschiebung, die die mittlere Abweichung aufheben würde [m]</translation>
-    </message>
-    <message>
         <source>Measures densities, voids and strips, and compares them with a specification.</source>
         <translation>Misst Dichten, Lücken und Flugstreifen und vergleicht sie mit einer Spezifikation.</translation>
     </message>
@@ -1002,6 +1046,10 @@
     <message>
         <source>Models</source>
         <translation>Modelle</translation>
+    </message>
+    <message>
+        <source>Most places</source>
+        <translation>Höchste Zahl der Stellen</translation>
     </message>
     <message>
         <source>Multi-scale relief</source>
@@ -1108,6 +1156,10 @@
         <translation>Eigene Auswahl der Ausgaben</translation>
     </message>
     <message>
+        <source>Page</source>
+        <translation>Seite</translation>
+    </message>
+    <message>
         <source>Page about the quality</source>
         <translation>Seite über die Qualität</translation>
     </message>
@@ -1118,6 +1170,14 @@
     <message>
         <source>Parts of rivers</source>
         <translation>Flussabschnitte</translation>
+    </message>
+    <message>
+        <source>Places</source>
+        <translation>Stellen</translation>
+    </message>
+    <message>
+        <source>Places to review</source>
+        <translation>Stellen zum Prüfen</translation>
     </message>
     <message>
         <source>Point cloud</source>
@@ -1342,6 +1402,10 @@
     <message>
         <source>Share of wrong points</source>
         <translation>Anteil falscher Punkte</translation>
+    </message>
+    <message>
+        <source>Shift that would remove the mean difference [m]</source>
+        <translation>Verschiebung, die die mittlere Abweichung aufheben würde [m]</translation>
     </message>
     <message>
         <source>Shortest closed contour line</source>
@@ -1924,6 +1988,10 @@
         <translation>Gruben in Blöcken</translation>
     </message>
     <message>
+        <source>places to review</source>
+        <translation>Stellen zum Prüfen</translation>
+    </message>
+    <message>
         <source>plants or outliers</source>
         <translation>Pflanzen oder Ausreißer</translation>
     </message>
@@ -1958,6 +2026,10 @@
     <message>
         <source>relief</source>
         <translation>Relief</translation>
+    </message>
+    <message>
+        <source>review,error,uncertainty,confidence,quality</source>
+        <translation>prüfen,fehler,unsicherheit,konfidenz,qualität</translation>
     </message>
     <message>
         <source>rims of low objects</source>

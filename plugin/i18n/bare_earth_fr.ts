@@ -16,6 +16,10 @@
         <translation>1 à 255</translation>
     </message>
     <message>
+        <source>1 to 7</source>
+        <translation>1 à 7</translation>
+    </message>
+    <message>
         <source>1 where ground points are far away</source>
         <translation>1 où les points du sol sont loin</translation>
     </message>
@@ -138,6 +142,14 @@
     <message>
         <source>Canopy height (CHM)</source>
         <translation>Hauteur de canopée (MHC)</translation>
+    </message>
+    <message>
+        <source>Cause</source>
+        <translation>Cause</translation>
+    </message>
+    <message>
+        <source>Cause of the expected error</source>
+        <translation>Cause de l'erreur attendue</translation>
     </message>
     <message>
         <source>Cell size</source>
@@ -460,6 +472,22 @@
         <translation>Tous les {}</translation>
     </message>
     <message>
+        <source>Expected RMSE, m</source>
+        <translation>RMSE attendu, m</translation>
+    </message>
+    <message>
+        <source>Expected error</source>
+        <translation>Erreur attendue</translation>
+    </message>
+    <message>
+        <source>Expected error (95 %)</source>
+        <translation>Erreur attendue (95 %)</translation>
+    </message>
+    <message>
+        <source>Expected error of the terrain model</source>
+        <translation>Erreur attendue du modèle de terrain</translation>
+    </message>
+    <message>
         <source>Extent</source>
         <translation>Emprise</translation>
     </message>
@@ -530,6 +558,10 @@
     <message>
         <source>Finds vegetation, buildings and bridges in a point cloud whose ground is known.</source>
         <translation>Trouve la végétation, les bâtiments et les ponts dans un nuage de points dont le sol est connu.</translation>
+    </message>
+    <message>
+        <source>Finds where a terrain model may be wrong: what to look at first, and why.</source>
+        <translation>Trouve où un modèle de terrain peut être faux : ce qu'il faut regarder d'abord, et pourquoi.</translation>
     </message>
     <message>
         <source>First and single returns</source>
@@ -654,6 +686,10 @@
     <message>
         <source>Grid size</source>
         <translation>Pas de la grille</translation>
+    </message>
+    <message>
+        <source>Ground</source>
+        <translation>Sol</translation>
     </message>
     <message>
         <source>Ground and height above ground</source>
@@ -864,12 +900,20 @@
         <translation>Derniers retours et retours uniques (numéro du retour = nombre de retours)</translation>
     </message>
     <message>
+        <source>Least area</source>
+        <translation>Surface minimale</translation>
+    </message>
+    <message>
         <source>Least area of a roof</source>
         <translation>Surface minimale d'un toit</translation>
     </message>
     <message>
         <source>Least confidence</source>
         <translation>Fiabilité minimale</translation>
+    </message>
+    <message>
+        <source>Least expected error</source>
+        <translation>Erreur attendue minimale</translation>
     </message>
     <message>
         <source>Least height of a roof</source>
@@ -916,6 +960,10 @@
         <translation>Plus long côté d'un triangle</translation>
     </message>
     <message>
+        <source>Low noise</source>
+        <translation>Bruit bas</translation>
+    </message>
+    <message>
         <source>Lowest height</source>
         <translation>Hauteur la plus petite</translation>
     </message>
@@ -960,10 +1008,6 @@
         <translation>Pente maximale du terrain</translation>
     </message>
     <message>
-        <source>Shift that would remove the mean difference [m]</source>
-        <translation>Décalage qui annulerait l’écart moyen [m]</translation>
-    </message>
-    <message>
         <source>Measures densities, voids and strips, and compares them with a specification.</source>
         <translation>Mesure densités, vides et bandes de vol, et les compare à une spécification.</translation>
     </message>
@@ -1002,6 +1046,10 @@
     <message>
         <source>Models</source>
         <translation>Modèles</translation>
+    </message>
+    <message>
+        <source>Most places</source>
+        <translation>Nombre maximal d'endroits</translation>
     </message>
     <message>
         <source>Multi-scale relief</source>
@@ -1108,6 +1156,10 @@
         <translation>Sorties à votre choix</translation>
     </message>
     <message>
+        <source>Page</source>
+        <translation>Page</translation>
+    </message>
+    <message>
         <source>Page about the quality</source>
         <translation>Page sur la qualité</translation>
     </message>
@@ -1118,6 +1170,14 @@
     <message>
         <source>Parts of rivers</source>
         <translation>Tronçons de rivière</translation>
+    </message>
+    <message>
+        <source>Places</source>
+        <translation>Endroits</translation>
+    </message>
+    <message>
+        <source>Places to review</source>
+        <translation>Endroits à vérifier</translation>
     </message>
     <message>
         <source>Point cloud</source>
@@ -1342,6 +1402,10 @@
     <message>
         <source>Share of wrong points</source>
         <translation>Part des points erronés</translation>
+    </message>
+    <message>
+        <source>Shift that would remove the mean difference [m]</source>
+        <translation>Décalage qui annulerait l’écart moyen [m]</translation>
     </message>
     <message>
         <source>Shortest closed contour line</source>
@@ -1924,6 +1988,10 @@
         <translation>fosses dans des blocs</translation>
     </message>
     <message>
+        <source>places to review</source>
+        <translation>endroits à vérifier</translation>
+    </message>
+    <message>
         <source>plants or outliers</source>
         <translation>plantes ou points aberrants</translation>
     </message>
@@ -1958,6 +2026,10 @@
     <message>
         <source>relief</source>
         <translation>relief</translation>
+    </message>
+    <message>
+        <source>review,error,uncertainty,confidence,quality</source>
+        <translation>vérifier,erreur,incertitude,confiance,qualité</translation>
     </message>
     <message>
         <source>rims of low objects</source>

@@ -233,7 +233,7 @@ TOOL = FileTool(
     " that corrections answer are left out.",
     identifier="review",
     title="Places to review",
-    section="Checks",
+    section="Quality",
     summary="Finds where a terrain model may be wrong: what to look at first, and why.",
     about="Finds the places of a terrain model that a person should look at first: where the"
     " expected error is large, those with the largest product of error and area first, with the"

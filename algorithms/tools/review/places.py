@@ -55,7 +55,7 @@ class Review(ParameterSet):
     least_area: float = parameter(
         4.0,
         label="Least area",
-        unit="m²",
+        unit="m2",
         minimum=0.0,
         maximum=1e6,
         help="Smaller places are left out.",
