@@ -130,6 +130,8 @@ def _accuracy(summary: DeliverySummary, void_distance: float) -> Iterator[tuple[
         yield "Verdict", check.verdict
     if check.statement and not check.doubt:
         yield "Statement", check.statement
+    if check.expected is not None:
+        yield "Errors at checkpoints, and the expected error", check.expected.text
     left = check.hold_out
     if left is not None:
         yield from _known(

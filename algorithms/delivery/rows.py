@@ -42,8 +42,8 @@ def rows_of(job: DeliveryJob) -> tuple[Row, ...]:
         Row("review", "review", 0.3, ("expected_error", "error_cause"),
             {"source": "expected_error", "dtm": "dtm", "cause": "error_cause"},
             {"places": "places", "page": "review"}, "review"),
-        Row("accuracy", "check", 1.5, ("check",), {"checkpoints": "checkpoints", "dtm": "dtm"},
-            checked, "check"),
+        Row("accuracy", "check", 1.5, ("check",),
+            {name: name for name in ("checkpoints", "dtm", "expected_error")}, checked, "check"),
     )  # fmt: skip
 
 

@@ -49,12 +49,13 @@ from .inputs import (
     words_of,
 )
 from .remote import ADDRESS_HELP, Remote
-from .stated_crs import add_crs
+from .stated_crs import add_crs, text_of
 
 # What is said of rasters that are no files, by the names of their inputs.
 _NO_FILES = {
     "source": mark("The elevation raster is not a file. Export it as GeoTIFF first."),
     "dtm": mark("The terrain model is not a file. Export it as GeoTIFF first."),
+    "expected_error": mark("The expected error is not a file. Export it as GeoTIFF first."),
     "confidence": mark("The confidence is not a file. Export it as GeoTIFF first."),
 }
 _NO_FILE = mark("{} is not a file. Export it as GeoTIFF first.")
@@ -232,8 +233,14 @@ def _constraints(request: Request, declared: Input) -> Given:
 
 
 def _crs_of(request: Request) -> CloudCrs:
-    """Return the CRS of the points, also in subfolders if the user asks for these."""
+    """Return the CRS of the raster or of the points, also in subfolders if the user asks for
+    these.
+    """
     algorithm, parameters, context, _ = request
+    if isinstance(algorithm.parameterDefinition("INPUT"), QgsProcessingParameterRasterLayer):
+        layer = algorithm.parameterAsRasterLayer(parameters, "INPUT", context)
+        # Without a CRS nothing is transformed.
+        return CloudCrs(stated=text_of(layer.crs()) or "WKT:")
     is_deep = algorithm.parameterDefinition("RECURSIVE") is not None
     recursive = is_deep and algorithm.parameterAsBool(parameters, "RECURSIVE", context)
     return algorithm.crs_of(*algorithm.inputs, recursive=recursive)

@@ -228,6 +228,20 @@ def test_a_terrain_model_and_its_confidence(survey, tmp_path):
     assert 0 < len(few.not_counted["doubtful"]) == 60 - few.counted
 
 
+def test_the_expected_error_is_compared_with_the_errors(survey, tmp_path):
+    dtm, error = tmp_path / "dtm.tif", tmp_path / "error.tif"
+    assert main(["terrain", str(survey), "--dtm", str(dtm), "--expected-error", str(error)]) == 0
+    rasters = {"dtm": str(dtm), "expected_error": str(error)}
+    right = check([survey], points(places(60)), **rasters).expected
+    assert right.count == 60 and right.inside >= 55 and right.factor < 1.2
+    wrong = check([survey], points(places(60), 0.5), **rasters).expected
+    assert wrong.inside < 20 and wrong.factor > 2.0
+    assert f"{wrong.inside} of 60 errors lie inside the expected error" in wrong.text
+    few = check([survey], points(places(10)), **rasters)
+    assert few.expected.factor is None and "with 30 checkpoints" in "\n".join(few.lines())
+    assert check([survey], points(places(10)), dtm=str(dtm)).expected is None
+
+
 def test_points_in_feet(tmp_path):
     foot = 1200 / 3937
     x, y, z, classes = cloud()

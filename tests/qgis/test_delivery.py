@@ -123,9 +123,10 @@ def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
     assert group.name() == "scene: Flood model"
     names = [node.name() for node in group.findLayers()]
     expected = [
+        "Places to review",
         "Contour lines",
         "Classes",
-        "Places to review",
+        "Cause of the expected error",
         "Expected error",
         "Surface model",
         "Terrain model",

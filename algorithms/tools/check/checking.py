@@ -29,7 +29,7 @@ from .land_covers import VVA
 from .page import checkpoint_html
 from .reading import FORMATS
 from .residuals import Residuals, layer_of, residuals_of, write_table
-from .results import COUNTED, NOT_STATED, REASONS, Check
+from .results import COUNTED, NOT_STATED, REASONS, Check, Expectation
 from .survey_ground import SurveyGround
 
 # How many of the largest errors are named.
@@ -77,6 +77,7 @@ def check_points(
     dtm: str | None = None,
     vegetated: Sequence[str] | None = None,  # words of land covers; none: those that are known
     confidence: str | None = None,
+    expected_error: str | None = None,
     report: Path | None = None,
     table: Path | None = None,
     residuals: Path | None = None,
@@ -102,7 +103,7 @@ def check_points(
     middle, found, left = 0.95 if share is None else 0.5, None, None
     if checkpoints is not None:
         found = residuals_of(
-            points, checkpoints, (dtm, confidence), tuple(vegetated or ()),
+            points, checkpoints, (dtm, confidence, expected_error), tuple(vegetated or ()),
             options.max_edge, options.min_confidence, progress.part(0.05, middle),
         )  # fmt: skip
     if share is not None:
@@ -145,6 +146,7 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None)
     )
     doubt, dtm_doubt = map(found.doubt, (found.errors, found.dtm_errors))
     order = np.argsort(np.where(counted, -np.abs(found.errors), np.inf), kind="stable")
+    dtm = None if np.isnan(found.dtm_errors).all() else found.dtm_errors
     of_dtm = NOT_STATED if dtm_doubt else statement(dtm_nva, dtm_vva, goal)
     # Most errors lie well within the colours.
     most = float(np.percentile(np.abs(found.errors[counted]), 95.0))
@@ -166,6 +168,9 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None)
         scale=round_length(2.0 * max(most, 0.001)),
         statement=NOT_STATED if doubt else statement(nva, vva, goal),
         dtm_statement=of_dtm if dtm_nva is not None or dtm_vva is not None else "",
+        expected=None if doubt or dtm_doubt else Expectation.of(
+            np.where(counted, found.errors if dtm is None else dtm, np.nan), found.expected
+        ),
         hold_out=left,
     )  # fmt: skip
 
@@ -212,6 +217,18 @@ TOOL = FileTool(
             label="Vegetated land covers",
             field_help="Words separated by commas: a land cover with one of them is vegetated, and"
             " no other. Empty: words such as forest, crops and brush in several languages.",
+            optional=True,
+            advanced=True,
+            is_last=True,
+        ),
+        Input(
+            "expected_error",
+            "raster",
+            help="the expected error of the terrain model, as the command terrain makes it; it is"
+            " told how many errors it holds",
+            label="Expected error",
+            field_help="The expected error of the terrain model. It is told how many errors at"
+            " checkpoints it holds, and by which factor it would hold 95 %.",
             optional=True,
             advanced=True,
             is_last=True,

@@ -63,6 +63,7 @@ def _summary(check: Check) -> list[Html]:
             "" if check.doubt else check.verdict,
             shift
             and f"The mean difference would be removed by a shift of {shift}. Nothing was shifted.",
+            "" if check.expected is None else check.expected.text,
         ),
         *(element("blockquote", words) for words in check.statements),
         section(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
-from typing import Any, Iterator, NamedTuple
+from typing import Any, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
@@ -49,6 +49,7 @@ class Residuals(NamedTuple):
     dtm: np.ndarray  # the same of the terrain model
     errors: np.ndarray  # float64, (n,): heights of the TIN minus those of checkpoints, metres
     dtm_errors: np.ndarray  # the same of the terrain model
+    expected: np.ndarray  # float64, (n,): the expected error in metres; NaN for none
     unit: float  # metres in a unit of the heights
     unknown_covers: dict[str, int]  # land covers, and how many checkpoints have them
 
@@ -74,7 +75,7 @@ class Residuals(NamedTuple):
 def residuals_of(
     ground: SurveyGround,
     checkpoints: Checkpoints,
-    rasters: tuple[str | None, str | None],  # a terrain model, and its confidence
+    rasters: Sequence[str | None],  # a terrain model, its confidence and its expected error
     vegetated: tuple[str, ...],  # words
     max_edge: float,  # metres
     min_confidence: float,
@@ -84,10 +85,13 @@ def residuals_of(
     survey, crs, up = ground.survey, ground.survey.crs, ground.survey.crs.vertical_unit
     checkpoints = checkpoints.located(ground.place, progress, max_edge)
     x, y, _ = checkpoints.xyz.T
-    model, confidence = (_raster(source, ground) for source in rasters)
+    model, confidence, error = (_raster(source, ground) for source in rasters)
     dtm = np.full(len(x), np.nan)
     if model is not None:
         dtm = HeightSampler(model).heights(x, y) * (model.unit or up) / up
+    expected = np.full(len(x), np.nan)
+    if error is not None:
+        expected = HeightSampler(error).heights(x, y) * (error.unit or up)
     sure = np.ones(len(x)) if confidence is None else HeightSampler(confidence).heights(x, y)
     if model is not None:
         _tell_of_gaps(checkpoints, np.isnan(dtm), progress)
@@ -112,7 +116,7 @@ def residuals_of(
     return Residuals(
         checkpoints.xyz, checkpoints.names,
         [cover or use for cover, use in zip(checkpoints.covers, uses)], kinds, states.tolist(),
-        heights / up, dtm, heights - z * up, (dtm - z) * up, up, unknown,
+        heights / up, dtm, heights - z * up, (dtm - z) * up, expected, up, unknown,
     )  # fmt: skip
 
 

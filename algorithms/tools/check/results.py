@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any, Sequence
 
+import numpy as np
+
 from .accuracy import NEEDED, Figures
 from .hold_out import AGREEMENT, HoldOut
 
@@ -26,6 +28,37 @@ REASONS = {
     "doubtful": "where the confidence is low",
     "control": "to which the survey was fitted (control)",
 }
+
+
+# Fewest checkpoints by which the expected error is corrected: of fewer, 95 % say little.
+_ENOUGH = 30
+
+
+@dataclass(frozen=True)
+class Expectation:
+    """How many errors at checkpoints the expected error of the terrain model holds."""
+
+    count: int  # of checkpoints counted that have both
+    inside: int  # of those whose error is at most the expected one
+    factor: float | None  # times which it would hold 95 %; None for too few checkpoints
+
+    @classmethod
+    def of(cls, errors: np.ndarray, expected: np.ndarray) -> Expectation | None:
+        """Return it for errors and expected errors in metres; None where none has both."""
+        known = np.isfinite(errors) & (expected > 0.0)
+        if not known.any():
+            return None
+        ratio = np.abs(errors[known]) / expected[known]
+        factor = float(np.quantile(ratio, 0.95)) if len(ratio) >= _ENOUGH else None
+        return cls(len(ratio), int(np.count_nonzero(ratio <= 1.0)), factor)
+
+    @property
+    def text(self) -> str:
+        """The result in a sentence."""
+        told = f"{self.inside:,} of {self.count:,} errors lie inside the expected error"
+        if self.factor is None:
+            return f"{told}; with {_ENOUGH} checkpoints it could be corrected."
+        return f"{told}; 95 % would, if it were {self.factor:.2f} times as large."
 
 
 @dataclass(frozen=True)
@@ -53,6 +86,7 @@ class Check:
     scale: float = 1.0  # metres at which the colours of maps and bars end
     statement: str = ""  # for the points; empty if there is nothing to state
     dtm_statement: str = ""  # for the terrain model
+    expected: Expectation | None = None  # by checkpoints; None in doubt, or without the raster
     hold_out: HoldOut | None = None  # errors at ground points that were left out
 
     @property
@@ -117,6 +151,8 @@ class Check:
                 "under trees": left.under_trees, "steep": left.steep,
             }  # fmt: skip
         rows += [f"{name:<17} {figures.line}" for name, figures in named.items() if figures]
+        if self.expected is not None:
+            rows.append(f"expected error    {self.expected.text}")
         if self.largest:
             worst = ", ".join(f"{one['name']} {one['error']:+.3f} m" for one in self.largest)
             rows.append(f"largest errors    {worst}")

@@ -23,12 +23,16 @@ from .rows import RASTERS, RasterFiles
 from .step import MakeRasters
 
 
+# The rasters that the dialog folds away.
+_FOLDED = ("error_cause", "confidence")
+
+
 def maps() -> tuple[Output, ...]:
     """Return the outputs of all runs that make rasters."""
     rasters = (
         Output(
             name, "raster", f"GeoTIFF (.tif). {row.help}", label=row.label, field_help=row.help,
-            by_default=name in ("dtm", "hillshade"),
+            by_default=name in ("dtm", "hillshade"), advanced=name in _FOLDED,
         )
         for name, row in RASTERS.items()
     )  # fmt: skip

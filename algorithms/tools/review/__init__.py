@@ -206,7 +206,7 @@ TOOL = FileTool(
             " place.",
             optional=True,
         ),
-        Input("corrections", "corrections"),
+        Input("corrections", "corrections", label="Corrections", is_last=True),
     ),
     outputs=(
         Output(
@@ -214,6 +214,8 @@ TOOL = FileTool(
             "features",
             help=f"the places to write ({', '.join(FORMATS)}); all but .geojson need pyogrio",
             label="Places to review",
+            field_help="The places as polygons, with rank, reason, largest expected error, area and"
+            " heights, and the attribute class to fill in.",
             named="OUTPUT",
             is_main=True,
             look="places",
@@ -223,6 +225,7 @@ TOOL = FileTool(
             "page",
             help="a page (.html) with the ten places to look at first",
             label="Page",
+            field_help="A page with the ten places to look at first, their relief and a profile.",
             named="REPORT",
         ),
     ),

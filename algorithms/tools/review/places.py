@@ -57,7 +57,7 @@ class Review(ParameterSet):
         label="Least area",
         unit="m2",
         minimum=0.0,
-        maximum=1e6,
+        maximum=100_000.0,
         help="Smaller places are left out.",
     )
     most_places: int = parameter(

@@ -1,0 +1,78 @@
+import numpy as np
+import pytest
+from osgeo import gdal, ogr, osr
+from qgis.core import QgsProject, QgsVectorLayer
+
+gdal.UseExceptions()
+ALGORITHM = "bareearth:review"
+NODATA = -32768.0
+
+
+@pytest.fixture
+def error(tmp_path):
+    """Write an expected error of 0.1 m, with two places of 1 and 2 m."""
+    values = np.full((60, 80), 0.1)
+    values[5:15, 10:20], values[30:40, 50:70] = 1.0, 2.0
+    raster = gdal.GetDriverByName("GTiff").Create(
+        str(tmp_path / "error.tif"), 80, 60, 1, gdal.GDT_Float32
+    )
+    raster.SetGeoTransform((500_000.0, 1.0, 0.0, 5_700_000.0, 0.0, -1.0))
+    reference = osr.SpatialReference()
+    reference.ImportFromEPSG(25832)
+    raster.SetProjection(reference.ExportToWkt())
+    raster.GetRasterBand(1).SetNoDataValue(NODATA)
+    raster.GetRasterBand(1).WriteArray(values)
+    raster.FlushCache()
+    return str(tmp_path / "error.tif")
+
+
+def places_of(path):
+    layer = QgsVectorLayer(path, "places", "ogr")
+    assert layer.isValid()
+    return layer
+
+
+def test_places_are_found_and_those_with_an_answer_left_out(
+    registry, error, tmp_path, context, log
+):
+    places = str(tmp_path / "places.gpkg")
+    parameters = {"INPUT": error, "LEAST_ERROR": 0.5, "OUTPUT": places,
+                  "REPORT": str(tmp_path / "page.html")}  # fmt: skip
+    results, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
+    assert done, log.text
+    assert results["PLACE_COUNT"] == 2
+    found = list(places_of(places).getFeatures())
+    assert [feature["RANK"] for feature in found] == [1, 2]
+    assert found[0]["ERROR"] == 2.0 and found[0].geometry().area() == pytest.approx(200.0, abs=3)
+    assert (tmp_path / "page.html").exists()
+
+    # The answer in another CRS, as a user may keep it.
+    table = ogr.Open(places, update=1)
+    layer = table.GetLayer(0)
+    feature = layer.GetFeature(1)
+    feature["class"] = 2
+    layer.SetFeature(feature)
+    del feature, layer, table
+    gdal.VectorTranslate(
+        str(tmp_path / "answered.gpkg"), places, dstSRS="EPSG:4326", layerName="answered"
+    )
+    parameters |= {"CORRECTIONS": str(tmp_path / "answered.gpkg"),
+                   "OUTPUT": str(tmp_path / "left.gpkg")}  # fmt: skip
+    results, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
+    assert done, log.text
+    assert results["PLACE_COUNT"] == 1 and "1 place had an answer" in log.text
+
+
+def test_the_layer_shows_the_reason_and_asks_for_a_class(registry, error, tmp_path, context, log):
+    from bare_earth.plugin.styles import layers
+
+    places = str(tmp_path / "places.gpkg")
+    parameters = {"INPUT": error, "OUTPUT": places}
+    _, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
+    assert done, log.text
+    layer = places_of(places)
+    QgsProject.instance().addMapLayer(layer)
+    layers.look_of("places").dress(layer)
+    field = layer.fields().lookupField("class")
+    assert layer.editorWidgetSetup(field).type() == "ValueMap"
+    assert "REASON" in layer.displayExpression()
