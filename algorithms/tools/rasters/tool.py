@@ -22,7 +22,6 @@ from .parameters import Gaps, RasterOutput, SurfaceModel, TerrainModel
 from .rows import RASTERS, RasterFiles
 from .step import MakeRasters
 
-
 # The rasters that the dialog folds away.
 _FOLDED = ("error_cause", "confidence")
 
