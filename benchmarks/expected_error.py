@@ -33,11 +33,14 @@ from bare_earth.algorithms.grids.expected_error import (
     Table,
     error_of,
     evidence,
+    expected_error,
     share_over,
 )
 from bare_earth.algorithms.grids.surface import Surface
+from bare_earth.algorithms.report.units import Units
 from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tools.review.places import Rasters, Review, places_of
 
 from . import data
 from .measure import GROUND, Filter
@@ -45,6 +48,8 @@ from .work import side_by_side
 
 # Cells that are drawn of each tile.
 _CELLS = 2500
+# Places of which it is told how much of the error they hold.
+_FIRST = 10
 # The values of evidence at which factors are fitted.
 KNOTS = Evidence(
     holes=(0.0, 0.25, 0.5, 0.75, 1.0),
@@ -141,6 +146,42 @@ def compared(
 
 def _tin(ground: Points) -> Callable[..., np.ndarray]:
     return Surface(ground.take(DenseSurface(ground, CELL).vertices)).heights
+
+
+class Held(NamedTuple):
+    """How much of the squared error of a tile its first places to review hold."""
+
+    tile: str
+    share: float  # of the squared error
+    area: float  # share of the cells
+    places: int
+
+
+def held(path: Path) -> Held:
+    """Return what the first ten places of a tile hold, with the labels of TIN densification."""
+    cloud, reference = data.load(path)
+    points = cloud.points(np.ones(cloud.count, dtype=bool))
+    takes_part = Selection().choose(cloud, PointCounts())
+    ground = Filter("tin-densification").ground(cloud)[takes_part]
+    used = points.take(takes_part)
+    cells, expected = expected_error(used, ground)
+    y, x = (
+        (first + np.arange(count) + 0.5) * CELL for first, count in zip(cells.first, cells.shape)
+    )
+    centres = [axis.ravel() for axis in np.meshgrid(x, y)]
+    heights, truth = (
+        _tin(some)(*centres) for some in (used.take(ground), points.take(reference == GROUND))
+    )
+    square = ((heights - truth) ** 2).reshape(cells.shape)
+    known = np.isfinite(square)
+    rasters = Rasters(np.where(known, expected, np.nan), None, None, CELL)
+    places = places_of(rasters, Review(), Units())
+    inside = np.zeros(cells.shape, dtype=bool)
+    for place in places[:_FIRST]:
+        inside[place.window] |= place.cells
+    share = square[inside].sum() / square[known].sum()
+    area = np.count_nonzero(inside) / np.count_nonzero(known)
+    return Held(path.stem, float(share), float(area), len(places))
 
 
 class Fit(NamedTuple):
@@ -288,9 +329,15 @@ def main() -> None:
     """Print the tables by halves; with ``--fit`` also the factors fitted to all tiles."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fit", action="store_true", help="print the factors fitted to all tiles")
+    parser.add_argument("--places", action="store_true", help="only what places to review hold")
     parser.add_argument("--tiles", nargs="+", help="only these, by their names without ending")
     chosen = parser.parse_args()
     places = [path for path in tiles() if not chosen.tiles or path.stem in chosen.tiles]
+    if chosen.places:
+        for found in side_by_side(held, places):
+            share, area = 100 * found.share, 100 * found.area
+            print(f"| {found.tile} | {share:.0f} | {area:.1f} | {found.places} |", flush=True)
+        return
     seen = [one for some in side_by_side(look, places) for one in some]
     expected = crossed(seen)
     scores = [score(one.error, values) for one, values in zip(seen, expected)]

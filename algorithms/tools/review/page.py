@@ -13,7 +13,6 @@ from ...report.page import (
     key,
     line_chart,
     map_of,
-    maps,
     page,
     paragraph,
     section,
@@ -25,6 +24,10 @@ from .places import PlaceToReview, Rasters
 
 # Places with pictures, and the metres round a place that these show.
 _SHOWN, _AROUND = 10, 15.0
+_STYLE = """
+.place { max-width: 420px; }
+td { overflow-wrap: normal; }
+"""
 _PLACE, _TERRAIN = "#d4523f", "#6e4824"
 
 
@@ -41,12 +44,12 @@ def review_html(
             number,
             place.reason,
             units.height(place.error),
-            f"{place.area:,.0f} m²",
+            f"{place.area:,.0f}",
             percent(100.0 * place.weight / sum(one.weight for one in places)),
         )
         for number, place in enumerate(places[:_SHOWN], start=1)
     ]
-    head = "", "Reason", "Expected error, largest", "Area", "Share of error times area"
+    head = "", "Reason", "Expected error, largest", "Area, m²", "Share of error times area"
     parts = [
         table(figures, is_named=True),
         paragraph(
@@ -59,7 +62,7 @@ def review_html(
             for number, place in enumerate(places[:_SHOWN], start=1)
         ),
     ]
-    return page(f"Places to review of {name}", parts)
+    return page(f"Places to review of {name}", parts, _STYLE)
 
 
 def _pictures(rasters: Rasters, place: PlaceToReview, units: Units) -> tuple[Html, ...]:
@@ -94,4 +97,4 @@ def _pictures(rasters: Rasters, place: PlaceToReview, units: Units) -> tuple[Htm
     legend = paragraph(
         key(_TERRAIN, "terrain model"), key(_PLACE, "where it may be, by the expected error")
     )
-    return maps([drawn]), chart, legend
+    return Html(f'<div class="place">{drawn}</div>'), chart, legend
