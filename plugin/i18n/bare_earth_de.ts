@@ -1608,6 +1608,10 @@
         <translation>Das Höhenraster ist keine Datei. Exportieren Sie es zuerst als GeoTIFF.</translation>
     </message>
     <message>
+        <source>The expected error is not a file. Export it as GeoTIFF first.</source>
+        <translation>Der erwartete Fehler ist keine Datei. Exportieren Sie ihn zuerst als GeoTIFF.</translation>
+    </message>
+    <message>
         <source>The key-point flag of LAS; the class stays</source>
         <translation>Das Kennzeichen der Schlüsselpunkte in LAS; die Klasse bleibt</translation>
     </message>

@@ -1608,6 +1608,10 @@
         <translation>Le raster d'altitudes n'est pas un fichier. Exportez-le d'abord en GeoTIFF.</translation>
     </message>
     <message>
+        <source>The expected error is not a file. Export it as GeoTIFF first.</source>
+        <translation>L'erreur attendue n'est pas un fichier. Exportez-la d'abord en GeoTIFF.</translation>
+    </message>
+    <message>
         <source>The key-point flag of LAS; the class stays</source>
         <translation>L'indicateur de point clé de LAS ; la classe reste</translation>
     </message>
