@@ -36,6 +36,9 @@ FUNCTIONS: dict[str, Callable[[Path], Any]] = {
     "compare_settings": lambda out: bare.compare_settings(
         _RAW, out / "page.html", extent=_WINDOW, settings=["slope:automatic"]
     ),
+    "review": lambda out: bare.review(
+        "terrain/file/error.tif", out / "places.geojson", least_area=1.0
+    ),
     "contours": lambda out: bare.contours(_DTM, out / "lines.geojson"),
     "relief": lambda out: bare.relief(_DTM, out / "sky.tif", kind="sky-view"),
     "remove_off_terrain_objects": lambda out: bare.remove_off_terrain_objects(

@@ -72,7 +72,7 @@ def review(
     """Write the places of a terrain model with a large expected error, which is a raster, as
     polygons and on a page.
     """
-    raster = read_raster(source, progress=progress)
+    raster = read_raster(source)
     raster.tell(progress)
     rasters = _rasters(raster, dtm, cause)
     units = Units(raster.frame.horizontal_unit, raster.frame.vertical_unit)
