@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
+from ..core.words import counted
 from ..las.cloud import PointCloud
 from .area import Area, Polygon
 from .shapes import Geometry, Place, Shapes, located
@@ -27,6 +28,8 @@ class Corrections(Geometry):
     polygons: tuple[Polygon, ...] = ()  # as in `Area`. Where polygons overlap, the last one counts.
     # The class of the points in each polygon. With the class of the ground, they are ground.
     classes: tuple[int, ...] = ()
+    # How many polygons have no class: places that nobody has looked at yet, which are not used.
+    unanswered: int = field(default=0, init=False)
 
     def __post_init__(self) -> None:
         if len(self.polygons) != len(self.classes):
@@ -35,7 +38,7 @@ class Corrections(Geometry):
         if not answered:  # the class of the first one is refused
             answered = list(range(len(self.classes)))
         if len(answered) < len(self.classes):
-            # Polygons without a class are places that nobody has looked at yet.
+            object.__setattr__(self, "unanswered", len(self.classes) - len(answered))
             kept = tuple(self.polygons[number] for number in answered)
             if isinstance(self.polygons, Shapes):
                 kept = Shapes(kept, self.polygons.crs, self.polygons.source)
@@ -48,6 +51,9 @@ class Corrections(Geometry):
 
     def located(self, place: Place, progress: Progress = SILENT) -> Corrections:
         """Return the corrections in the CRS of the points."""
+        if self.unanswered:
+            words = "polygon of the corrections has", "polygons of the corrections have"
+            progress.info(f"{counted(self.unanswered, *words)} no class, and stay without effect.")
         polygons = located(self.polygons, "the polygons of the corrections", place, progress)
         return Corrections(polygons, self.classes)
 

@@ -484,10 +484,6 @@
         <translation>Erwarteter Fehler (95 %)</translation>
     </message>
     <message>
-        <source>Expected error of the terrain model</source>
-        <translation>Erwarteter Fehler des Geländemodells</translation>
-    </message>
-    <message>
         <source>Extent</source>
         <translation>Ausdehnung</translation>
     </message>

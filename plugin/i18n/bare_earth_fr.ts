@@ -484,10 +484,6 @@
         <translation>Erreur attendue (95 %)</translation>
     </message>
     <message>
-        <source>Expected error of the terrain model</source>
-        <translation>Erreur attendue du modèle de terrain</translation>
-    </message>
-    <message>
         <source>Extent</source>
         <translation>Emprise</translation>
     </message>

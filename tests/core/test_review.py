@@ -66,7 +66,7 @@ def test_few_places_are_written_and_the_others_counted(rasters):
     assert found.SHARE[0] < 1.0
 
 
-def test_answers_are_left_out_and_become_corrections(rasters, tmp_path):
+def test_answers_are_left_out_and_become_corrections(rasters, tmp_path, capsys):
     found, summary = reviewed(rasters)
     found.loc[0, "class"] = 5
     answered = tmp_path / "answered.gpkg"
@@ -74,9 +74,11 @@ def test_answers_are_left_out_and_become_corrections(rasters, tmp_path):
     left, again = reviewed(rasters, corrections=answered)
     assert again.answered == 1 and len(left) == summary.place_count - 1
     # Those without a class correct nothing.
-    bare_earth.classify(
-        rasters / "in.laz", tmp_path / "out.laz", crs=25832, method="slope", corrections=answered
-    )
+    words = ["classify", rasters / "in.laz", tmp_path / "out.laz", "--crs", "EPSG:25832"]
+    words += ["--method", "slope", "--corrections", answered, "--verbose"]
+    assert main([str(word) for word in words]) == 0
+    if len(found) > 1:
+        assert "no class, and stay without effect" in capsys.readouterr().err
     inside = laspy.read(tmp_path / "out.laz")
     x, y = np.asarray(inside.x) - 500_000, np.asarray(inside.y) - 5_600_000
     middle = (np.abs(x - 55) < 10) & (np.abs(y - 55) < 10)

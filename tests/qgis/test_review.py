@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-from osgeo import gdal, ogr, osr
-from qgis.core import QgsProject, QgsVectorLayer
+from osgeo import gdal, osr
+from qgis.core import QgsVectorLayer
 
 gdal.UseExceptions()
 ALGORITHM = "bareearth:review"
@@ -35,6 +35,8 @@ def places_of(path):
 def test_places_are_found_and_those_with_an_answer_left_out(
     registry, error, tmp_path, context, log
 ):
+    import processing
+
     places = str(tmp_path / "places.gpkg")
     parameters = {"INPUT": error, "LEAST_ERROR": 0.5, "OUTPUT": places,
                   "REPORT": str(tmp_path / "page.html")}  # fmt: skip
@@ -46,17 +48,14 @@ def test_places_are_found_and_those_with_an_answer_left_out(
     assert found[0]["ERROR"] == 2.0 and found[0].geometry().area() == pytest.approx(200.0, abs=3)
     assert (tmp_path / "page.html").exists()
 
+    layer = places_of(places)
+    field = layer.fields().lookupField("class")
+    assert layer.dataProvider().changeAttributeValues({found[0].id(): {field: 2}})
     # The answer in another CRS, as a user may keep it.
-    table = ogr.Open(places, update=1)
-    layer = table.GetLayer(0)
-    feature = layer.GetFeature(1)
-    feature["class"] = 2
-    layer.SetFeature(feature)
-    del feature, layer, table
-    gdal.VectorTranslate(
-        str(tmp_path / "answered.gpkg"), places, dstSRS="EPSG:4326", layerName="answered"
-    )
-    parameters |= {"CORRECTIONS": str(tmp_path / "answered.gpkg"),
+    answered = str(tmp_path / "answered.gpkg")
+    reprojected = {"INPUT": layer, "TARGET_CRS": "EPSG:4326", "OUTPUT": answered}
+    processing.run("native:reprojectlayer", reprojected)
+    parameters |= {"CORRECTIONS": answered,
                    "OUTPUT": str(tmp_path / "left.gpkg")}  # fmt: skip
     results, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
     assert done, log.text
@@ -71,7 +70,6 @@ def test_the_layer_shows_the_reason_and_asks_for_a_class(registry, error, tmp_pa
     _, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
     assert done, log.text
     layer = places_of(places)
-    QgsProject.instance().addMapLayer(layer)
     layers.look_of("places").dress(layer)
     field = layer.fields().lookupField("class")
     assert layer.editorWidgetSetup(field).type() == "ValueMap"

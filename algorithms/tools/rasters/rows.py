@@ -176,7 +176,6 @@ RASTERS = {
         lambda error, terrain, how: np.where(np.isnan(terrain), np.nan, error),
         Look(Ramp(looks.ERRORS, low=0.0), 5, hides=1),
         layers=("expected_error", "terrain"),
-        label="Expected error of the terrain model",
         is_height=True,
     ),
     "error_cause": Raster(
