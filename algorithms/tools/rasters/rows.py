@@ -185,7 +185,7 @@ RASTERS = {
         " 7 low plants; 0 nothing.",
         "Cause, 1 to 7",
         lambda cause, terrain, how: np.nan_to_num(cause + 0 * terrain).astype(np.uint8),
-        Look(Ramp(looks.CAUSES, 0.0, 7.0), 5, hides=1),
+        Look(Ramp(looks.CAUSES, 0.0, 7.0), 4, hides=1),
         layers=("error_cause", "terrain"),
         kind="uint8",
     ),
