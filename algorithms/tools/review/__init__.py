@@ -86,17 +86,17 @@ def review(
     left = [place for place in found if place not in done]
     chosen = left[: how.most_places]
     progress(0.7)
-    limit = how.limit(rasters.error)
+    limit = round(how.limit(rasters.error), 4)
     total = sum(place.weight for place in left)
     summary = ReviewSummary(
         int(np.count_nonzero(known)),
-        expected_rmse(rasters.error),
+        round(expected_rmse(rasters.error), 4),
         limit,
         int(np.count_nonzero(rasters.error[known] > limit)),
         len(chosen),
         len(left) - len(chosen),
         len(done),
-        sum(place.weight for place in chosen) / total if total else 1.0,
+        round(sum(place.weight for place in chosen) / total, 6) if total else 1.0,
     )
     if places is not None:
         facts = read_wkt(raster.frame.wkt) if raster.frame.wkt else None
