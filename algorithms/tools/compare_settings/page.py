@@ -75,7 +75,7 @@ def figures_of(
         len(ground),
         ground_count,
         100.0 * ground_count / len(ground),
-        outcome.expected_rmse if math.isfinite(outcome.expected_rmse) else None,
+        round(outcome.expected_rmse, 4) if math.isfinite(outcome.expected_rmse) else None,
         int(np.count_nonzero(ground & ~before)),
         int(np.count_nonzero(before & ~ground)),
         float(apart.mean()) if apart.size else None,
