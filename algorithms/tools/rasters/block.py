@@ -15,7 +15,7 @@ from ...core.threads import over_parts, parts_of
 from ...grids.cell_window import CellWindow
 from ...grids.cells import Cells, are_inside, first_of_each
 from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
-from ...grids.expected_error import CELL, Evidence, causes_of, error_of, evidence
+from ...grids.expected_error import CELL, causes_of, error_of, evidence
 from ...grids.high_groups import HighGroups
 from ...grids.lattice_sample import LatticeSample
 from ...grids.morphology import within_square
@@ -121,7 +121,10 @@ class RasterStep:
         layers, loose = {CONTENTS: _contents(self, view, window)}, {}
         parts = progress.shares(*(LAYERS[name].cost for name in self.layers))
         for name, part in zip(self.layers, parts):
-            layers[name], points_at_gaps = LAYERS[name].make(self, view, window, part)
+            if name in layers:  # made together with another one
+                continue
+            found, points_at_gaps = LAYERS[name].make(self, view, window, part)
+            layers.update(found)
             if points_at_gaps is not None:
                 loose[name] = points_at_gaps
         counts, boxes, extent = np.zeros(2, dtype=np.int64), [], np.full(4, np.nan)
@@ -139,8 +142,9 @@ class RasterStep:
         return BlockRasters(window, layers, loose, extent, counts)
 
 
-# The cells of a layer, and the points needed across wide gaps; None if these stay open.
-_LayerCells = Tuple[np.ndarray, Optional[np.ndarray]]
+# The cells of layers by their names, and the points needed across wide gaps; None if these stay
+# open.
+_LayerCells = Tuple[Mapping[str, np.ndarray], Optional[np.ndarray]]
 
 
 def _contents(step: RasterStep, view: BlockView, window: CellWindow) -> np.ndarray:
@@ -185,7 +189,8 @@ def _terrain(
     known, core = view.thinned or (None, view.core[view.ground])
     points = view.points.take(view.ground) if known is None else known.points
     if not points.count or window.is_empty:
-        return np.full(window.shape, np.nan, dtype=np.float32), view.in_survey(points.take(core))
+        nothing = np.full(window.shape, np.nan, dtype=np.float32)
+        return {"terrain": nothing}, view.in_survey(points.take(core))
     start = view.start(window, step.cell)
     surface = DenseSurface(points, step.cell, start, progress.part(0.05, 0.3), known)
     heights = surface.raster(window.shape, step.longest_edge, progress.part(0.3, 0.95))
@@ -201,7 +206,7 @@ def _terrain(
     heights = heights.astype(np.float32)
     if view.edges is not None and view.edges.any():
         follow_edges(heights, window, step.cell, points, view.edges[view.ground], view.corner)
-    return heights, view.in_survey(points.take(loose & core))
+    return {"terrain": heights}, view.in_survey(points.take(loose & core))
 
 
 def _surface(
@@ -216,7 +221,7 @@ def _surface(
     points = view.points.take(which)
     if not points.count or window.is_empty:
         nothing = np.full(window.shape, np.nan, dtype=np.float32)
-        return nothing, view.in_survey(points.take(view.core[which]))
+        return {"surface": nothing}, view.in_survey(points.take(view.core[which]))
     margin = math.ceil(step.reach / cell)
     wide = window.wider(margin)
     top, row, column = _highest(points, wide, view.corner, cell, progress.part(0.0, 0.35))
@@ -238,7 +243,8 @@ def _surface(
     loose = np.zeros(points.count, dtype=bool)
     if step.max_edge is None:
         loose[top[surface.hull]] = True
-    return heights.astype(np.float32), view.in_survey(points.take(loose & view.core[which]))
+    loose &= view.core[which]
+    return {"surface": heights.astype(np.float32)}, view.in_survey(points.take(loose))
 
 
 def _highest(
@@ -266,17 +272,23 @@ def _highest(
     return (top, *places(top))
 
 
-def _of_evidence(
-    values_of: Callable[[Evidence], np.ndarray],
-    step: RasterStep,
-    view: BlockView,
-    window: CellWindow,
-    progress: Progress,
+# What the evidence for errors tells, by the layers.
+_OF_EVIDENCE = {"expected_error": error_of, "error_cause": causes_of}
+
+
+def _errors(
+    step: RasterStep, view: BlockView, window: CellWindow, progress: Progress
 ) -> _LayerCells:
-    """Return what evidence for errors, found in cells of 1 m, tells at the centre of each cell."""
-    values = np.full(window.shape, np.nan, dtype=np.float32)
+    """Return the expected error and its cause, those that are wanted, at the centre of each cell;
+    their evidence is found once, in cells of 1 m.
+    """
+    found = {
+        name: np.full(window.shape, np.nan, dtype=np.float32)
+        for name in _OF_EVIDENCE
+        if name in step.layers
+    }
     if not view.points.count or window.is_empty:
-        return values, None
+        return found, None
     cells = Cells.over(view.points, CELL)
     x, y = (centres - start for centres, start in zip(window.centres(step.cell), view.corner))
     row, column = (
@@ -288,15 +300,16 @@ def _of_evidence(
     (rows, of_rows), (columns, of_columns) = (
         np.unique(places[some], return_inverse=True) for places, some in zip((row, column), inside)
     )
-    known = values_of(evidence(cells, view.points.z, view.ground, rows, columns))
-    values[np.ix_(*inside)] = known[np.ix_(of_rows, of_columns)]
-    return values, None
+    pieces = evidence(cells, view.points.z, view.ground, rows, columns)
+    for name, values in found.items():
+        values[np.ix_(*inside)] = _OF_EVIDENCE[name](pieces)[np.ix_(of_rows, of_columns)]
+    return found, None
 
 
 class Layer(NamedTuple):
     """A layer from which rasters are made."""
 
-    # returns its cells, and the points needed across wide gaps
+    # returns its cells, perhaps with those of others, and the points needed across wide gaps
     make: Callable[[RasterStep, BlockView, CellWindow, Progress], _LayerCells]
     cost: float  # time that it takes, in relation to the other layers
     of_ground: bool  # needs ground points
@@ -306,6 +319,5 @@ class Layer(NamedTuple):
 LAYERS = {
     "terrain": Layer(_terrain, 3.0, of_ground=True, of_all=False),
     "surface": Layer(_surface, 4.0, of_ground=False, of_all=True),
-    "expected_error": Layer(partial(_of_evidence, error_of), 1.5, of_ground=True, of_all=True),
-    "error_cause": Layer(partial(_of_evidence, causes_of), 1.5, of_ground=True, of_all=True),
+    **dict.fromkeys(_OF_EVIDENCE, Layer(_errors, 1.5, of_ground=True, of_all=True)),
 }
