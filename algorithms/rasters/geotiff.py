@@ -14,7 +14,7 @@ from ..core.points import Box, Frame, Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
 from ..crs.measurable import length_scale, wrong_lengths
-from ..crs.system import crs_of_wkt, same_unit, unit_name, unit_symbol
+from ..crs.system import Crs, crs_of_wkt, same_unit, unit_name, unit_symbol
 from ..crs.unit_names import unit_in
 from ..crs.wkt import read_wkt
 from .content import MOST_CELLS, Content, Source, Window, read_content, tell_of_undeclared
@@ -148,6 +148,11 @@ class Raster(NamedTuple):
     def tell(self, progress: Progress) -> None:
         """Warn, when the cells have been read, of those that hold no terrain."""
         tell_of_undeclared(self.source, self.band, progress)
+
+    @property
+    def crs(self) -> Crs:
+        """The CRS that the file states; without anything if it states none."""
+        return (crs_of_wkt(self.frame.wkt) if self.frame.wkt else None) or Crs()
 
     @property
     def unit_symbol(self) -> str:

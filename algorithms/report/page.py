@@ -206,7 +206,7 @@ def line_chart(
         filled.append(_path(there, np.concatenate((upper[part], lower[part][::-1]))) + "Z")
     for part in _runs(np.isfinite(middle)):
         line.append(_path(x[part], middle[part]))
-    (area, stroke), (across, up) = colours[::-1], units
+    (stroke, area), (across, up) = colours, units
     return _svg(
         name,
         (-10, -20, _WIDTH + 20, _HEIGHT + _BELOW + 20),

@@ -53,7 +53,7 @@ class Corrections(Geometry):
         """Return the corrections in the CRS of the points."""
         if self.unanswered:
             words = "polygon of the corrections has", "polygons of the corrections have"
-            progress.info(f"{counted(self.unanswered, *words)} no class, and stay without effect.")
+            progress.info(f"{counted(self.unanswered, *words)} no class, and no effect.")
         polygons = located(self.polygons, "the polygons of the corrections", place, progress)
         return Corrections(polygons, self.classes)
 

@@ -12,7 +12,6 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..crs.wkt import read_wkt
 from ..grids.isolines import Isoline, Isolines
 from ..grids.local_trend import local_trend, reach_of
 from ..grids.morphology import within_square
@@ -135,9 +134,7 @@ def contours_of(
             f"An interval of {interval.in_words()} would give more than {_MOST_LEVELS:,} heights of"
             " contour lines. Choose a larger one."
         )
-    facts = read_wkt(raster.frame.wkt) if raster.frame.wkt else None
-    epsg = facts.epsg if facts else None
-    layer = Layer("contours", "LineString", _FIELDS, raster.frame.wkt, epsg)
+    layer = Layer("contours", "LineString", _FIELDS, raster.frame.wkt, raster.crs.epsg)
     lines = enumerate(_lines_of(raster, contours, height, progress.part(0.2, 1.0)))
     features = (
         Feature((number, line.height, int(line.is_index)), line.corners) for number, line in lines

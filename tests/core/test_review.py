@@ -5,10 +5,13 @@ import json
 import laspy
 import numpy as np
 import pytest
+from surveys import write_points
 
 import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.report.units import Units
+from bare_earth.algorithms.tools.review.places import Rasters, Review, places_of
 
 pyogrio = pytest.importorskip("pyogrio")
 pytest.importorskip("shapely")
@@ -23,11 +26,8 @@ def rasters(tmp_path_factory):
     x, y = random.uniform(0, 100, (2, 30_000))
     gap = (x > GAP[0]) & (x < GAP[1]) & (y > GAP[0]) & (y < GAP[1])
     z = 50.0 + random.normal(0, 0.02, len(x)) + np.where(gap, 9.0, 0.0)
-    las = laspy.LasData(laspy.LasHeader(point_format=6, version="1.4"))
-    las.header.scales = [0.001] * 3
-    las.header.offsets = [500_000.0, 5_600_000.0, 0.0]
-    las.x, las.y, las.z, las.classification = x + 500_000, y + 5_600_000, z, np.where(gap, 5, 2)
-    las.write(folder / "in.laz")
+    classes = np.where(gap, 5, 2)
+    write_points(folder / "in.laz", x, y, z, classes, offset=(500_000.0, 5_600_000.0, 0.0))
     paths = {name: folder / f"{name}.tif" for name in ("dtm", "expected_error", "error_cause")}
     bare_earth.terrain(folder / "in.laz", crs=25832, dtm_cell_size=1.0, **paths)
     return folder
@@ -77,8 +77,7 @@ def test_answers_are_left_out_and_become_corrections(rasters, tmp_path, capsys):
     words = ["classify", rasters / "in.laz", tmp_path / "out.laz", "--crs", "EPSG:25832"]
     words += ["--method", "slope", "--corrections", answered, "--verbose"]
     assert main([str(word) for word in words]) == 0
-    if len(found) > 1:
-        assert "no class, and stay without effect" in capsys.readouterr().err
+    assert "1 polygon of the corrections has no class, and no effect" in capsys.readouterr().err
     inside = laspy.read(tmp_path / "out.laz")
     x, y = np.asarray(inside.x) - 500_000, np.asarray(inside.y) - 5_600_000
     middle = (np.abs(x - 55) < 10) & (np.abs(y - 55) < 10)
@@ -101,6 +100,24 @@ def test_rasters_of_two_runs_are_refused(rasters, tmp_path):
             rasters / "expected_error.tif", tmp_path / "p.gpkg", dtm=tmp_path / "dtm.tif"
         )
     assert not (tmp_path / "p.gpkg").exists()
+
+
+def test_a_raster_that_holds_no_causes_is_refused(rasters, tmp_path):
+    with pytest.raises(BareEarthError, match="holds no causes of an expected error"):
+        bare_earth.review(
+            rasters / "expected_error.tif", tmp_path / "p.gpkg", cause=rasters / "dtm.tif"
+        )
+
+
+def test_a_place_inside_of_another_is_its_hole():
+    error = np.full((40, 40), 0.1, dtype=np.float32)
+    error[2:38, 2:38] = 1.0
+    error[4:36, 4:36] = 0.1
+    error[10:30, 10:30] = 2.0
+    rasters = Rasters(error, None, None, 1.0)
+    found = places_of(rasters, Review(), 0.5, Units())
+    assert [place.error for place in found] == [2.0, 1.0]
+    assert [len(place.rings) for place in found] == [1, 2]
 
 
 def test_the_command_without_a_terrain_model_or_causes(rasters, tmp_path, capsys):

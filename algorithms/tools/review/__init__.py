@@ -11,8 +11,6 @@ import numpy as np
 from ...core.errors import BareEarthError
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
-from ...crs.system import Crs, crs_of_wkt
-from ...crs.wkt import read_wkt
 from ...grids.expected_error import expected_rmse
 from ...rasters.content import Source
 from ...rasters.geotiff import Raster, read_raster
@@ -23,7 +21,7 @@ from ...survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from ...survey.shapes import Place
 from ..declaration import RASTER, TERRAIN, FileTool, Input, Output
 from .page import review_html
-from .places import PlaceToReview, Rasters, Review, places_of
+from .places import CAUSES, PlaceToReview, Rasters, Review, places_of
 
 # Heights are in the unit of the raster, errors and areas in metres and square metres.
 FIELDS: dict[str, type] = {
@@ -44,6 +42,16 @@ class ReviewSummary:
     left_out: int  # further places, which weigh less
     answered: int  # places that were answered before
     share: float  # of the sum of error times area over the limit, in the places written
+
+    def figures(self, units: Units) -> list[tuple[str, str]]:
+        """Return the figures of the page, with their titles."""
+        cells = f"{self.over_count:,} of {self.cell_count:,}"
+        return [
+            ("Expected RMSE", units.height(self.expected_rmse)),
+            (f"Cells over {units.height(self.limit)}", cells),
+            ("Places", f"{self.place_count:,} written, {self.left_out:,} left out"),
+            ("Places with an answer", f"{self.answered:,}"),
+        ]
 
     @property
     def text(self) -> str:
@@ -80,40 +88,32 @@ def review(
     if not known.any():
         raise BareEarthError(f"{source} has no expected error. Give the raster of one.")
     progress(0.3)
-    answered = (corrections or NO_CORRECTIONS).located(_place_of(raster), progress).polygons
-    found = places_of(rasters, how, units)
-    done = [place for place in found if _is_answered(place, raster, answered)]
-    left = [place for place in found if place not in done]
+    where = Place(str(source), raster.crs)
+    answered = (corrections or NO_CORRECTIONS).located(where, progress).polygons
+    limit = how.limit(rasters.error)
+    found = places_of(rasters, how, limit, units)
+    is_done = _are_answered(found, raster, answered)
+    left = [place for place, done in zip(found, is_done) if not done]
     chosen = left[: how.most_places]
     progress(0.7)
-    limit = round(how.limit(rasters.error), 4)
     total = sum(place.weight for place in left)
     summary = ReviewSummary(
         int(np.count_nonzero(known)),
         round(expected_rmse(rasters.error), 4),
-        limit,
+        round(limit, 4),
         int(np.count_nonzero(rasters.error[known] > limit)),
         len(chosen),
         len(left) - len(chosen),
-        len(done),
+        len(found) - len(left),
         round(sum(place.weight for place in chosen) / total, 6) if total else 1.0,
     )
     if places is not None:
-        facts = read_wkt(raster.frame.wkt) if raster.frame.wkt else None
-        layer = Layer("places", "Polygon", FIELDS, raster.frame.wkt, facts and facts.epsg)
+        layer = Layer("places", "Polygon", FIELDS, raster.frame.wkt, raster.crs.epsg)
         features = _features(chosen, raster, total)
         feature_writer(places)(places, features, layer, progress.part(0.7, 0.9))
     if page is not None:
-        figures = [
-            ("Expected RMSE", units.height(summary.expected_rmse)),
-            (
-                f"Cells over {units.height(limit)}",
-                f"{summary.over_count:,} of {summary.cell_count:,}",
-            ),
-            ("Places", f"{summary.place_count:,} written, {summary.left_out:,} left out"),
-            ("Places with an answer", f"{summary.answered:,}"),
-        ]
-        html = review_html(Path(str(source)).name, rasters, chosen, figures, units)
+        name = Path(str(source)).name
+        html = review_html(name, rasters, chosen, summary.figures(units), units)
         page.write_text(html, encoding="utf-8")
     progress(1.0)
     progress.info(summary.text)
@@ -133,10 +133,13 @@ def _rasters(raster: Raster, dtm: Source | None, cause: Source | None) -> Raster
                 " tool."
             )
     terrain, causes = values
+    numbers = None if causes is None else np.nan_to_num(causes.heights)
+    if numbers is not None and ((numbers < 0) | (numbers > CAUSES) | (numbers % 1 > 0)).any():
+        raise BareEarthError(f"{cause} holds no causes of an expected error. Give such a raster.")
     return Rasters(
         raster.heights * np.float32(raster.frame.vertical_unit),
         None if terrain is None else terrain.heights * np.float32(terrain.frame.vertical_unit),
-        None if causes is None else np.nan_to_num(causes.heights),
+        numbers,
         width,
     )
 
@@ -148,18 +151,14 @@ def _corners(places: np.ndarray, raster: Raster) -> np.ndarray:
     return np.column_stack((x + a * column + b * row, y + c * column + d * row))
 
 
-def _is_answered(place: PlaceToReview, raster: Raster, answered: tuple[Polygon, ...]) -> bool:
-    """Return whether the worst cell of a place lies in a polygon with an answer."""
-    if not answered:
-        return False
-    x, y = _corners(np.array([place.worst]), raster).T
-    return bool(Area(None, answered).contains(x, y)[0])
-
-
-def _place_of(raster: Raster) -> Place:
-    """Return the CRS of a raster, for polygons in another one."""
-    crs = crs_of_wkt(raster.frame.wkt) if raster.frame.wkt else None
-    return Place(str(raster.source), crs or Crs())
+def _are_answered(
+    places: list[PlaceToReview], raster: Raster, answered: tuple[Polygon, ...]
+) -> np.ndarray:
+    """Return of which places the worst cell lies in a polygon with an answer; bool, (n,)."""
+    if not answered or not places:
+        return np.zeros(len(places), dtype=bool)
+    x, y = _corners(np.array([place.worst for place in places]), raster).T
+    return Area(None, answered).contains(x, y)
 
 
 def _features(places: list[PlaceToReview], raster: Raster, total: float) -> Iterator[Feature]:

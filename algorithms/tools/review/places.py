@@ -33,6 +33,7 @@ _REASONS = {
     "doubtful": "plants or ground: low points were not taken for ground, up to {error} off",
     "low_plants": "low plants: the ground may be up to {error} too high",
 }
+CAUSES = len(_REASONS)  # numbers from 1 on; 0 is none
 _UNKNOWN = "a large expected error, {rise} of relief"
 
 
@@ -106,13 +107,13 @@ class PlaceToReview(NamedTuple):
         return [ring + np.array((rows.start, columns.start)) for ring in rings_of(self.cells)]
 
 
-def places_of(rasters: Rasters, how: Review, units: Units) -> list[PlaceToReview]:
-    """Return the places with a large expected error, those with the largest product of error and
-    area first.
+def places_of(rasters: Rasters, how: Review, limit: float, units: Units) -> list[PlaceToReview]:
+    """Return the places of cells whose expected error is over a limit in metres, those with the
+    largest product of error and area first.
     """
     found = [
         _place(rasters, window, cells, units)
-        for window, cells in _regions(rasters, how.limit(rasters.error))
+        for window, cells in _regions(rasters, limit)
         if np.count_nonzero(cells) * rasters.cell**2 >= how.least_area
     ]
     return sorted(found, key=lambda place: (-place.weight, place.worst))
