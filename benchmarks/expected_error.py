@@ -37,6 +37,7 @@ from bare_earth.algorithms.grids.expected_error import (
     share_over,
 )
 from bare_earth.algorithms.grids.surface import Surface
+from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.report.units import Units
 from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
@@ -82,6 +83,46 @@ class Seen(NamedTuple):
     density: np.ndarray  # points in a square metre, in the tile
 
 
+Terrain = Callable[[np.ndarray, np.ndarray], np.ndarray]  # heights at some x and y; NaN for none
+
+
+class Tile(NamedTuple):
+    """A tile, and the terrain of its reference."""
+
+    cloud: PointCloud
+    takes_part: np.ndarray  # bool, (n,): which points the filters see
+    points: Points  # these points
+    terrain: Terrain
+
+    @classmethod
+    def of(cls, path: Path) -> Tile:
+        """Read a tile."""
+        cloud, reference = data.load(path)
+        points = cloud.points(np.ones(cloud.count, dtype=bool))
+        takes_part = Selection().choose(cloud, PointCounts())
+        terrain = _tin(points.take(reference == GROUND))
+        return cls(cloud, takes_part, points.take(takes_part), terrain)
+
+    def ground(self, method: str) -> np.ndarray:
+        """Return which of the points a filter takes for ground."""
+        return Filter(method).ground(self.cloud)[self.takes_part]
+
+
+def all_cells(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Return the expected error of each cell of a tile by TIN densification, and the error as it
+    is, NaN where it is not known; metres, shape (rows, columns).
+    """
+    tile = Tile.of(path)
+    ground = tile.ground("tin-densification")
+    cells, expected = expected_error(tile.points, ground)
+    y, x = (
+        (first + np.arange(count) + 0.5) * CELL for first, count in zip(cells.first, cells.shape)
+    )
+    centres = [axis.ravel() for axis in np.meshgrid(x, y)]
+    error = np.abs(_tin(tile.points.take(ground))(*centres) - tile.terrain(*centres))
+    return expected, error.reshape(cells.shape)
+
+
 def tiles() -> list[Path]:
     """Return the real tiles and the samples that are here."""
     found = [data.real(tile.name) for tile in data.REAL]
@@ -90,24 +131,18 @@ def tiles() -> list[Path]:
 
 def look(path: Path) -> list[Seen]:
     """Run each filter on a tile, and compare its terrain with that of the reference."""
-    cloud, reference = data.load(path)
-    points = cloud.points(np.ones(cloud.count, dtype=bool))
-    terrain = _tin(points.take(reference == GROUND))
-    takes_part = Selection().choose(cloud, PointCounts())
-    results = []
+    tile, results = Tile.of(path), []
     for method in METHODS:
         try:
-            ground = Filter(method).ground(cloud)
+            ground = tile.ground(method)
         except BareEarthError:  # no ground, no terrain
             continue
-        seen = compared(points.take(takes_part), ground[takes_part], terrain, path.stem)
+        seen = compared(tile.points, ground, tile.terrain, path.stem)
         results.append(seen._replace(method=method))
     return results
 
 
-def compared(
-    points: Points, ground: np.ndarray, terrain: Callable[..., np.ndarray], tile: str = ""
-) -> Seen:
+def compared(points: Points, ground: np.ndarray, terrain: Terrain, tile: str = "") -> Seen:
     """Compare the terrain of a ground mask with the true one, at cells drawn by the tile's name.
 
     Parameters
@@ -144,7 +179,7 @@ def compared(
     )
 
 
-def _tin(ground: Points) -> Callable[..., np.ndarray]:
+def _tin(ground: Points) -> Terrain:
     return Surface(ground.take(DenseSurface(ground, CELL).vertices)).heights
 
 
@@ -159,27 +194,15 @@ class Held(NamedTuple):
 
 def held(path: Path) -> Held:
     """Return what the first ten places of a tile hold, with the labels of TIN densification."""
-    cloud, reference = data.load(path)
-    points = cloud.points(np.ones(cloud.count, dtype=bool))
-    takes_part = Selection().choose(cloud, PointCounts())
-    ground = Filter("tin-densification").ground(cloud)[takes_part]
-    used = points.take(takes_part)
-    cells, expected = expected_error(used, ground)
-    y, x = (
-        (first + np.arange(count) + 0.5) * CELL for first, count in zip(cells.first, cells.shape)
-    )
-    centres = [axis.ravel() for axis in np.meshgrid(x, y)]
-    heights, truth = (
-        _tin(some)(*centres) for some in (used.take(ground), points.take(reference == GROUND))
-    )
-    square = ((heights - truth) ** 2).reshape(cells.shape)
-    known = np.isfinite(square)
-    rasters = Rasters(np.where(known, expected, np.nan), None, None, CELL)
-    places = places_of(rasters, Review(), Units())
-    inside = np.zeros(cells.shape, dtype=bool)
+    expected, error = all_cells(path)
+    known = np.isfinite(error)
+    expected = np.where(known, expected, np.nan)
+    how = Review()
+    places = places_of(Rasters(expected, None, None, CELL), how, how.limit(expected), Units())
+    inside = np.zeros(known.shape, dtype=bool)
     for place in places[:_FIRST]:
         inside[place.window] |= place.cells
-    share = square[inside].sum() / square[known].sum()
+    share = (error[inside] ** 2).sum() / (error[known] ** 2).sum()
     area = np.count_nonzero(inside) / np.count_nonzero(known)
     return Held(path.stem, float(share), float(area), len(places))
 
