@@ -10,7 +10,7 @@ import threading
 import time
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from ..core.errors import BareEarthError, Cancelled
 from ..core.files import write_errors_told
@@ -23,9 +23,6 @@ from .blockwise import JobProgress
 from .jobs import Job, JobResult, Share, attempt
 from .memory import Resources, free_memory
 from .workers import Running, Workers, scheduler_gone
-
-if TYPE_CHECKING:
-    pass
 
 _CONNECTING = "15s"
 # Seconds between two checks of the workers.

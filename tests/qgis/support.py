@@ -5,6 +5,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 from laspy.vlrs.known import WktCoordinateSystemVlr
+from osgeo import gdal, osr
 from qgis.core import (
     QgsCoordinateReferenceSystem,
     QgsFeature,
@@ -16,6 +17,7 @@ from qgis.PyQt import sip
 
 ROOT = Path(__file__).parents[2]
 ALGORITHM = "bareearth:tindensification"
+NODATA = -32768.0
 
 
 def remove(dialog):
@@ -53,6 +55,20 @@ class Log(QgsProcessingFeedback):
     @property
     def text(self):
         return "\n".join(self.said)
+
+
+def write_raster(path, heights, epsg=25832, cell=1.0):
+    """Write heights, NaN for none, as a GeoTIFF, and return its path as text."""
+    rows, columns = heights.shape
+    raster = gdal.GetDriverByName("GTiff").Create(str(path), columns, rows, 1, gdal.GDT_Float32)
+    raster.SetGeoTransform((500_000.0, cell, 0.0, 5_700_000.0, 0.0, -cell))
+    reference = osr.SpatialReference()
+    reference.ImportFromEPSG(epsg)
+    raster.SetProjection(reference.ExportToWkt())
+    raster.GetRasterBand(1).SetNoDataValue(NODATA)
+    raster.GetRasterBand(1).WriteArray(np.where(np.isnan(heights), NODATA, heights))
+    raster.FlushCache()
+    return str(path)
 
 
 def write_scene(path, epsg=25832, origin=(500_000.0, 5_700_000.0)):

@@ -2,25 +2,12 @@ import shlex
 
 import numpy as np
 import pytest
-from osgeo import gdal, osr
+from osgeo import gdal
 from qgis.core import QgsProcessingException, QgsProject, QgsRasterLayer
+from support import write_raster
 
 gdal.UseExceptions()
 ALGORITHM = "bareearth:removeoffterrainobjects"
-NODATA = -32768.0
-
-
-def write(path, heights, epsg=25832, cell=1.0):
-    rows, columns = heights.shape
-    raster = gdal.GetDriverByName("GTiff").Create(str(path), columns, rows, 1, gdal.GDT_Float32)
-    raster.SetGeoTransform((500_000.0, cell, 0.0, 5_700_000.0, 0.0, -cell))
-    reference = osr.SpatialReference()
-    reference.ImportFromEPSG(epsg)
-    raster.SetProjection(reference.ExportToWkt())
-    raster.GetRasterBand(1).SetNoDataValue(NODATA)
-    raster.GetRasterBand(1).WriteArray(np.where(np.isnan(heights), NODATA, heights))
-    raster.FlushCache()
-    return str(path)
 
 
 @pytest.fixture
@@ -42,7 +29,7 @@ def test_run(registry, truth, surface, tmp_path, context, log):
     from bare_earth.algorithms.cli import main
 
     parameters = {
-        "INPUT": write(tmp_path / "dsm.tif", surface), "OUTPUT": str(tmp_path / "dtm.tif"),
+        "INPUT": write_raster(tmp_path / "dsm.tif", surface), "OUTPUT": str(tmp_path / "dtm.tif"),
         "MAX_OBJECT_SIZE": 30,
     }  # fmt: skip
     algorithm = registry.createAlgorithmById(ALGORITHM)
@@ -68,7 +55,7 @@ def test_run(registry, truth, surface, tmp_path, context, log):
 def test_a_layer_of_the_project_and_a_temporary_output(surface, tmp_path, context):
     import processing
 
-    layer = QgsRasterLayer(write(tmp_path / "dsm.tif", surface), "surface")
+    layer = QgsRasterLayer(write_raster(tmp_path / "dsm.tif", surface), "surface")
     QgsProject.instance().addMapLayer(layer)
     for value in (layer, layer.id(), "surface"):
         results = processing.run(
@@ -83,7 +70,7 @@ def test_a_layer_of_the_project_and_a_temporary_output(surface, tmp_path, contex
 def test_errors_are_one_line(epsg, words, surface, tmp_path, log):
     import processing
 
-    path = write(tmp_path / "dsm.tif", surface, epsg)
+    path = write_raster(tmp_path / "dsm.tif", surface, epsg)
     output = path if words == "same file" else str(tmp_path / "dtm.tif")
     with pytest.raises(QgsProcessingException, match=words) as error:
         processing.run(ALGORITHM, {"INPUT": path, "OUTPUT": output}, feedback=log)
@@ -105,7 +92,7 @@ def test_a_layer_that_is_no_file_is_refused(registry, context, log):
 def test_cancel_leaves_nothing(registry, surface, tmp_path, context):
     from support import Log
 
-    path = write(tmp_path / "dsm.tif", surface)
+    path = write_raster(tmp_path / "dsm.tif", surface)
     for percent in (5, 60, 85):
         log = Log(cancel_at=percent)
         algorithm = registry.createAlgorithmById(ALGORITHM)

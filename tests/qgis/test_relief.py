@@ -2,9 +2,9 @@ import shlex
 
 import numpy as np
 import pytest
-from osgeo import gdal, osr
+from osgeo import gdal
 from qgis.core import QgsProject, QgsRasterLayer
-from support import Log
+from support import Log, write_raster
 
 from bare_earth.algorithms.tools.relief import KINDS
 from bare_earth.plugin.styles import layers
@@ -13,29 +13,13 @@ gdal.UseExceptions()
 ALGORITHM = "bareearth:relief"
 
 
-NODATA = -32768.0
-
-
-def write(path, heights):
-    rows, columns = heights.shape
-    raster = gdal.GetDriverByName("GTiff").Create(str(path), columns, rows, 1, gdal.GDT_Float32)
-    raster.SetGeoTransform((500_000.0, 1.0, 0.0, 5_700_000.0, 0.0, -1.0))
-    reference = osr.SpatialReference()
-    reference.ImportFromEPSG(25832)
-    raster.SetProjection(reference.ExportToWkt())
-    raster.GetRasterBand(1).SetNoDataValue(NODATA)
-    raster.GetRasterBand(1).WriteArray(np.where(np.isnan(heights), NODATA, heights))
-    raster.FlushCache()
-    return str(path)
-
-
 @pytest.fixture
 def terrain(tmp_path):
     """Write a slope with a bank, and a corner without heights."""
     row, column = np.mgrid[:80, :90]
     heights = 300.0 + 0.1 * column + 0.8 * (np.abs(row - column) < 3)
     heights[:5, -5:] = np.nan
-    return write(tmp_path / "dtm.tif", heights)
+    return write_raster(tmp_path / "dtm.tif", heights)
 
 
 def outputs_of(kinds):
@@ -89,7 +73,7 @@ def test_the_layers_have_their_styles_and_names(terrain, tmp_path):
 
 
 def test_level_land_is_white_sky_and_not_speckle(tmp_path):
-    layer = QgsRasterLayer(write(tmp_path / "sky.tif", np.full((9, 9), 0.999)))
+    layer = QgsRasterLayer(write_raster(tmp_path / "sky.tif", np.full((9, 9), 0.999)))
     layers.raster_looks()["SKY_VIEW"].dress(layer)
     shader = layer.renderer()
     assert shader.classificationMin() == pytest.approx(0.9) and shader.classificationMax() == 1.0

@@ -1,11 +1,9 @@
 import numpy as np
 import pytest
-from osgeo import gdal, osr
 from qgis.core import QgsVectorLayer
+from support import write_raster
 
-gdal.UseExceptions()
 ALGORITHM = "bareearth:review"
-NODATA = -32768.0
 
 
 @pytest.fixture
@@ -13,17 +11,7 @@ def error(tmp_path):
     """Write an expected error of 0.1 m, with two places of 1 and 2 m."""
     values = np.full((60, 80), 0.1)
     values[5:15, 10:20], values[30:40, 50:70] = 1.0, 2.0
-    raster = gdal.GetDriverByName("GTiff").Create(
-        str(tmp_path / "error.tif"), 80, 60, 1, gdal.GDT_Float32
-    )
-    raster.SetGeoTransform((500_000.0, 1.0, 0.0, 5_700_000.0, 0.0, -1.0))
-    reference = osr.SpatialReference()
-    reference.ImportFromEPSG(25832)
-    raster.SetProjection(reference.ExportToWkt())
-    raster.GetRasterBand(1).SetNoDataValue(NODATA)
-    raster.GetRasterBand(1).WriteArray(values)
-    raster.FlushCache()
-    return str(tmp_path / "error.tif")
+    return write_raster(tmp_path / "error.tif", values)
 
 
 def places_of(path):
