@@ -33,11 +33,12 @@ def qgis_app(tmp_path_factory):
     QgsProject.instance().clear()
     for widget in app.topLevelWidgets():
         widget.deleteLater()
-    # Layers close their files by GDAL, which ends below.
+    # Layers close their files by GDAL, which ends below; a context, which the last test may still
+    # hold, has layers.
     gc.collect()
     for found in gc.get_objects():
-        is_layer = issubclass(type(found), QgsMapLayer) and not sip.isdeleted(found)
-        if is_layer and sip.ispyowned(found):
+        has_layers = issubclass(type(found), (QgsMapLayer, QgsProcessingContext))
+        if has_layers and not sip.isdeleted(found) and sip.ispyowned(found):
             sip.delete(found)
     # As QGIS itself ends: it waits for threads of its pool, and ends those of its passwords. What
     # runs on while Python ends can crash the process.
