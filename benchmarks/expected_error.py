@@ -197,8 +197,8 @@ def held(path: Path) -> Held:
     expected, error = all_cells(path)
     known = np.isfinite(error)
     expected = np.where(known, expected, np.nan)
-    how = Review()
-    places = places_of(Rasters(expected, None, None, CELL), how, how.limit(expected), Units())
+    how, rasters = Review(), Rasters(expected, None, None, CELL)
+    places, _ = places_of(rasters, how, how.limit(expected), Units())
     inside = np.zeros(known.shape, dtype=bool)
     for place in places[:_FIRST]:
         inside[place.window] |= place.cells

@@ -115,7 +115,9 @@ def test_a_place_inside_of_another_is_its_hole():
     error[4:36, 4:36] = 0.1
     error[10:30, 10:30] = 2.0
     rasters = Rasters(error, None, None, 1.0)
-    found = places_of(rasters, Review(), 0.5, Units())
+    error[0, 0] = 0.9
+    found, small = places_of(rasters, Review(), 0.5, Units())
+    assert small == 1  # 1 m2, and the least is 4
     assert [place.error for place in found] == [2.0, 1.0]
     assert [len(place.rings) for place in found] == [1, 2]
 

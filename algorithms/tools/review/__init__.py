@@ -40,6 +40,7 @@ class ReviewSummary:
     over_count: int  # cells over it
     place_count: int  # that were written
     left_out: int  # further places, which weigh less
+    small_count: int  # places that are smaller than the least area
     answered: int  # places that were answered before
     share: float  # of the sum of error times area over the limit, in the places written
 
@@ -49,16 +50,20 @@ class ReviewSummary:
         return [
             ("Expected RMSE", units.height(self.expected_rmse)),
             (f"Cells over {units.height(self.limit)}", cells),
-            ("Places", f"{self.place_count:,} written, {self.left_out:,} left out"),
+            (
+                "Places",
+                f"{self.place_count:,} written, {self.left_out:,} of less weight and"
+                f" {self.small_count:,} too small left out",
+            ),
             ("Places with an answer", f"{self.answered:,}"),
         ]
 
     @property
     def text(self) -> str:
         """What was found, in a sentence."""
-        more = f" {counted(self.left_out, 'place')} of less weight were left out." * (
-            self.left_out > 0
-        )
+        counts = {"of less weight": self.left_out, "too small": self.small_count}
+        left = ", ".join(f"{counted(n, 'place')} {why}" for why, n in counts.items() if n)
+        more = f" Left out: {left}." if left else ""
         done = f" {counted(self.answered, 'place')} had an answer." * (self.answered > 0)
         return (
             f"{counted(self.place_count, 'place')} to review. The expected RMSE of the terrain"
@@ -91,7 +96,7 @@ def review(
     where = Place(str(source), raster.crs)
     answered = (corrections or NO_CORRECTIONS).located(where, progress).polygons
     limit = how.limit(rasters.error)
-    found = places_of(rasters, how, limit, units)
+    found, small = places_of(rasters, how, limit, units)
     is_done = _are_answered(found, raster, answered)
     left = [place for place, done in zip(found, is_done) if not done]
     chosen = left[: how.most_places]
@@ -104,6 +109,7 @@ def review(
         int(np.count_nonzero(rasters.error[known] > limit)),
         len(chosen),
         len(left) - len(chosen),
+        small,
         len(found) - len(left),
         round(sum(place.weight for place in chosen) / total, 6) if total else 1.0,
     )
@@ -116,7 +122,6 @@ def review(
         html = review_html(name, rasters, chosen, summary.figures(units), units)
         page.write_text(html, encoding="utf-8")
     progress(1.0)
-    progress.info(summary.text)
     return summary
 
 

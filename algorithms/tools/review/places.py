@@ -107,16 +107,19 @@ class PlaceToReview(NamedTuple):
         return [ring + np.array((rows.start, columns.start)) for ring in rings_of(self.cells)]
 
 
-def places_of(rasters: Rasters, how: Review, limit: float, units: Units) -> list[PlaceToReview]:
+def places_of(
+    rasters: Rasters, how: Review, limit: float, units: Units
+) -> tuple[list[PlaceToReview], int]:
     """Return the places of cells whose expected error is over a limit in metres, those with the
-    largest product of error and area first.
+    largest product of error and area first, and how many are too small.
     """
-    found = [
-        _place(rasters, window, cells, units)
-        for window, cells in _regions(rasters, limit)
-        if np.count_nonzero(cells) * rasters.cell**2 >= how.least_area
-    ]
-    return sorted(found, key=lambda place: (-place.weight, place.worst))
+    found, small = [], 0
+    for window, cells in _regions(rasters, limit):
+        if np.count_nonzero(cells) * rasters.cell**2 >= how.least_area:
+            found.append(_place(rasters, window, cells, units))
+        else:
+            small += 1
+    return sorted(found, key=lambda place: (-place.weight, place.worst)), small
 
 
 def _regions(rasters: Rasters, least: float) -> Iterator[tuple[tuple[slice, slice], np.ndarray]]:
