@@ -32,6 +32,7 @@ from . import cache, data, plain, scenes, work
 from .accuracy import method_name, tell
 from .measure import Filter, ReferenceModel
 from .phases import PHASES, shifted
+from .replay import Kept
 from .rules import BASE, GROUPS, VALUES, switched_off, variants
 from .scenes.plain import KINDS, PLACES, rows
 
@@ -109,6 +110,8 @@ class _Scorer:
 
     def __init__(self, job: Job) -> None:
         self._filter, self._place = Filter(job.method), job.place
+        # Where time is measured, all rules run.
+        self._kept = None if job.place.name == _TIMED else Kept()
         cloud, self._reference = data.load(job.place.path())
         self._cloud = shifted(cloud, *job.place.phase) if job.place.phase else cloud
         self._model = ReferenceModel(cloud, self._reference) if job.place.tile else None
@@ -130,7 +133,7 @@ class _Scorer:
     def _found(self, variant: str) -> tuple[np.ndarray, float]:
         """Return the ground and the CPU time in seconds."""
         begun = time.process_time()
-        with switched_off(variant):
+        with switched_off(variant, self._kept):
             try:
                 ground = self._filter.ground(self._cloud)
             except BareEarthError:  # without any ground all of it is missed
@@ -158,6 +161,7 @@ class _PlainScorer:
         self._judges = [
             plain.Judge(row) for row in rows() if (row.kind.name, row.place) == (kind, of_grid)
         ]
+        self._kept = [Kept() for _ in self._judges]
         self._grounds = self._found(BASE)
         judged = zip(self._judges, self._grounds)
         self._base = np.array([judge.judged(ground).held for judge, ground in judged])
@@ -173,8 +177,11 @@ class _PlainScorer:
         return {"rows": float(len(held)), **figures}
 
     def _found(self, variant: str) -> list[np.ndarray]:
-        with switched_off(variant):
-            return [judge.ground(self._filter) for judge in self._judges]
+        found = []
+        for judge, kept in zip(self._judges, self._kept):
+            with switched_off(variant, kept):
+                found.append(judge.ground(self._filter))
+        return found
 
 
 def _digest(job: Job) -> str:

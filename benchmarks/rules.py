@@ -24,6 +24,8 @@ from bare_earth.algorithms.filters.stages.seeds import LowestPoints
 from bare_earth.algorithms.filters.stages.terrain import GentleRegions
 from bare_earth.algorithms.filters.stages.tolerance import ToleranceSurface
 
+from .replay import Kept, Replay
+
 # The variant with all rules.
 BASE = "base"
 # Nothing works without these, and the last does nothing if no ground is known.
@@ -110,11 +112,17 @@ def _with(rule: Rule, kind: type[Rule], values: dict[str, Any]) -> Rule:
 
 
 @contextlib.contextmanager
-def switched_off(variant: str) -> Iterator[None]:
-    """Run the filters as a variant has them."""
+def switched_off(variant: str, kept: Kept | None = None) -> Iterator[None]:
+    """Run the filters as a variant has them, on the same points as a run before where `kept` is
+    given.
+    """
 
     def varied(method: Method) -> Method:
-        return method._replace(pipeline=lambda *given: changed(method.pipeline(*given), variant))
+        def pipeline(*given: Any) -> Pipeline:
+            found = changed(method.pipeline(*given), variant)
+            return found if kept is None else Replay(found.rules, kept)
+
+        return method._replace(pipeline=pipeline)
 
     usual = dict(METHODS)
     METHODS.update({name: varied(method) for name, method in usual.items()})

@@ -134,11 +134,7 @@ class Pipeline:
         for number, rule in enumerate(self.rules):
             part = progress.part(number / len(self.rules), (number + 1) / len(self.rules))
             begun = time.perf_counter()
-            if isinstance(rule, GridRule):
-                _apply_to_grids(rule, state, part)
-            elif isinstance(rule, PointRule):
-                state.progress = part
-                rule.apply(state)
+            self.apply(rule, state, part)
             seconds = time.perf_counter() - begun
             state.times.append(RuleTime(rule.stage.value, rule.name, seconds))
             progress.took(rule.stage.value, seconds)
@@ -149,6 +145,15 @@ class Pipeline:
                 grid = state.grids[0]
                 _warn_of_outliers(len(grid.lowest), grid.heights.values, progress)
         return state
+
+    @staticmethod
+    def apply(rule: Rule, state: State, progress: Progress) -> None:
+        """Change a state by one rule."""
+        if isinstance(rule, GridRule):
+            _apply_to_grids(rule, state, progress)
+        elif isinstance(rule, PointRule):
+            state.progress = progress
+            rule.apply(state)
 
 
 def _apply_to_grids(rule: GridRule, state: State, progress: Progress) -> None:

@@ -7,7 +7,17 @@ from matrices import quick
 from bare_earth.algorithms.filters import METHODS
 from benchmarks import ablation, ablation_page, cache, data, work
 from benchmarks.measure import Filter
-from benchmarks.rules import GROUPS, VALUES, changed, lines, pipeline_of, switched_off, variants
+from benchmarks.replay import Kept
+from benchmarks.rules import (
+    BASE,
+    GROUPS,
+    VALUES,
+    changed,
+    lines,
+    pipeline_of,
+    switched_off,
+    variants,
+)
 from benchmarks.scenes import make
 from benchmarks.tests.test_accuracy import write_labelled
 
@@ -60,6 +70,21 @@ def test_a_rule_is_off_only_within():
     with switched_off("rims"):  # of another method
         np.testing.assert_array_equal(slope.ground(cloud), before)
     np.testing.assert_array_equal(slope.ground(cloud), before)
+
+
+@pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
+def test_a_replay_finds_what_a_whole_run_finds(method):
+    cloud, found = make(SCENE, 101, size=60.0, density=2.0).cloud(), Filter(method)
+    kept, differing = Kept(), 0
+    with switched_off(BASE, kept):
+        usual = found.ground(cloud)
+    for variant in variants(method)[::5]:
+        with switched_off(variant, kept):
+            replayed = found.ground(cloud)
+        with switched_off(variant):
+            np.testing.assert_array_equal(replayed, found.ground(cloud), variant)
+        differing += not np.array_equal(replayed, usual)
+    assert differing > 1
 
 
 def test_what_was_measured_is_kept(kept, monkeypatch, capsys):
