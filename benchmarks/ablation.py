@@ -40,7 +40,7 @@ from .scenes.plain import KINDS, PLACES, rows
 _LONG, _TIMED = ("hawaii_forest", "nrw_rural", "wires_single_return"), "ahn3_urban"
 # Code that decides what is found.
 _ALGORITHMS = Path(__file__).parents[1] / "algorithms"
-_FILTERS = _ALGORITHMS / "filters", _ALGORITHMS / "grids"
+_FILTERS = tuple(_ALGORITHMS / name for name in ("filters", "grids", "tin"))
 
 
 class Place(NamedTuple):

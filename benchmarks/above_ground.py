@@ -20,8 +20,8 @@ import numpy as np
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import DEFAULT_METHOD, METHODS
-from bare_earth.algorithms.grids.height_above_ground import height_above_ground
 from bare_earth.algorithms.las.cloud import PointCloud, survey_frame
+from bare_earth.algorithms.tin.height_above_ground import height_above_ground
 from bare_earth.algorithms.tools.above_ground import buildings
 from bare_earth.algorithms.tools.above_ground.classes import AboveGround, classes_above_ground
 from benchmarks.clouds import classify_cloud

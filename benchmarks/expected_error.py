@@ -22,7 +22,6 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.cells import Cells
-from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.grids.expected_error import (
     BEYOND,
     CELL,
@@ -36,11 +35,12 @@ from bare_earth.algorithms.grids.expected_error import (
     expected_error,
     share_over,
 )
-from bare_earth.algorithms.grids.surface import Surface
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.report.units import Units
 from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
+from bare_earth.algorithms.tin.dense_surface import DenseSurface
+from bare_earth.algorithms.tin.surface import Surface
 from bare_earth.algorithms.tools.review.places import Rasters, Review, places_of
 
 from . import data

@@ -12,8 +12,8 @@ import numpy as np
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame, Points
-from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
+from bare_earth.algorithms.tin.dense_surface import DenseSurface
 
 from . import cache, scenes
 from .measure import Filter, interpolated

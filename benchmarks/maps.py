@@ -8,9 +8,9 @@ import numpy as np
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.cells import Cells, spacing
-from bare_earth.algorithms.grids.hillshade import hillshade
 from bare_earth.algorithms.grids.inpaint import inpaint
 from bare_earth.algorithms.las.cloud import PointCloud
+from bare_earth.algorithms.relief.hillshade import hillshade
 from bare_earth.algorithms.tools.assess import Assessment
 
 from .generated import SceneScore, TrueModel

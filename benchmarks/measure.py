@@ -14,9 +14,9 @@ import numpy as np
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
+from bare_earth.algorithms.tin.dense_surface import DenseSurface
 from bare_earth.algorithms.tools.assess import Assessment, AssessmentOptions, compare
 from benchmarks.clouds import classify_cloud
 

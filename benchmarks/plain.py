@@ -29,7 +29,7 @@ import numpy as np
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.grids.tin import Tin
+from bare_earth.algorithms.tin.triangulation import Tin
 
 from . import tables, work
 from .accuracy import method_name

@@ -14,7 +14,7 @@ import numpy as np
 
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import NOT_GROUND
-from bare_earth.algorithms.grids.hillshade import hillshade
+from bare_earth.algorithms.relief.hillshade import hillshade
 from bare_earth.algorithms.survey.point_counts import PointCounts
 from bare_earth.algorithms.survey.selection import Selection
 

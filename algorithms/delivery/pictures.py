@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..grids.hillshade import hillshade
 from ..rasters.content import NO_CELLS
 from ..rasters.geotiff import read_raster
+from ..relief.hillshade import hillshade
 from ..report.page import keys
 from ..report.pictures import HEIGHTS, NOWHERE, Picture, ramped, reduced, rgb
 from ..report.units import Units

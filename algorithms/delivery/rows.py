@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..core.progress import Progress
-from ..grids.dense_surface import VERTICES_A_SIDE
 from ..survey.files import open_survey
 from ..survey.ground_classes import GroundClasses
+from ..tin.dense_surface import VERTICES_A_SIDE
 from ..tools.rasters.parameters import TerrainModel
 from ..tools.rasters.step import MakeRasters
 from ..tools.water.finding import Water

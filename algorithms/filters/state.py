@@ -11,8 +11,8 @@ from ..core.points import Points
 from ..core.progress import Progress
 from ..core.threads import in_threads
 from ..grids.cells import Cells, first_of_each, spacing
-from ..grids.height_grid import HeightGrid
 from ..grids.morphology import within_square
+from .height_grid import HeightGrid
 
 # Least spacing of points in metres; a smaller one counts as this.
 _LEAST_SPACING = 0.01

@@ -19,7 +19,7 @@ from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
-from ..grids.model_key_points import ModelKeyPoints
+from ..tin.model_key_points import ModelKeyPoints
 from .method import TERRAINS, Method, Toolbox, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline

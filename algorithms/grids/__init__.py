@@ -1,1 +1,1 @@
-"""Terrain as arrays: cells, morphology, filling, triangulation. Knows no files."""
+"""Terrain as arrays: cells, morphology, filling. Knows no files."""

@@ -1,20 +1,13 @@
-"""Places along lines, and water levels that fall along a river."""
+"""Places along lines and beside them, and the heights of points near these."""
 
 from __future__ import annotations
 
-from typing import Iterable, Sequence
+from typing import Iterable
 
 import numpy as np
 
 from ..core.points import Box
 from .cells import are_inside, cells_at, numbered
-from .descent import Network, descent
-
-_MEET = 0.1  # metres: stations this near are one
-# A line joins another one if it ends within a multiple of half the width of the water, and metres
-# beyond it.
-_WIDER = 1.5
-_JOINED = 10.0
 
 _SHIFT = 32
 # Number of nearest points of a place among which one on each side of the line is searched.
@@ -160,52 +153,3 @@ def inside_grid(box: Box, step: float) -> np.ndarray:
         for low, high in ((west, east), (south, north))
     )
     return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-
-
-def falling(
-    lines: Sequence[np.ndarray],  # (n, 2), stations of a branch, up or down, two or more
-    border: np.ndarray,  # (m, 2), on the banks
-    heights: np.ndarray,  # (m,), of the ground there, not all NaN
-    places: np.ndarray,
-    percentile: float,
-) -> np.ndarray:
-    """Return the water level at `places` (k, 2) along a river and its branches, a percentile of the
-    heights of the banks beside; downstream it never rises.
-    """
-    from scipy.spatial import cKDTree
-
-    stations, network = joined(lines, border)
-    tree, known = cKDTree(stations), ~np.isnan(heights)
-    beside = tree.query(border[known])[1]
-    levels = descent(network, beside, heights[known], percentile).levels
-    return levels[tree.query(places)[1]]
-
-
-def joined(lines: Sequence[np.ndarray], border: np.ndarray) -> tuple[np.ndarray, Network]:
-    """Return the stations (k, 2) of lines (n, 2) as one network: lines that end near another one
-    join it, as far as the banks (m, 2) are from its middle.
-    """
-    from scipy.spatial import cKDTree
-
-    together = np.concatenate(lines)
-    # Ends that meet are one station.
-    _, first, name = np.unique(
-        np.round(together / _MEET), axis=0, return_index=True, return_inverse=True
-    )
-    name, stations = name.reshape(-1), together[first]
-    banks, edges, start = cKDTree(border), [], 0
-    for line in lines:
-        own = name[start : start + len(line)]
-        start += len(line)
-        edges.append(np.column_stack((own[:-1], own[1:])))
-        others = np.setdiff1d(name, own)
-        if len(others):
-            far, which = cKDTree(stations[others]).query(stations[own[[0, -1]]])
-            half = banks.query(stations[others[which]])[0]
-            near = far <= _WIDER * half + _JOINED
-            # The head of a short branch is near another line, too.
-            near &= far <= np.hypot(*(line[-1] - line[0])) / 2.0
-            edges.append(np.column_stack((own[[0, -1]], others[which]))[near])
-    pairs = np.sort(np.concatenate(edges), axis=1)
-    pairs = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
-    return stations, Network(len(stations), pairs)

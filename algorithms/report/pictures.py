@@ -11,8 +11,8 @@ import numpy as np
 
 from ..core.points import Points
 from ..grids.cells import lower_at
-from ..grids.hillshade import hillshade
 from ..grids.inpaint import inpaint
+from ..relief.hillshade import hillshade
 
 LONGEST_SIDE = 900
 # Side of a pixel, in mean distances between points, so that most pixels have a point.

@@ -13,10 +13,10 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isoline, Isolines
-from ..grids.local_trend import local_trend, reach_of
 from ..grids.morphology import within_square
 from ..rasters.content import NO_CELLS, Source
 from ..rasters.geotiff import Raster, read_raster
+from ..relief.local_relief import local_trend, reach_of
 from ..survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from .declaration import FileTool, Input, Output
 

@@ -18,7 +18,6 @@ from ..engine.step import Allocate, PointResult, PointStep
 from ..engine.store import OTHERS, BlockPoints, Marks
 from ..engine.summary import TileSummary
 from ..engine.visits import Visit
-from ..grids.height_above_ground import GroundSurface, with_roads
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
 from ..las.edits import Edits
@@ -27,6 +26,7 @@ from ..las.lasfile import LasFile
 from ..rasters.sampling import FAR_ABOVE, HeightRaster, HeightSampler
 from ..survey.area import Area
 from ..survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
+from ..tin.height_above_ground import GroundSurface, with_roads
 from .declaration import CANOPY, CLOUD, TIN, Input, PointTool
 
 HEIGHT_DIMENSION = "HeightAboveGround"

@@ -14,12 +14,12 @@ from ..engine.step import Allocate, PointResult, PointStep, with_classes
 from ..engine.store import Marks
 from ..engine.summary import TileSummary
 from ..engine.visits import Visit
-from ..grids.model_key_points import ModelKeyPoints, model_key_points, reach
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..las.records import check_class
 from ..survey.ground_classes import GroundClasses, GroundCounts
+from ..tin.model_key_points import ModelKeyPoints, model_key_points, reach
 from .declaration import CLOUD, TERRAIN, TIN, PointTool
 
 # Values that a store holds.

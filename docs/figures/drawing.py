@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from bare_earth.algorithms.grids.hillshade import hillshade
+from bare_earth.algorithms.relief.hillshade import hillshade
 
 IMAGES = Path(__file__).parents[1] / "images"
 GROUND, OTHER, ADDED, LINE = "#a5692a", "#9aa5b1", "#d7263d", "#1565d8"

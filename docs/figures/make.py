@@ -40,7 +40,7 @@ import bare_earth
 from bare_earth.algorithms.filters.tin import PRESETS
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.inpaint import inpaint
-from bare_earth.algorithms.grids.relief_smoothing import without_noise
+from bare_earth.algorithms.relief.smoothing import without_noise
 from benchmarks.data import real
 from benchmarks.generated import TrueModel, score_scene
 from benchmarks.measure import Filter

@@ -14,8 +14,8 @@ from matplotlib import pyplot
 import bare_earth
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.canopy import without_pits
-from bare_earth.algorithms.grids.dense_surface import DenseSurface
 from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.tin.dense_surface import DenseSurface
 
 _SIDE = 300
 

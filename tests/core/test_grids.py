@@ -6,11 +6,12 @@ from scipy import ndimage
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
+from bare_earth.algorithms.filters.height_grid import HeightGrid
 from bare_earth.algorithms.filters.stages.outliers import NarrowPits
+from bare_earth.algorithms.filters.trend import between_blocks
 from bare_earth.algorithms.grids import cells as cells_module
 from bare_earth.algorithms.grids import morphology
 from bare_earth.algorithms.grids.cells import Cells, apart, lower_at, spacing
-from bare_earth.algorithms.grids.height_grid import HeightGrid
 from bare_earth.algorithms.grids.inpaint import inpaint
 from bare_earth.algorithms.grids.morphology import (
     erosion,
@@ -19,7 +20,6 @@ from bare_earth.algorithms.grids.morphology import (
     opening,
     within_square,
 )
-from bare_earth.algorithms.grids.trend import between_blocks
 
 
 def _points(count=500, seed=0):

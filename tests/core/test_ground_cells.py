@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from bare_earth import Progress
+from bare_earth.algorithms.filters.height_grid import HeightGrid
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
 from bare_earth.algorithms.filters.stages.terrain import GentleBorder, GentleRegions
 from bare_earth.algorithms.filters.state import GridState
 from bare_earth.algorithms.grids.cells import Cells
-from bare_earth.algorithms.grids.height_grid import HeightGrid
 
 NOTHING = np.zeros(0, dtype=np.intp)
 

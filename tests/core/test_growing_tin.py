@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.grids.growing_tin import GrowingTin
-from bare_earth.algorithms.grids.tin import Tin, hull_corners
+from bare_earth.algorithms.tin.growing_tin import GrowingTin
+from bare_earth.algorithms.tin.triangulation import Tin, hull_corners
 
 
 def _scattered():

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.grids.hillshade import hillshade, multidirectional_hillshade
+from bare_earth.algorithms.relief.hillshade import hillshade, multidirectional_hillshade
 
 
 def plane(slope_east, slope_north, size=6, cell=2.0):

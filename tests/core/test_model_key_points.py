@@ -9,8 +9,8 @@ from matrices import quick
 from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.threads import may_use
-from bare_earth.algorithms.grids.model_key_points import ModelKeyPoints, model_key_points, reach
-from bare_earth.algorithms.grids.tin import Tin
+from bare_earth.algorithms.tin.model_key_points import ModelKeyPoints, model_key_points, reach
+from bare_earth.algorithms.tin.triangulation import Tin
 from benchmarks.scenes.simple import scatter
 
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from bare_earth.algorithms.filters.height_grid import HeightGrid
 from bare_earth.algorithms.filters.stages.height_steps import HeightSteps
 from bare_earth.algorithms.filters.stages.objects import RaisedObjects
 from bare_earth.algorithms.filters.state import covered
-from bare_earth.algorithms.grids.height_grid import HeightGrid
-from bare_earth.algorithms.grids.trend import Trend, between_blocks
+from bare_earth.algorithms.filters.trend import Trend, between_blocks
 
 # Low drops are not searched, nor what they bound.
 PLATEAU_HEIGHT = np.inf

@@ -171,7 +171,7 @@ def test_the_rasters_of_two_tiles_of_a_forest_have_sound_borders_and_no_seam(
     from realdata import real
 
     from bare_earth.algorithms.core.points import Points
-    from bare_earth.algorithms.grids.tin import Tin
+    from bare_earth.algorithms.tin.triangulation import Tin
 
     paths = [real("real/conifer_1.laz"), real("real/conifer_2.laz")]
     dtm = tmp_path / "dtm.tif"

@@ -19,8 +19,8 @@ from surveys import classes_of, write
 
 import bare_earth
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.grids.dense_surface import DenseSurface
-from bare_earth.algorithms.grids.height_above_ground import height_above_ground
+from bare_earth.algorithms.tin.dense_surface import DenseSurface
+from bare_earth.algorithms.tin.height_above_ground import height_above_ground
 
 EXAMPLES = int(os.environ.get("BARE_EARTH_EXAMPLES", "2"))
 SETTINGS = settings(

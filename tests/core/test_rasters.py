@@ -17,7 +17,7 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.engine.jobs import SinkJob
 from bare_earth.algorithms.engine.workers import Threads
-from bare_earth.algorithms.grids.tin import Tin, hull_corners
+from bare_earth.algorithms.tin.triangulation import Tin, hull_corners
 
 rasterio = pytest.importorskip("rasterio")
 

@@ -12,16 +12,17 @@ from matrices import quick
 
 import bare_earth
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.grids import horizons, outline
-from bare_earth.algorithms.grids.hillshade import hillshade, slope
-from bare_earth.algorithms.grids.horizons import (
+from bare_earth.algorithms.grids import outline
+from bare_earth.algorithms.relief import horizons
+from bare_earth.algorithms.relief.hillshade import hillshade, slope
+from bare_earth.algorithms.relief.horizons import (
     local_dominance,
     openness,
     sky_view,
     sky_view_and_openness,
 )
-from bare_earth.algorithms.grids.local_relief import multi_scale_relief
-from bare_earth.algorithms.grids.relief_pictures import archaeological_topography, red_relief
+from bare_earth.algorithms.relief.local_relief import multi_scale_relief
+from bare_earth.algorithms.relief.pictures import archaeological_topography, red_relief
 from bare_earth.algorithms.tools import relief as relief_module
 from bare_earth.algorithms.tools.relief import KINDS
 

@@ -8,9 +8,9 @@ from surveys import write_points
 import bare_earth
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.grids import outline
-from bare_earth.algorithms.grids.hillshade import hillshade
-from bare_earth.algorithms.grids.local_trend import local_trend
-from bare_earth.algorithms.grids.relief_smoothing import smoothing_reach, without_noise
+from bare_earth.algorithms.relief.hillshade import hillshade
+from bare_earth.algorithms.relief.local_relief import local_trend
+from bare_earth.algorithms.relief.smoothing import smoothing_reach, without_noise
 from bare_earth.algorithms.tools import relief as relief_module
 
 rasterio = pytest.importorskip("rasterio")

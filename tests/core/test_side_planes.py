@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.filters.side_planes import Sides
 from bare_earth.algorithms.grids.cells import Cells
-from bare_earth.algorithms.grids.side_planes import Sides
 
 
 @pytest.fixture(scope="module")

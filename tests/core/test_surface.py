@@ -7,9 +7,9 @@ import scipy.spatial
 from matrices import covering
 
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.grids import surface as module
-from bare_earth.algorithms.grids.surface import Surface
-from bare_earth.algorithms.grids.tin import Tin, hull_corners
+from bare_earth.algorithms.tin import surface as module
+from bare_earth.algorithms.tin.surface import Surface
+from bare_earth.algorithms.tin.triangulation import Tin, hull_corners
 
 
 def _scatter(count=3000, seed=1, size=100.0):

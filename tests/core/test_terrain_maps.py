@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bare_earth import BareEarthError
-from bare_earth.algorithms.grids.local_relief import local_relief
+from bare_earth.algorithms.relief.local_relief import local_relief
 from bare_earth.algorithms.tools.contours import Contours, Interval
 
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from bare_earth.algorithms.core.points import Frame, Points
-from bare_earth.algorithms.grids.dense_surface import DenseSurface
-from bare_earth.algorithms.grids.tin import Tin
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
+from bare_earth.algorithms.tin.dense_surface import DenseSurface
+from bare_earth.algorithms.tin.triangulation import Tin
 
 FRAME = Frame((1000.0, 2000.0))
 

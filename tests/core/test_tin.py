@@ -7,9 +7,9 @@ import pytest
 from scipy.spatial import Delaunay
 
 from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.filters.triangles_round import CellVertices
 from bare_earth.algorithms.grids.cells import Cells
-from bare_earth.algorithms.grids.tin import Tin, lost_triangles
-from bare_earth.algorithms.grids.triangles_round import CellVertices
+from bare_earth.algorithms.tin.triangulation import Tin, lost_triangles
 
 
 def _scatter(count=2000, seed=1, size=100.0):

@@ -5,7 +5,7 @@ import numpy as np
 from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters.tin import METHOD, TinDensification
-from bare_earth.algorithms.grids.tin import Tin
+from bare_earth.algorithms.tin.triangulation import Tin
 from benchmarks.scenes.simple import error, scatter, surveyed, village
 
 classify = METHOD.classify

@@ -7,8 +7,8 @@ import pytest
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.cell_window import CellWindow
-from bare_earth.algorithms.grids.surface import Surface
-from bare_earth.algorithms.grids.tin import Tin
+from bare_earth.algorithms.tin.surface import Surface
+from bare_earth.algorithms.tin.triangulation import Tin
 from bare_earth.algorithms.tools.rasters.block import BlockView, RasterStep
 
 

@@ -7,6 +7,7 @@ from realdata import real
 from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.filters.height_grid import HeightGrid
 from bare_earth.algorithms.filters.stages.breaks import LevelSeeds, Plants
 from bare_earth.algorithms.filters.stages.opening import ProgressiveOpening
 from bare_earth.algorithms.filters.stages.outliers import NarrowPits, UnderCanopy
@@ -14,7 +15,6 @@ from bare_earth.algorithms.filters.stages.seeds import Woods, openness
 from bare_earth.algorithms.filters.stages.shrubs import Shrubs
 from bare_earth.algorithms.filters.state import GridState, State
 from bare_earth.algorithms.grids.cells import Cells
-from bare_earth.algorithms.grids.height_grid import HeightGrid
 from benchmarks import data
 from benchmarks.measure import Filter, ReferenceModel
 

@@ -5,8 +5,8 @@ import pytest
 
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.run import Run
-from bare_earth.algorithms.grids.lattice_sample import LatticeSample
 from bare_earth.algorithms.survey.files import Inputs
+from bare_earth.algorithms.tin.lattice_sample import LatticeSample
 from bare_earth.algorithms.tools.heights import MeasureHeights
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from bare_earth.algorithms.tools.rasters.step import MakeRasters

@@ -16,17 +16,19 @@ FLOORS = {
     "core": "",
     "crs": "core",
     "grids": "core",
+    "tin": "core grids",
+    "relief": "core grids",
     "las": "core crs",
     "survey": "core crs las rasters",
     "rasters": "core crs grids",
     "remote": "core crs las rasters survey",
-    "filters": "core grids",
-    "report": "core grids",
+    "filters": "core grids tin",
+    "report": "core grids relief",
     "engine": "core crs las survey",
-    "tools": "core crs grids las survey rasters report engine remote",
+    "tools": "core crs grids tin relief las survey rasters report engine remote",
     "tools/ground": "core crs grids las survey rasters filters engine",
-    "tools/compare_settings": ("core crs grids las survey filters report engine tools"),
-    "delivery": "core crs grids las survey rasters filters report engine tools",
+    "tools/compare_settings": ("core crs grids tin relief las survey filters report engine tools"),
+    "delivery": "core crs grids tin relief las survey rasters filters report engine tools",
     "library": ("core crs grids las survey rasters filters engine tools delivery remote"),
     "cli": ("core crs grids las survey rasters filters engine tools delivery library remote"),
     "__main__": "cli",
@@ -74,7 +76,7 @@ def test_the_classifier_imports_neither_qgis_nor_the_plugin():
 
 
 def test_grids_and_filters_know_no_files():
-    for room in ("grids", "filters"):
+    for room in ("grids", "tin", "relief", "filters"):
         for path in (ROOT / "algorithms" / room).rglob("*.py"):
             assert not _within(
                 _imports(path),

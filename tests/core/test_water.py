@@ -13,7 +13,7 @@ import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.grids.descent import isotonic
+from bare_earth.algorithms.tools.water.descent import isotonic
 from bare_earth.algorithms.tools.water.finding import Water, find_water
 from bare_earth.algorithms.tools.water.grid import WaterGrid, cell_for
 

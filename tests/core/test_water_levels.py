@@ -5,7 +5,7 @@ import pytest
 from realdata import real
 from test_water import Scene, written_water
 
-from bare_earth.algorithms.grids.descent import Network, descent
+from bare_earth.algorithms.tools.water.descent import Network, descent
 from bare_earth.algorithms.tools.water.reaches import reaches_of
 
 CELL = 2.5

@@ -11,8 +11,8 @@ from ...core.points import Points
 from ...core.progress import SILENT, Progress
 from ...core.threads import in_threads, over_parts
 from ...grids.cells import Cells
-from ...grids.model_key_points import ModelKeyPoints, model_key_points
 from ...grids.morphology import within_square
+from ...tin.model_key_points import ModelKeyPoints, model_key_points
 from ..pipeline import PointRule, Stage
 from ..state import State
 

@@ -20,8 +20,8 @@ from ...grids.cells import Cells, lower_at
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
-from ...grids.side_planes import Sides
 from ..pipeline import PointRule, Stage
+from ..side_planes import Sides
 from ..state import State
 from .seeds import DENSE_SPACING, openness
 

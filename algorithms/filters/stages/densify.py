@@ -21,10 +21,10 @@ from ...core.progress import Progress
 from ...grids.cells import Cells
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
-from ...grids.tin import Tin, lost_triangles
-from ...grids.triangles_round import WIDEST, CellVertices
+from ...tin.triangulation import Tin, lost_triangles
 from ..pipeline import PointRule, Stage
 from ..state import State
+from ..triangles_round import WIDEST, CellVertices
 
 # Metres between the virtual points round the survey.
 _RING_SPACING = 5.0

@@ -7,8 +7,8 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ...core.threads import in_threads
-from ...grids.height_grid import HeightGrid
-from ...grids.trend import Rises, Trend
+from ..height_grid import HeightGrid
+from ..trend import Rises, Trend
 from .regions import Border, Regions
 
 # East, north and the two diagonals: with their opposites, the eight neighbours of a cell.

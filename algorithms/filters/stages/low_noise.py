@@ -10,8 +10,8 @@ import numpy as np
 
 from ...core.points import Points
 from ...grids.cells import Cells, first_of_each, spacing
-from ...grids.lowest_planes import LowestOfCells, Surroundings
 from ...grids.morphology import within_square
+from ..lowest_planes import LowestOfCells, Surroundings
 from ..pipeline import PointRule, Stage
 from ..state import State
 

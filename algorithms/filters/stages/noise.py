@@ -8,8 +8,8 @@ import numpy as np
 
 from ...core.points import Points
 from ...core.threads import in_threads, parts_of
-from ...grids.cell_blocks import CellBlocks
 from ...grids.cells import Cells
+from ..cell_blocks import CellBlocks
 
 # Metres from the lowest points within which noise is measured.
 _NOISE_WINDOW = 0.6

@@ -14,12 +14,12 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from ...core.progress import SILENT, Progress
-from ...grids.cell_blocks import CellBlocks
 from ...grids.cells import Cells, usual_count
 from ...grids.gradient import steepness
-from ...grids.height_grid import HeightGrid
 from ...grids.inpaint import inpaint
 from ...grids.morphology import within_square
+from ..cell_blocks import CellBlocks
+from ..height_grid import HeightGrid
 from ..pipeline import GridRule, PointRule, Stage
 from ..state import GridState, State, covered
 from .height_steps import HeightSteps

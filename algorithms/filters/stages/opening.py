@@ -20,8 +20,8 @@ import numpy as np
 
 from ...core.progress import SILENT, Progress
 from ...grids.gradient import gradient
-from ...grids.height_grid import HeightGrid
 from ...grids.morphology import erosion, in_steps, opening, within_square
+from ..height_grid import HeightGrid
 from ..pipeline import GridRule, Stage
 from ..state import GridState
 from .terrain import slope_at, smoothed

@@ -19,10 +19,10 @@ from ...core.progress import SILENT, Progress
 from ...core.threads import over_parts
 from ...grids.cells import Cells, spacing
 from ...grids.gradient import steepness
-from ...grids.height_grid import HeightGrid
 from ...grids.inpaint import inpaint
-from ...grids.lowest_planes import LowestOfCells
 from ...grids.morphology import median_of_nine, within_square
+from ..height_grid import HeightGrid
+from ..lowest_planes import LowestOfCells
 from ..pipeline import GridRule, PointRule, Rule, Stage
 from ..state import GridState, State
 from .seeds import DENSE_SPACING

@@ -13,8 +13,8 @@ from ...core.threads import over_parts
 from ...grids.cells import Cells, in_order
 from ...grids.gradient import steepness
 from ...grids.morphology import within_square
-from ...grids.side_planes import Sides
 from ..pipeline import PointRule, Stage
+from ..side_planes import Sides
 from ..state import State
 from .breaks import mean_surface, openness_of
 

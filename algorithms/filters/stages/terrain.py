@@ -12,8 +12,8 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.progress import SILENT, Progress
-from ...grids.cell_blocks import CellBlocks
-from ...grids.height_grid import HeightGrid
+from ..cell_blocks import CellBlocks
+from ..height_grid import HeightGrid
 from ..pipeline import GridRule, Rule, Stage
 from ..state import GridState
 from .regions import LowBanks, RaisedRegions, Rocks, raised_regions

@@ -15,7 +15,6 @@ from ...engine.step import PointStep, with_classes
 from ...engine.store import Marks
 from ...engine.summary import TileSummary
 from ...engine.visits import Visit
-from ...grids.height_above_ground import with_roads
 from ...las.cloud import PointCloud
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...survey.area import Area
@@ -23,6 +22,7 @@ from ...survey.corrections import NO_CORRECTIONS, Corrections, changed_since
 from ...survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...survey.kept_classes import DECIDED, ROADS, is_one_of
 from ...survey.shapes import outside
+from ...tin.height_above_ground import with_roads
 from ..declaration import CANOPY, CLOUD, Input, PointTool
 from .classes import AboveGround, classes_above_ground
 

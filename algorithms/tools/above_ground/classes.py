@@ -12,8 +12,8 @@ from ...core.parameters import ParameterSet, parameter, parameter_of
 from ...core.points import Points
 from ...core.progress import SILENT, Progress
 from ...grids.bridge_decks import bridge_decks
-from ...grids.height_above_ground import height_above_ground
 from ...grids.high_groups import HighGroups
+from ...tin.height_above_ground import height_above_ground
 from .buildings import Buildings
 
 # Classes of the LAS specification.

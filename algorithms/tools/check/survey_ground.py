@@ -11,7 +11,13 @@ import numpy as np
 from ...core.errors import BareEarthError
 from ...core.points import Frame, Points
 from ...core.progress import SILENT, Progress
-from ...grids.delaunay_walk import (
+from ...grids.lines import NearPlaces
+from ...las.cloud import PointCloud, survey_frame
+from ...las.lasfile import LasFile
+from ...survey.files import Sources, Survey, open_survey
+from ...survey.ground_classes import GroundClasses, GroundCounts
+from ...survey.shapes import Place
+from ...tin.delaunay_walk import (
     NOWHERE,
     circumcircles,
     enclosing_triangles,
@@ -19,13 +25,7 @@ from ...grids.delaunay_walk import (
     longest_edge,
     picked,
 )
-from ...grids.lines import NearPlaces
-from ...grids.tin import Tin
-from ...las.cloud import PointCloud, survey_frame
-from ...las.lasfile import LasFile
-from ...survey.files import Sources, Survey, open_survey
-from ...survey.ground_classes import GroundClasses, GroundCounts
-from ...survey.shapes import Place
+from ...tin.triangulation import Tin
 
 # Points near a place that are kept in each round; all rounds but the first are for the places that
 # are not certain yet. In dense land the first is enough.

@@ -8,7 +8,7 @@ from typing import NamedTuple, Sequence
 import numpy as np
 
 from ...core.points import box_in_words
-from ...grids.hillshade import hillshade
+from ...relief.hillshade import hillshade
 from ...report.page import (
     Html,
     element,

@@ -16,7 +16,6 @@ from ...crs.measurable import require_measurable
 from ...crs.system import Crs
 from ...engine.memory import Resources
 from ...engine.visits import Work
-from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ...grids.expected_error import expected_error, expected_rmse
 from ...las.cloud import PointCloud, survey_frame
 from ...las.crs_records import read_crs
@@ -26,6 +25,7 @@ from ...report.units import Units
 from ...survey.area import Area
 from ...survey.files import Inputs, open_survey
 from ...survey.window import may_touch, read_window
+from ...tin.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ...tools.ground.step import LabelGround
 from .settings import Setting
 

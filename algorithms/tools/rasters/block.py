@@ -14,12 +14,12 @@ from ...core.progress import SILENT, Progress
 from ...core.threads import over_parts, parts_of
 from ...grids.cell_window import CellWindow
 from ...grids.cells import Cells, are_inside, first_of_each
-from ...grids.dense_surface import VERTICES_A_SIDE, DenseSurface
 from ...grids.expected_error import CELL, causes_of, error_of, evidence
 from ...grids.high_groups import HighGroups
-from ...grids.lattice_sample import LatticeSample
 from ...grids.morphology import within_square
-from ...grids.terrain_edges import follow_edges
+from ...tin.dense_surface import VERTICES_A_SIDE, DenseSurface
+from ...tin.lattice_sample import LatticeSample
+from .terrain_edges import follow_edges
 
 # Longest edge of the triangles in a block, in metres and in cells. Triangles across wider gaps need
 # points from farther away than a block sees, so they are made when all blocks are done.

@@ -10,11 +10,12 @@ import numpy as np
 
 from ...core.points import Frame, Points
 from ...core.progress import SILENT, Progress
-from ...grids.lines import NearestHeights, NearPlaces, along, falling, inside_grid, squares
+from ...grids.lines import NearestHeights, NearPlaces, along, inside_grid, squares
 from ...las.cloud import PointCloud
 from ...survey.area import Area, Polygon
 from ...survey.ground_classes import GroundClasses, GroundCounts
 from ...survey.kept_classes import IGNORED_GROUND
+from ..water.descent import falling
 from .block import BlockView
 from .constraints import NEAR, STATION, Constraints
 from .given_heights import without_wrong_heights

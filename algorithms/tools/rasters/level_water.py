@@ -12,8 +12,8 @@ from ...core.points import Box
 from ...grids.cell_window import CellWindow
 from ...grids.lines import NearestHeights, near_rings
 from ...grids.outline import Outline, strips
-from ...grids.tin import Tin
 from ...survey.area import Area
+from ...tin.triangulation import Tin
 
 # Metres from the shore within which a place lies in the water: the border belongs to it.
 _ON_SHORE = 1e-3

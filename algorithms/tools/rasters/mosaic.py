@@ -12,8 +12,8 @@ from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
 from ...grids.morphology import within_square
 from ...grids.outline import Outline, strips
-from ...grids.surface import CellLattice, Surface
 from ...survey.area import Area
+from ...tin.surface import CellLattice, Surface
 from .block import CONTENTS, TOP, BlockRasters
 from .level_water import NO_WATER_CELLS, WaterCells
 

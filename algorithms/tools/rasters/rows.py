@@ -15,8 +15,10 @@ import numpy as np
 
 from ...grids.canopy import PIT_PASSES, canopy_height, without_pits
 from ...grids.expected_error import share_over
-from ...grids.hillshade import hillshade, multidirectional_hillshade, slope
-from ...grids.horizons import (
+from ...rasters import looks
+from ...rasters.looks import Look, Picture, Ramp
+from ...relief.hillshade import hillshade, multidirectional_hillshade, slope
+from ...relief.horizons import (
     Cells,
     dominance_reach,
     horizon_reach,
@@ -24,16 +26,14 @@ from ...grids.horizons import (
     openness,
     sky_view,
 )
-from ...grids.local_relief import (
+from ...relief.local_relief import (
     local_relief,
     multi_scale_reach,
     multi_scale_relief,
     relief_reach,
 )
-from ...grids.relief_pictures import VAT_RADII, archaeological_topography, red_relief
-from ...grids.relief_smoothing import smoothing_reach, without_noise
-from ...rasters import looks
-from ...rasters.looks import Look, Picture, Ramp
+from ...relief.pictures import VAT_RADII, archaeological_topography, red_relief
+from ...relief.smoothing import smoothing_reach, without_noise
 from .parameters import SurfaceModel, TerrainModel
 
 # Distance in metres from the true terrain up to which a cell is right, for the confidence.

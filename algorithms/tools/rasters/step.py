@@ -23,8 +23,6 @@ from ...engine.store import OTHERS, Marks, Store
 from ...engine.visits import Visit
 from ...grids.cell_window import CellWindow
 from ...grids.cells import first_of_each
-from ...grids.dense_surface import VERTICES_A_SIDE
-from ...grids.height_above_ground import with_roads
 from ...las.cloud import PointCloud, survey_frame
 from ...las.lasfile import LasFile
 from ...rasters.cell_grid import cell_grid
@@ -32,6 +30,8 @@ from ...rasters.libraries import library_name
 from ...survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
 from ...survey.shapes import Place
+from ...tin.dense_surface import VERTICES_A_SIDE
+from ...tin.height_above_ground import with_roads
 from .block import LAYERS, BlockRasters, BlockView
 from .constraints import NO_CONSTRAINTS, Constraints
 from .fixed_terrain import fixed_terrain

@@ -6,7 +6,7 @@ from typing import Sequence
 
 import numpy as np
 
-from ...grids.hillshade import hillshade
+from ...relief.hillshade import hillshade
 from ...report.page import (
     Html,
     element,

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...grids.descent import descent
 from ...grids.morphology import dilation, erosion
+from .descent import descent
 from .grid import regions_of
 from .reaches import Reaches, reaches_of
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...grids.descent import Network
+from .descent import Network
 
 # Most cells in which the ways along a river are searched.
 _MOST_CELLS = 200_000

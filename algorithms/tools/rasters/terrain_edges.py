@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from ..core.points import Points
-from .cell_window import CellWindow
-from .cells import are_inside, spacing
-from .lines import NearPlaces
-from .morphology import within_square
-from .tin import Tin
+from ...core.points import Points
+from ...grids.cell_window import CellWindow
+from ...grids.cells import are_inside, spacing
+from ...grids.lines import NearPlaces
+from ...grids.morphology import within_square
+from ...tin.triangulation import Tin
 
 # Cells from a line, or distances between ground points, up to which the terrain is the TIN of all
 # points. They are not thinned, so that two lines close together stay separate.

@@ -9,8 +9,8 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import over_parts
-from .cells import Cells, cells_at
-from .planes import means_and_moments, plane_slopes
+from ..grids.cells import Cells, cells_at
+from ..grids.planes import means_and_moments, plane_slopes
 
 _NEIGHBOURS = 16  # nearest neighbours that are used
 _LEAST = 4  # of them on a side, for a plane

@@ -10,9 +10,9 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
-from .cells import cells_at
+from ..grids.cells import cells_at
 from .delaunay_walk import circumcircles
-from .tin import Tin, hull_corners, is_one_line, lowest_of_duplicates, triangles_of_cells
+from .triangulation import Tin, hull_corners, is_one_line, lowest_of_duplicates, triangles_of_cells
 
 # Most vertices of a block: so few that all threads have work, and that progress and cancel do not
 # have to wait.

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .cells import numbered
-from .tin import opposite_areas
+from ..grids.cells import numbered
+from .triangulation import opposite_areas
 
 # x and y of a missing vertex.
 NOWHERE = 1e6

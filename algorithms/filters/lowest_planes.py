@@ -11,10 +11,10 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.threads import parts_of
-from .cells import Cells
-from .gradient import gradient
-from .inpaint import inpaint
-from .morphology import median_of_nine, within_square
+from ..grids.cells import Cells
+from ..grids.gradient import gradient
+from ..grids.inpaint import inpaint
+from ..grids.morphology import median_of_nine, within_square
 
 # Directions in which the surroundings are looked at.
 SIDES = 8

@@ -9,8 +9,8 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import over_parts
-from .cells import Cells
-from .delaunay_walk import NOWHERE, enclosing_triangles, listed, picked
+from ..grids.cells import Cells
+from ..tin.delaunay_walk import NOWHERE, enclosing_triangles, listed, picked
 
 # Cells to each side of a place in which its triangle is searched, one after the other.
 _WINDOWS = (2, 4, 8)

@@ -20,7 +20,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.threads import in_threads
-from .local_trend import TRUNCATE, local_trend, reach_of
+from .local_relief import TRUNCATE, local_trend, reach_of
 
 # Standard deviation of the surroundings in metres, and its limits in cells: with fewer nothing is
 # smoothed.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, Sequence
 
 import numpy as np
 
@@ -24,6 +24,11 @@ _STRAY = 0.5
 _STRAY_STATIONS = 2
 # Stations on each side from which is taken what a percentile differs from the median.
 _STATIONS = 5
+_MEET = 0.1  # metres: stations this near are one
+# A line joins another one if it ends within a multiple of half the width of the water, and metres
+# beyond it.
+_WIDER = 1.5
+_JOINED = 10.0
 
 
 class Network(NamedTuple):
@@ -214,3 +219,52 @@ def isotonic(values: np.ndarray, weights: np.ndarray | None = None) -> np.ndarra
         pools.append((mean, weight, count))
     means, _, counts = zip(*pools) if pools else ((), (), ())
     return np.repeat(np.array(means, dtype=np.float64), np.array(counts, dtype=np.int64))
+
+
+def falling(
+    lines: Sequence[np.ndarray],  # (n, 2), stations of a branch, up or down, two or more
+    border: np.ndarray,  # (m, 2), on the banks
+    heights: np.ndarray,  # (m,), of the ground there, not all NaN
+    places: np.ndarray,
+    percentile: float,
+) -> np.ndarray:
+    """Return the water level at `places` (k, 2) along a river and its branches, a percentile of the
+    heights of the banks beside; downstream it never rises.
+    """
+    from scipy.spatial import cKDTree
+
+    stations, network = joined(lines, border)
+    tree, known = cKDTree(stations), ~np.isnan(heights)
+    beside = tree.query(border[known])[1]
+    levels = descent(network, beside, heights[known], percentile).levels
+    return levels[tree.query(places)[1]]
+
+
+def joined(lines: Sequence[np.ndarray], border: np.ndarray) -> tuple[np.ndarray, Network]:
+    """Return the stations (k, 2) of lines (n, 2) as one network: lines that end near another one
+    join it, as far as the banks (m, 2) are from its middle.
+    """
+    from scipy.spatial import cKDTree
+
+    together = np.concatenate(lines)
+    # Ends that meet are one station.
+    _, first, name = np.unique(
+        np.round(together / _MEET), axis=0, return_index=True, return_inverse=True
+    )
+    name, stations = name.reshape(-1), together[first]
+    banks, edges, start = cKDTree(border), [], 0
+    for line in lines:
+        own = name[start : start + len(line)]
+        start += len(line)
+        edges.append(np.column_stack((own[:-1], own[1:])))
+        others = np.setdiff1d(name, own)
+        if len(others):
+            far, which = cKDTree(stations[others]).query(stations[own[[0, -1]]])
+            half = banks.query(stations[others[which]])[0]
+            near = far <= _WIDER * half + _JOINED
+            # The head of a short branch is near another line, too.
+            near &= far <= np.hypot(*(line[-1] - line[0])) / 2.0
+            edges.append(np.column_stack((own[[0, -1]], others[which]))[near])
+    pairs = np.sort(np.concatenate(edges), axis=1)
+    pairs = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
+    return stations, Network(len(stations), pairs)

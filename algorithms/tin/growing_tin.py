@@ -7,7 +7,7 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
-from .tin import Tin, opposite_areas
+from .triangulation import Tin, opposite_areas
 
 # Rounding error of a determinant, as a share of the sum of its terms.
 _ROUNDING = 1e-12

@@ -7,7 +7,7 @@ from typing import Iterable
 import numpy as np
 
 from ..core.threads import parts_of
-from .cells import numbered
+from ..grids.cells import numbered
 
 # Queries of one walk, so few that the arrays of a step stay in the processor's cache.
 _QUERIES_A_STEP = 200_000

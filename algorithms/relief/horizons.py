@@ -23,7 +23,7 @@ import numpy as np
 
 from ..core.progress import SILENT
 from ..core.threads import over_parts, parts_of
-from .local_trend import TRUNCATE, trend_slopes
+from .local_relief import TRUNCATE, trend_slopes
 
 # Sides of a cell in metres: along a row, and along a column.
 Cells = tuple[float, float]

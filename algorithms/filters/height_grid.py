@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .inpaint import RELAXATIONS, First, inpaint
+from ..grids.inpaint import RELAXATIONS, First, inpaint
 
 
 class HeightGrid(NamedTuple):

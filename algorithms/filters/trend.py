@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.threads import in_threads
-from .gradient import length
-from .inpaint import First
-from .morphology import median_of_nine
+from ..grids.gradient import length
+from ..grids.inpaint import First
+from ..grids.morphology import median_of_nine
 
 # Side in metres of the blocks whose median slope is the trend of the terrain.
 _BLOCK = 15.0

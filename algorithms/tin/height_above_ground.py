@@ -6,7 +6,7 @@ import numpy as np
 
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
-from .cells import spacing
+from ..grids.cells import spacing
 from .dense_surface import VERTICES_A_SIDE, DenseSurface
 
 # Distance of the vertices of the TIN, in mean distances of ground points, and its limits in metres.

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .cells import Cells
+from ..grids.cells import Cells
 from .height_grid import HeightGrid
 from .trend import between_blocks
 

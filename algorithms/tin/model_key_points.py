@@ -13,9 +13,9 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads, over_parts, parts_of
-from .cells import Cells, first_of_each
+from ..grids.cells import Cells, first_of_each
 from .growing_tin import GrowingTin
-from .tin import hull_corners, lowest_of_duplicates
+from .triangulation import hull_corners, lowest_of_duplicates
 
 # Rounding error in metres, at the tolerance and at the borders of cells.
 _ROUNDING = 1e-6

@@ -12,8 +12,8 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads, parts_of
-from .cells import are_inside, first_of_each
-from .tin import hull_corners
+from ..grids.cells import are_inside, first_of_each
+from .triangulation import hull_corners
 
 # Cells along the side of a tile. Smaller tiles make arrays so short that threads spend much time
 # waiting for the interpreter's lock.

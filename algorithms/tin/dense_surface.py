@@ -16,9 +16,9 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
+from ..grids.morphology import within_square
 from .lattice_sample import TILE, LatticeSample
 from .local_delaunay import WIDEST, LocalDelaunay, Queries
-from .morphology import within_square
 from .surface import CellLattice, Surface
 
 # Cells of the lattice along the side of a raster cell, so that the centre of a raster cell is a

@@ -1,0 +1,1 @@
+"""Pictures of the relief of a terrain model. Knows no files."""

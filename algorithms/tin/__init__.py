@@ -1,0 +1,1 @@
+"""Triangulations of points, and the surfaces that they make. Knows no files."""
