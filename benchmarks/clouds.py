@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from bare_earth.algorithms.classes.corrections import NO_CORRECTIONS, Corrections
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.progress import SILENT, Progress
 from bare_earth.algorithms.core.threads import may_use
@@ -12,8 +14,6 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.run import FileRun
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey.area import Area
-from bare_earth.algorithms.survey.corrections import NO_CORRECTIONS, Corrections
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground.step import LabelGround
 
 

@@ -18,6 +18,8 @@ from scipy.optimize import minimize
 from scipy.special import expit
 from scipy.stats import rankdata
 
+from bare_earth.algorithms.classes.point_counts import PointCounts
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
@@ -37,8 +39,6 @@ from bare_earth.algorithms.grids.expected_error import (
 )
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.report.units import Units
-from bare_earth.algorithms.survey.point_counts import PointCounts
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tin.dense_surface import DenseSurface
 from bare_earth.algorithms.tin.surface import Surface
 from bare_earth.algorithms.tools.review.places import Rasters, Review, places_of

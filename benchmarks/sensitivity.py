@@ -8,12 +8,12 @@ from typing import NamedTuple, Sequence
 
 import numpy as np
 
+from bare_earth.algorithms.classes.point_counts import PointCounts
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.parameters import Declaration
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.las.cloud import PointCloud
-from bare_earth.algorithms.survey.point_counts import PointCounts
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.assess import AssessmentOptions, compare
 
 from . import data

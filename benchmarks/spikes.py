@@ -12,11 +12,11 @@ from typing import Sequence
 
 import numpy as np
 
+from bare_earth.algorithms.classes.point_counts import PointCounts
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.method import NOT_GROUND
 from bare_earth.algorithms.relief.hillshade import hillshade
-from bare_earth.algorithms.survey.point_counts import PointCounts
-from bare_earth.algorithms.survey.selection import Selection
 
 from . import data
 from .accuracy import method_name

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Callable, Iterable, Mapping, NamedTuple, Sequence, cast
 
+from ..classes.selection import Selection
 from ..core.errors import BareEarthError
 from ..core.files import make_work_folder, split_name
 from ..core.parameters import ParameterSet
@@ -21,7 +22,6 @@ from ..report.units import Units
 from ..survey.feature_files import feature_writer
 from ..survey.files import Inputs, open_survey
 from ..survey.overview import overview_of
-from ..survey.selection import Selection
 from ..tools import any_tool
 from ..tools.rasters.parameters import TerrainModel
 from ..tools.running import run

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
 from urllib.parse import quote
 
+from ..classes.selection import Selection
 from ..core.parameters import ParameterSet, shown_value
 from ..core.words import counted
 from ..filters import method_of
@@ -25,7 +26,6 @@ from ..report.page import (
     table,
 )
 from ..report.units import Units
-from ..survey.selection import Selection
 from ..tools.above_ground.classes import ThenAboveGround
 from ..tools.check.accuracy import Figures
 from ..tools.contours import Contours

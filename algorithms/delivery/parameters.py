@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Iterable, Mapping, TypeVar
 
+from ..classes.ground_classes import GroundClasses
+from ..classes.selection import Selection
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..filters import DEFAULT_METHOD, METHODS
-from ..survey.ground_classes import GroundClasses
-from ..survey.selection import Selection
 from ..tools.declaration import FileTool, MapTool, Tool
 from ..tools.ground.method import TileMethod
 from ..tools.quality.specifications import SPECIFICATIONS

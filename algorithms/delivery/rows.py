@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..classes.ground_classes import GroundClasses
 from ..core.progress import Progress
 from ..survey.files import open_survey
-from ..survey.ground_classes import GroundClasses
 from ..tin.dense_surface import VERTICES_A_SIDE
 from ..tools.rasters.parameters import TerrainModel
 from ..tools.rasters.step import MakeRasters

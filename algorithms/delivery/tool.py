@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from ..classes.selection import Selection
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
-from ..survey.selection import Selection
 from ..tools.check.accuracy import Accuracy
 from ..tools.contours import Contours
 from ..tools.declaration import (

@@ -11,6 +11,7 @@ from typing import Any, Iterator, Sequence
 
 import numpy as np
 
+from ..classes.point_counts import by_class, count_classes
 from ..core.files import write_errors_told
 from ..core.progress import SILENT, Progress
 from ..core.unnamed import unnamed_file
@@ -23,7 +24,6 @@ from ..las.reading import read_cloud, read_parts
 from ..las.records import needed
 from ..las.unpacked import has_room, unpack
 from ..las.writing import layers_kept, write_changed
-from ..survey.point_counts import by_class, count_classes
 from ..survey.shapes import Place
 from .disk_store import DiskStore, ValuesOnDisk
 from .memory import GIGABYTE, GivingBack, Resources

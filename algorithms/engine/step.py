@@ -17,6 +17,7 @@ from typing import Any, BinaryIO, Callable, Iterable, Sequence
 
 import numpy as np
 
+from ..classes.corrections import to_remember
 from ..core.files import Outputs
 from ..core.parameters import ParameterSet
 from ..core.points import Box, Frame
@@ -24,7 +25,6 @@ from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
-from ..survey.corrections import to_remember
 from ..survey.shapes import Geometry, Place
 from .block_grid import BlockGrid, BlockIndex
 from .blocks import Block, Blocks

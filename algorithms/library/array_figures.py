@@ -7,11 +7,11 @@ from typing import Any, Iterator
 
 import numpy as np
 
+from ..classes.ground_classes import GroundClasses, GroundCounts
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..core.threads import available_cpus, may_use
 from ..las.cloud import PointCloud
-from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..tools.check.accuracy import Accuracy
 from ..tools.check.checking import CheckOptions, check_points
 from ..tools.check.residuals import layer_of, residuals_of

@@ -13,6 +13,8 @@ from typing import Any, Callable, Sequence, cast
 
 import numpy as np
 
+from ..classes.ground_classes import GroundClasses
+from ..classes.selection import Selection
 from ..core.errors import BareEarthError
 from ..core.files import Outputs
 from ..core.parameters import ParameterSet, parameter_of
@@ -26,8 +28,6 @@ from ..engine.run import FileRun
 from ..engine.step import Step
 from ..las.cloud import PointCloud
 from ..survey.files import Inputs
-from ..survey.ground_classes import GroundClasses
-from ..survey.selection import Selection
 from ..tools import map_tool, point_tool
 from ..tools.heights import HeightOutput, HeightsOfPoints
 from ..tools.key_points import KeyPointMark

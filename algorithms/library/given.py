@@ -6,10 +6,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Callable, Protocol
 
+from ..classes.corrections import NO_CORRECTIONS, Corrections, read_corrections
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..survey.area import Area
-from ..survey.corrections import NO_CORRECTIONS, Corrections
 from ..survey.files import Inputs
 
 if TYPE_CHECKING:
@@ -109,8 +109,6 @@ def area_of(values: SimpleNamespace) -> Area | None:
 
 def corrections_of(values: SimpleNamespace) -> Corrections:
     """Return the polygons whose class is known."""
-    from ..survey.vector_files import read_corrections
-
     given = values.corrections
     if given is None or isinstance(given, Corrections):
         return given or NO_CORRECTIONS

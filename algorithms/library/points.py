@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..classes.ground_classes import GroundClasses
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads, parts_of
@@ -21,7 +22,6 @@ from ..las.crs_records import crs_among
 from ..las.lasfile import FIRST_EXTENDED_FORMAT
 from ..las.reading import COLUMNS
 from ..las.return_numbers import count_from_one
-from ..survey.ground_classes import GroundClasses
 from ..survey.vector_files import is_frame
 from .blocks import are_blocks
 from .columns import COORDINATES, array_of, columns_of, is_record, refuse_beside

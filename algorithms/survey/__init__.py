@@ -1,1 +1,1 @@
-"""A survey: its files, and the points and the area of a run."""
+"""A survey: its files, and the area of a run."""

@@ -12,7 +12,6 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..crs.provider import LONGITUDE_LATITUDE
 from .area import Polygon
-from .corrections import CLASS_FIELD, Corrections
 from .shapes import Shapes
 from .vector_library import read_features
 from .wkb import geometries_of
@@ -21,6 +20,8 @@ from .wkb import geometries_of
 _INVALID = (
     ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, OverflowError
 )  # fmt: skip
+# The attribute of a polygon that holds its class.
+CLASS_FIELD = "class"
 # For the help of options.
 FORMATS = (
     "GeoPackage, GeoJSON, shapefile and others, which pyogrio reads; if the file states its CRS, it"
@@ -56,11 +57,11 @@ def read_boundary(source: Any) -> tuple[Polygon, ...]:
     return _shapes(source, "Polygon", lambda rings, _: _polygon(rings))
 
 
-def read_corrections(source: Any) -> Corrections:
+def read_polygons_with_classes(source: Any) -> tuple[Shapes, tuple[Any, ...]]:
     """Read the polygons of a source with their classes, and nothing else."""
     found = _shapes(source, "Polygon", _polygon_with_class)
     polygons, classes = zip(*found)
-    return Corrections(Shapes(polygons, found.crs, found.source), classes)
+    return Shapes(polygons, found.crs, found.source), classes
 
 
 def read_lines(source: Any) -> tuple[np.ndarray, ...]:

@@ -13,6 +13,7 @@ from typing import Any, Sequence
 
 import numpy as np
 
+from ..classes.point_counts import by_class, count_classes
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Frame, Points
@@ -24,7 +25,6 @@ from ..report.page import Html, element, keys, lines, map_of, page, paragraph, s
 from ..report.pictures import LONGEST_SIDE, Picture, Relief
 from ..report.units import Units, percent
 from ..survey.common_points import match_files
-from ..survey.point_counts import by_class, count_classes
 from .declaration import CLOUD, CRS, FileTool, Input, Output
 
 GROUND = 2

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable, Mapping, NamedTuple, Sequence
 
+from ..classes.ground_classes import GroundClasses
 from ..core.parameters import ParameterSet
 from ..core.progress import Progress
 from ..engine.step import PointStep, Step
 from ..survey.files import Inputs
-from ..survey.ground_classes import GroundClasses
 
 # Search words of the toolbox that several tools share; each text is translated as a whole.
 CLOUD = "lidar,laser scanning,als,uav,drone,las,laz,copc,ept,point cloud"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..classes.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
@@ -25,7 +26,6 @@ from ..las.extrabytes import ExtraDimension
 from ..las.lasfile import LasFile
 from ..rasters.sampling import FAR_ABOVE, HeightRaster, HeightSampler
 from ..survey.area import Area
-from ..survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ..tin.height_above_ground import GroundSurface, with_roads
 from .declaration import CANOPY, CLOUD, TIN, Input, PointTool
 

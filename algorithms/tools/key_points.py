@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..classes.ground_classes import GroundClasses, GroundCounts
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
@@ -18,7 +19,6 @@ from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..las.records import check_class
-from ..survey.ground_classes import GroundClasses, GroundCounts
 from ..tin.model_key_points import ModelKeyPoints, model_key_points, reach
 from .declaration import CLOUD, TERRAIN, TIN, PointTool
 

@@ -9,6 +9,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
 
+from ..classes.ground_classes import GroundClasses
 from ..core.files import Outputs, new_folder, temporary_folder
 from ..core.parameters import ParameterSet
 from ..core.progress import SILENT, Progress
@@ -20,7 +21,6 @@ from ..rasters.content import MemoryRaster
 from ..rasters.virtual import virtual_of
 from ..remote.addresses import is_address
 from ..survey.files import Inputs
-from ..survey.ground_classes import GroundClasses
 from ..survey.outputs import check_outputs, place
 from . import file_tool
 from .declaration import FileTool, MapTool, PointTool, ToFind, Tool

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..classes.ground_classes import GroundClasses, GroundCounts
+from ..classes.kept_classes import IGNORED_GROUND
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
@@ -19,8 +21,6 @@ from ..las.lasfile import LasFile
 from ..las.records import check_class
 from ..survey.area import Area, Polygon
 from ..survey.files import Inputs
-from ..survey.ground_classes import GroundClasses, GroundCounts
-from ..survey.kept_classes import IGNORED_GROUND
 from ..survey.shapes import Geometry, Place, located
 from .declaration import CLOUD, Input, PointTool
 

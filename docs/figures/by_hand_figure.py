@@ -10,12 +10,12 @@ from matplotlib import pyplot
 from scipy import ndimage
 from scipy.spatial import ConvexHull
 
+from bare_earth.algorithms.classes.corrections import Corrections
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.filters.grid_minimum import GridMinimum
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
-from bare_earth.algorithms.survey.corrections import Corrections
 from benchmarks.clouds import classify_cloud
 from benchmarks.generated import TrueModel
 from benchmarks.scenes import Scene, make

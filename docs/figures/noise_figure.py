@@ -6,9 +6,9 @@ import numpy as np
 from drawing import ADDED, GROUND, LINE, OTHER, save, shade
 from matplotlib import pyplot
 
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tin.dense_surface import DenseSurface
 from benchmarks.clouds import classify_cloud
 from benchmarks.scenes import make

@@ -7,6 +7,8 @@ from typing import Any, Iterator, Sequence
 
 from qgis.core import QgsProcessingContext
 
+from ...algorithms.classes.kept_classes import GROUND
+from ...algorithms.classes.selection import Selection
 from ...algorithms.core.files import split_name
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.delivery.deliveries import DELIVERIES
@@ -15,8 +17,6 @@ from ...algorithms.delivery.parameters import NO_DELIVERY, DeliveryChoice, Deliv
 from ...algorithms.delivery.tool import OF_DELIVERIES, TOOL
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileOutput
-from ...algorithms.survey.kept_classes import GROUND
-from ...algorithms.survey.selection import Selection
 from ...algorithms.tools import map_tool
 from ...algorithms.tools.contours import Contours
 from ...algorithms.tools.declaration import Composition

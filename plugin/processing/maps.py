@@ -7,8 +7,8 @@ from typing import Any
 
 from qgis.core import QgsProcessingContext
 
+from ...algorithms.classes.selection import Selection
 from ...algorithms.core.parameters import ParameterSet
-from ...algorithms.survey.selection import Selection
 from ...algorithms.tools import map_tool
 from ...algorithms.tools.declaration import MapTool
 from ...algorithms.tools.ground.output import Output

@@ -17,10 +17,11 @@ from qgis.core import (
     QgsProcessingParameterString,
 )
 
+from ...algorithms.classes.corrections import NO_CORRECTIONS, Corrections
 from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area
-from ...algorithms.survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
+from ...algorithms.survey.vector_files import CLASS_FIELD
 from ...algorithms.tools.declaration import Input, ToFind
 from ...algorithms.tools.input_groups import GROUPS
 from ...algorithms.tools.rasters.constraints import Constraints

@@ -18,12 +18,12 @@ from qgis.core import (
     QgsProcessingParameterVectorDestination,
 )
 
+from ...algorithms.classes.ground_classes import GroundClasses
+from ...algorithms.classes.kept_classes import GROUND
 from ...algorithms.core.files import split_name
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
 from ...algorithms.survey.files import Inputs
-from ...algorithms.survey.ground_classes import GroundClasses
-from ...algorithms.survey.kept_classes import GROUND
 from ...algorithms.tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool
 from ...algorithms.tools.declaration import FileTool, Output, PointTool, Tool
 from ...algorithms.tools.heights import HEIGHT_DIMENSION

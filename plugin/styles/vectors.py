@@ -19,7 +19,7 @@ from qgis.core import (
 )
 from qgis.PyQt.QtGui import QColor
 
-from ...algorithms.survey.corrections import CLASS_FIELD
+from ...algorithms.survey.vector_files import CLASS_FIELD
 from ...algorithms.tools.check.results import COLOURS, NOT_COUNTED, limits_of
 from ...algorithms.tools.contours import INDEX, Interval
 from .. import compat

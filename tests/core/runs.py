@@ -13,6 +13,7 @@ import numpy as np
 
 import bare_earth
 from bare_earth import Cancelled, Progress
+from bare_earth.algorithms.classes.ground_classes import ROADS_FLAG
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.temporary import is_temporary
 from bare_earth.algorithms.engine.memory_store import MemoryStore
@@ -21,7 +22,6 @@ from bare_earth.algorithms.engine.run import Run
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.las.return_numbers import MULTI_RETURN, SeveralReturns
 from bare_earth.algorithms.survey.files import Inputs
-from bare_earth.algorithms.survey.ground_classes import ROADS_FLAG
 from bare_earth.algorithms.tools import map_tool
 from bare_earth.algorithms.tools.ground.output import Output
 

@@ -7,11 +7,11 @@ from matrices import quick
 from realdata import real
 
 from bare_earth import BareEarthError
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.bridge_decks import bridge_decks
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.clouds import classify_cloud
 from benchmarks.scenes.simple import scatter, surveyed
 

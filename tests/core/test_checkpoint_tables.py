@@ -157,7 +157,7 @@ def survey(tmp_path_factory):
 
 @pytest.mark.parametrize("kind", TABLES)
 def test_tables_of_field_software(tmp_path, survey, kind):
-    from bare_earth.algorithms.survey.ground_classes import GroundClasses
+    from bare_earth.algorithms.classes.ground_classes import GroundClasses
     from bare_earth.algorithms.tools.check.survey_ground import SurveyGround
 
     given = read(tmp_path, TABLES[kind], name="gcp_list.txt")

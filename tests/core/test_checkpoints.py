@@ -12,8 +12,8 @@ from surveys import write_points
 from test_assessment import Tags
 
 from bare_earth import BareEarthError, Progress
+from bare_earth.algorithms.classes.ground_classes import GroundClasses
 from bare_earth.algorithms.cli import main
-from bare_earth.algorithms.survey.ground_classes import GroundClasses
 from bare_earth.algorithms.tools.check import survey_ground
 from bare_earth.algorithms.tools.check.accuracy import Accuracy, Figures, statement
 from bare_earth.algorithms.tools.check.checking import TOOL, CheckOptions

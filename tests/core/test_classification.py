@@ -7,6 +7,7 @@ from matrices import covering, quick
 from surveys import write_points
 
 from bare_earth import BareEarthError, classify
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.engine import file_points, memory_store
@@ -16,7 +17,6 @@ from bare_earth.algorithms.filters.stages.outliers import below_ground
 from bare_earth.algorithms.las import cloud as cloud_module
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey.area import Area
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground import labelling, step
 from benchmarks.clouds import classify_cloud
 from benchmarks.scenes.simple import village

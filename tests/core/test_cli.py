@@ -9,12 +9,12 @@ from runs import command, environment
 from surveys import ORIGIN, classes_of, write_points
 
 from bare_earth import BareEarthError, Cancelled, Progress
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.engine.run import Run
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground.explanation import (
     ExplainedCells,
     described,

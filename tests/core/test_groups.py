@@ -8,13 +8,13 @@ from realdata import real
 from surveys import classes_of, heights_of
 
 from bare_earth import classify, terrain
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.low_noise import BelowWater, LowGroups, WideLowGroups
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.high_groups import HighGroups
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.survey.selection import Selection
 from benchmarks.clouds import classify_cloud
 from benchmarks.peers import write_las
 from benchmarks.scenes import make

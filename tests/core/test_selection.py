@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 
 from bare_earth import BareEarthError, Progress
+from bare_earth.algorithms.classes.corrections import Corrections
+from bare_earth.algorithms.classes.point_chooser import PointChooser
+from bare_earth.algorithms.classes.point_counts import PointCounts
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.cloud import PointCloud
-from bare_earth.algorithms.survey.corrections import Corrections
-from bare_earth.algorithms.survey.point_chooser import PointChooser
-from bare_earth.algorithms.survey.point_counts import PointCounts
-from bare_earth.algorithms.survey.selection import Selection
 
 
 def cloud_of(classes, number=None, total=None, withheld=None, point_format=6, crs=None):

@@ -12,6 +12,7 @@ from runs import memory_store
 
 import bare_earth
 from bare_earth import BareEarthError, Cancelled, Progress
+from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.blockwise import run_jobs
@@ -26,7 +27,6 @@ from bare_earth.algorithms.filters.slope import SlopeFilter
 from bare_earth.algorithms.filters.tin import TinDensification
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.las.reading import read_cloud
-from bare_earth.algorithms.survey.selection import Selection
 from bare_earth.algorithms.tools.ground import labelling as ground_module
 from bare_earth.algorithms.tools.ground.labelling import blocks_of
 from bare_earth.algorithms.tools.ground.step import LabelGround

@@ -11,6 +11,9 @@ from shipped import ROOT, SHIPPED, name_of, nodes, tree_of
 
 # Qt's own names may come from here only, so that one code runs with Qt 5 and Qt 6.
 QT = {"PyQt5", "PyQt6", "PySide2", "PySide6", "sip"}
+# Arrays, and files; what tools are made of.
+ARRAYS = "core grids tin relief"
+FILES = "core crs las rasters survey classes"
 # Which rooms of `algorithms` a room may import, besides itself: the floors below it.
 FLOORS = {
     "core": "",
@@ -18,21 +21,22 @@ FLOORS = {
     "grids": "core",
     "tin": "core grids",
     "relief": "core grids",
-    "las": "core crs",
-    "survey": "core crs las rasters",
-    "rasters": "core crs grids",
-    "remote": "core crs las rasters survey",
     "filters": "core grids tin",
+    "las": "core crs",
+    "rasters": "core crs grids",
+    "survey": "core crs las rasters",
+    "classes": "core crs las rasters survey",
+    "remote": "core crs las rasters survey",
     "report": "core grids relief",
-    "engine": "core crs las survey",
-    "tools": "core crs grids tin relief las survey rasters report engine remote",
-    "tools/ground": "core crs grids las survey rasters filters engine",
-    "tools/compare_settings": ("core crs grids tin relief las survey filters report engine tools"),
-    "delivery": "core crs grids tin relief las survey rasters filters report engine tools",
-    "library": ("core crs grids las survey rasters filters engine tools delivery remote"),
-    "cli": ("core crs grids las survey rasters filters engine tools delivery library remote"),
+    "engine": "core crs las survey classes",
+    "tools": f"{ARRAYS} {FILES} report engine remote",
+    "tools/ground": f"core grids {FILES} filters engine",
+    "tools/compare_settings": f"{ARRAYS} {FILES} filters report engine tools",
+    "delivery": f"{ARRAYS} {FILES} filters report engine tools",
+    "library": f"core grids {FILES} filters engine tools delivery remote",
+    "cli": f"core grids {FILES} filters engine tools delivery library remote",
     "__main__": "cli",
-    "__init__": ("core crs grids las survey rasters filters engine tools delivery"),
+    "__init__": f"core grids {FILES} filters engine tools delivery",
 }
 
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from bare_earth.algorithms.classes.ground_classes import GroundCounts
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.step import Sink
 from bare_earth.algorithms.engine.store import Marks
-from bare_earth.algorithms.survey.ground_classes import GroundCounts
 
 
 @dataclass(frozen=True)

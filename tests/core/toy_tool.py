@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from bare_earth.algorithms.classes.ground_classes import GroundClasses, GroundCounts
 from bare_earth.algorithms.core.parameters import ParameterSet, parameter
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.step import PointStep, with_classes
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.engine.summary import TileSummary
-from bare_earth.algorithms.survey.ground_classes import GroundClasses, GroundCounts
 from bare_earth.algorithms.tools import POINT_TOOLS, Listed
 from bare_earth.algorithms.tools.declaration import CLOUD, PointTool
 

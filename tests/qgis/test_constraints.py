@@ -19,9 +19,9 @@ from qgis.core import (
 from support import Log, layer_of, write_scene
 
 from bare_earth import BareEarthError
+from bare_earth.algorithms.classes.corrections import read_corrections
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.survey.shapes import Place
-from bare_earth.algorithms.survey.vector_files import read_corrections
 from bare_earth.plugin.processing.inputs import CloudCrs, layer_shapes
 
 EAST, NORTH = 500_000.0, 5_700_000.0

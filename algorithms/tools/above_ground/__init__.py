@@ -7,6 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ...classes.corrections import NO_CORRECTIONS, Corrections, changed_since
+from ...classes.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
+from ...classes.kept_classes import DECIDED, ROADS, is_one_of
 from ...core.points import Box
 from ...core.progress import Progress
 from ...engine.blocks import Blocks
@@ -18,9 +21,6 @@ from ...engine.visits import Visit
 from ...las.cloud import PointCloud
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...survey.area import Area
-from ...survey.corrections import NO_CORRECTIONS, Corrections, changed_since
-from ...survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
-from ...survey.kept_classes import DECIDED, ROADS, is_one_of
 from ...survey.shapes import outside
 from ...tin.height_above_ground import with_roads
 from ..declaration import CANOPY, CLOUD, Input, PointTool

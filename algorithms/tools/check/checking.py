@@ -12,6 +12,7 @@ from typing import Any, Mapping, Sequence
 
 import numpy as np
 
+from ...classes.ground_classes import GroundClasses
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
@@ -20,7 +21,6 @@ from ...report.units import round_length
 from ...survey.feature_files import FORMATS as LAYERS
 from ...survey.feature_files import feature_writer
 from ...survey.files import Inputs
-from ...survey.ground_classes import GroundClasses
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, TIN, FileTool, Input, Output
 from .accuracy import Accuracy, Figures, statement
 from .checkpoints import Checkpoints

@@ -8,6 +8,7 @@ from typing import Callable, Iterator, NamedTuple
 
 import numpy as np
 
+from ...classes.ground_classes import GroundClasses, GroundCounts
 from ...core.errors import BareEarthError
 from ...core.points import Frame, Points
 from ...core.progress import SILENT, Progress
@@ -15,7 +16,6 @@ from ...grids.lines import NearPlaces
 from ...las.cloud import PointCloud, survey_frame
 from ...las.lasfile import LasFile
 from ...survey.files import Sources, Survey, open_survey
-from ...survey.ground_classes import GroundClasses, GroundCounts
 from ...survey.shapes import Place
 from ...tin.delaunay_walk import (
     NOWHERE,

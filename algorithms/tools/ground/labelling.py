@@ -9,6 +9,7 @@ from typing import Callable
 
 import numpy as np
 
+from ...classes.selection import Selection
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet
 from ...core.points import Box, Points
@@ -24,7 +25,6 @@ from ...grids.bridge_decks import bridge_decks
 from ...grids.cells import Cells, apart, keep_spacing
 from ...grids.high_groups import HighGroups
 from ...las.return_numbers import MULTI_RETURN
-from ...survey.selection import Selection
 from .explanation import ExplainedCells
 
 # Shares of the time of a block for finding bridges, and low outliers.

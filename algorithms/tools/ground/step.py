@@ -9,6 +9,10 @@ from typing import Any, Sequence
 
 import numpy as np
 
+from ...classes.corrections import NO_CORRECTIONS, ByHand, Corrections
+from ...classes.point_chooser import PointChooser
+from ...classes.point_counts import PointCounts, by_class
+from ...classes.selection import Selection
 from ...core.errors import BareEarthError
 from ...core.files import Outputs
 from ...core.parameters import ParameterSet
@@ -27,10 +31,6 @@ from ...las.lasfile import LasFile
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...rasters.writing import raster_file
 from ...survey.area import Area
-from ...survey.corrections import NO_CORRECTIONS, ByHand, Corrections
-from ...survey.point_chooser import PointChooser
-from ...survey.point_counts import PointCounts, by_class
-from ...survey.selection import Selection
 from .explanation import ExplainedCells, write_explanation
 from .labelling import Label, blocks_of, labelled, tell
 from .output import Output

@@ -6,6 +6,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Iterable, Mapping, Sequence
 
+from ...classes.corrections import NO_CORRECTIONS
+from ...classes.ground_classes import GroundClasses
+from ...classes.selection import Selection
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter_of
 from ...engine.memory import Resources
@@ -13,9 +16,6 @@ from ...engine.options import TileInput, TileOutput
 from ...engine.step import Step
 from ...filters import METHODS
 from ...survey.area import Area
-from ...survey.corrections import NO_CORRECTIONS
-from ...survey.ground_classes import GroundClasses
-from ...survey.selection import Selection
 from ..above_ground import ClassifyAboveGround
 from ..above_ground.classes import ThenAboveGround
 from ..contours import Contours

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Mapping
 
+from ...classes.ground_classes import GroundClasses
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet, parameter
 from ...core.points import Frame
 from ...core.progress import SILENT, Progress
 from ...las.cloud import survey_frame
 from ...survey.files import Inputs, Survey, open_survey
-from ...survey.ground_classes import GroundClasses
 from ...survey.repeated_points import RepeatedPoints
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, FileTool, Output
 from .cells import Grids, QualityCells, Store

@@ -18,6 +18,8 @@ from typing import Callable, Iterator, NamedTuple, Tuple
 
 import numpy as np
 
+from ...classes.ground_classes import GroundClasses
+from ...classes.kept_classes import NOISE, overlapping
 from ...core.errors import BareEarthError
 from ...core.points import Box, Frame
 from ...core.progress import SILENT, Progress
@@ -25,8 +27,6 @@ from ...grids.cell_window import CellWindow
 from ...grids.parts import parts_with
 from ...las.cloud import PointCloud
 from ...rasters.cell_grid import MOST_CELLS
-from ...survey.ground_classes import GroundClasses
-from ...survey.kept_classes import NOISE, overlapping
 from ...survey.repeated_points import RepeatedPoints
 from .made_points import WATER, MadePoints
 from .planes import WINDOWS, planes

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from ...classes.point_counts import by_class
 from ...grids.cells import cells_at
 from ...las.crs_records import WKT_RECORD
 from ...survey.files import Survey
-from ...survey.point_counts import by_class
 from .cells import PULSE, ROUGH, WET, QualityCells, twice
 from .figures import Quality, lines_of
 from .rasters import LIMITS, overlap, strip_differences, voids

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...classes.kept_classes import GROUND
 from ...core.points import box_round
 from ...core.progress import SILENT, Progress
 from ...las.cloud import PointCloud, survey_frame
@@ -14,7 +15,6 @@ from ...las.reading import read_parts
 from ...rasters.geotiff import RasterGrid
 from ...rasters.writing import write_geotiff
 from ...survey.files import Inputs, Survey, open_survey
-from ...survey.kept_classes import GROUND
 
 NO_CLASS = 255
 # More cells are not needed to look at.

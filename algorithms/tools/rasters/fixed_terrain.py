@@ -8,13 +8,13 @@ from typing import Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
+from ...classes.ground_classes import GroundClasses, GroundCounts
+from ...classes.kept_classes import IGNORED_GROUND
 from ...core.points import Frame, Points
 from ...core.progress import SILENT, Progress
 from ...grids.lines import NearestHeights, NearPlaces, along, inside_grid, squares
 from ...las.cloud import PointCloud
 from ...survey.area import Area, Polygon
-from ...survey.ground_classes import GroundClasses, GroundCounts
-from ...survey.kept_classes import IGNORED_GROUND
 from ..water.descent import falling
 from .block import BlockView
 from .constraints import NEAR, STATION, Constraints

@@ -8,6 +8,8 @@ from typing import Any, BinaryIO, Iterator, Sequence
 
 import numpy as np
 
+from ...classes.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
+from ...classes.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
 from ...core.errors import BareEarthError
 from ...core.files import Outputs, split_name
 from ...core.points import Frame
@@ -27,8 +29,6 @@ from ...las.cloud import PointCloud, survey_frame
 from ...las.lasfile import LasFile
 from ...rasters.cell_grid import cell_grid
 from ...rasters.libraries import library_name
-from ...survey.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
-from ...survey.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
 from ...survey.shapes import Place
 from ...tin.dense_surface import VERTICES_A_SIDE
 from ...tin.height_above_ground import with_roads

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, Mapping, Sequence
 
+from ...classes.ground_classes import GroundClasses
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet
 from ...core.progress import Progress
@@ -13,7 +14,6 @@ from ...engine.options import TileInput
 from ...rasters.cell_grid import ANYWHERE
 from ...survey.feature_files import FORMATS
 from ...survey.files import Inputs
-from ...survey.ground_classes import GroundClasses
 from ..contours import Contours
 from ..declaration import CANOPY, CLOUD, RASTER, TERRAIN, TIN, Input, MapTool, Output
 from ..water.tool import found_water

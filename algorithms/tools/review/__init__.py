@@ -8,6 +8,7 @@ from typing import Iterator
 
 import numpy as np
 
+from ...classes.corrections import NO_CORRECTIONS, Corrections
 from ...core.errors import BareEarthError
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
@@ -16,9 +17,9 @@ from ...rasters.content import Source
 from ...rasters.geotiff import Raster, read_raster
 from ...report.units import Units
 from ...survey.area import Area, Polygon
-from ...survey.corrections import CLASS_FIELD, NO_CORRECTIONS, Corrections
 from ...survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from ...survey.shapes import Place
+from ...survey.vector_files import CLASS_FIELD
 from ..declaration import RASTER, TERRAIN, FileTool, Input, Output
 from .page import review_html
 from .places import CAUSES, PlaceToReview, Rasters, Review, places_of

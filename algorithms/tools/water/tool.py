@@ -8,6 +8,8 @@ from typing import Iterable, Iterator, Sequence
 
 import numpy as np
 
+from ...classes.ground_classes import GroundClasses
+from ...classes.kept_classes import NOISE, is_one_of
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...crs.system import Crs
@@ -16,8 +18,6 @@ from ...las.cloud import PointCloud, survey_frame
 from ...survey.area import Polygon
 from ...survey.feature_files import FORMATS, Feature, Layer, feature_writer
 from ...survey.files import Inputs
-from ...survey.ground_classes import GroundClasses
-from ...survey.kept_classes import NOISE, is_one_of
 from ..check.survey_ground import SurveyGround
 from ..declaration import CLASSIFIED, CLOUD, CRS, FileTool, Output
 from ..rasters.constraints import STATION, Constraints

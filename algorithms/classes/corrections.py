@@ -11,14 +11,13 @@ from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..core.words import counted
 from ..las.cloud import PointCloud
-from .area import Area, Polygon
-from .shapes import Geometry, Place, Shapes, located
+from ..survey.area import Area, Polygon
+from ..survey.shapes import Geometry, Place, Shapes, located
+from ..survey.vector_files import read_polygons_with_classes
 
 # Points that get this class by hand are classified again.
 _NEVER_CLASSIFIED = 0
 _LARGEST_CLASS = 255
-# The attribute of a polygon that holds its class.
-CLASS_FIELD = "class"
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +62,11 @@ class Corrections(Geometry):
             return np.full(part.count, -1, dtype=np.int16)
         numbers = Area(None, self.polygons).polygon_of(part)
         return np.array([-1, *self.classes], dtype=np.int16)[numbers]
+
+
+def read_corrections(source: Any) -> Corrections:
+    """Read the polygons of a source with their classes, and nothing else."""
+    return Corrections(*read_polygons_with_classes(source))
 
 
 def _is_none(value: Any) -> bool:

@@ -13,11 +13,11 @@ from ..core.points import Box
 from ..core.progress import Progress
 from ..las.cloud import PointCloud
 from ..las.records import check_class
-from .area import Area
+from ..survey.area import Area
+from ..survey.shapes import outside
 from .corrections import NO_CORRECTIONS, ByHand, Corrections
 from .point_counts import PointCounts
 from .selection import Selection
-from .shapes import outside
 
 
 @dataclass(frozen=True)

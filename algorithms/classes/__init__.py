@@ -1,0 +1,1 @@
+"""Classes of points: which take part, which are ground, and which change."""
