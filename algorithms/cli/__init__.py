@@ -12,9 +12,25 @@ from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay, UsageErr
 from ..core.words import Flags, use_names
 from ..engine.memory import share_one_heap
 from ..tools import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
-from . import cache
 from .commands import tool_command
-from .options import FAILED, USAGE
+from .options import DONE, FAILED, USAGE, Command
+
+
+def _add_cache(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    parser.add_argument(
+        "--cache", metavar="FOLDER",
+        help="the folder of the cache; without it that of BARE_EARTH_CACHE, or one of the user",
+    )  # fmt: skip
+
+
+def _clear_cache(options: argparse.Namespace) -> int:
+    from ..remote.cache import cache_of, clear
+    from ..remote.fetching import in_words
+
+    folder = cache_of(options.cache)
+    print(f"{folder}: {in_words(clear(folder))} were removed.")
+    return DONE
+
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
 _COMMANDS = (
@@ -22,7 +38,14 @@ _COMMANDS = (
     *map(tool_command, ("info", "assess", "check", "quality")),
     *map(tool_command, ("remove-off-terrain-objects", "height", "above-ground", "key-points")),
     *map(tool_command, ("terrain", "contours", "relief", "water", "water-classes")),
-    *cache.COMMANDS,
+    Command(
+        "clear-cache",
+        "remove what is kept of remote point clouds",
+        "Removes the parts of remote point clouds that runs have fetched and kept, and tells how"
+        " many bytes that were.",
+        _add_cache,
+        _clear_cache,
+    ),
 )  # fmt: skip
 
 
