@@ -4,22 +4,28 @@ from __future__ import annotations
 
 import copy
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.core.progress import SILENT, Progress
-from bare_earth.algorithms.filters.pipeline import Pipeline
+from bare_earth.algorithms.filters.pipeline import Pipeline, Rule
 from bare_earth.algorithms.filters.state import State
+
+
+class Usual(NamedTuple):
+    """The rules of a usual run, and the states before the first of them, and after each."""
+
+    rules: tuple[Rule, ...]
+    states: tuple[State, ...]
 
 
 @dataclass
 class Kept:
-    """The states of a usual run: before its first rule, and after each of its rules."""
+    """The usual runs: blocks of a file, which threads work on, have one each."""
 
-    usual: Pipeline | None = None
-    states: list[State] = field(default_factory=list)
+    runs: list[Usual] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -39,24 +45,26 @@ class Replay(Pipeline):
         """Return what `Pipeline.run` returns but times and decisions; the first run on some points
         is the usual one.
         """
-        usual, states = self.kept.usual, self.kept.states
-        if usual is None or not _is_same(states[0].points, points):
+        same = (run for run in self.kept.runs if _is_same(run.states[0].points, points))
+        usual = next(same, None)
+        if usual is None:
             return self._record(State(points, progress, known_ground, multi_return))
         same_end = _same_rules(usual.rules[::-1], self.rules[::-1])
         first = min(_same_rules(usual.rules, self.rules), len(self.rules) - same_end)
-        state = _copied(states[first])
+        state = _copied(usual.states[first])
         for number in range(first, len(self.rules)):
             left = len(self.rules) - number
-            if left <= same_end and _is_same(state, states[len(usual.rules) - left]):
-                return _copied(states[-1])
+            if left <= same_end and _is_same(state, usual.states[len(usual.rules) - left]):
+                return _copied(usual.states[-1])
             self.apply(self.rules[number], state, SILENT)
         return state
 
     def _record(self, state: State) -> State:
-        self.kept.usual, self.kept.states = Pipeline(self.rules), [_copied(state)]
+        states = [_copied(state)]
         for rule in self.rules:
             self.apply(rule, state, SILENT)
-            self.kept.states.append(_copied(state))
+            states.append(_copied(state))
+        self.kept.runs.append(Usual(self.rules, tuple(states)))
         return state
 
 

@@ -54,6 +54,7 @@ class Delivery(NamedTuple):
     contours: bool = False
     contour_metres: float | None = None  # the height between them; None for about twenty lines
     quality: tuple[str, ...] = ()  # the rasters of quality that are delivered
+    low_confidence: bool = False  # whether the low confidence areas are delivered
     specification: str = "none"  # with which the survey is compared
     cell_as_specified: bool = False  # whether a specification states the cell size
 
@@ -95,6 +96,7 @@ DELIVERIES = {
             "pulse_density", "ground_density", "voids", "overlap", "strip_differences",
             "surface_height",
         ),
+        low_confidence=True,
         specification="lbs-ql2",
         cell_as_specified=True,
     ),
@@ -136,6 +138,7 @@ DELIVERIES = {
         # Canals and ponds too: on three real tiles this finds five of them, the usual limits none.
         values={"min_area": 1000.0, "min_width": 5.0},
         water=True,
+        low_confidence=True,
         contours=True,
     ),
     "drone-site": Delivery(

@@ -56,6 +56,8 @@ _ABOUT = {
     "breaklines": "Shores, islands and the middles of rivers, and breaklines that were given; with"
     " heights.",
     "checkpoints": "The checkpoints, with the errors of the ground points and the terrain model.",
+    "low_confidence": "Areas in which so few points reach the ground that the terrain model may not"
+    " be as accurate as elsewhere.",
     "places": "Places of the terrain model to look at first, those with the largest product of"
     " expected error and area first, with the reason.",
     "review.html": "The expected error of the terrain model, and the ten places to look at first,"
@@ -105,6 +107,8 @@ def _figures(summary: DeliverySummary) -> Iterator[tuple[str, str]]:
         }
         for name, density in densities.items():
             yield f"{name} in a square metre", "none" if density is None else f"{density:.2f}"
+        if summary.layers.get("low_confidence"):
+            yield "Low confidence areas", quality.low_confidence_areas or "not measured"
     yield "Cell size of the terrain model", summary.cell_text
     if summary.review is not None:
         yield "Expected error of the terrain, not measured", summary.review.text

@@ -24,7 +24,9 @@ def rows_of(job: DeliveryJob) -> tuple[Row, ...]:
     content = job.content
     drawn = {name: name for name in (*content.rasters, *["contours"] * content.contours)}
     on_ground = {name: name for name in ("roads", "constraints", "area", "raster_target")}
-    quality = {"page": "quality", **({"folder": QUALITY} if content.quality else {})}
+    quality = {"page": "quality"}
+    quality |= {"folder": QUALITY} if content.quality else {}
+    quality |= {"low_confidence": "low_confidence"} if content.low_confidence else {}
     checked = {"report": "accuracy", "table": "checkpoints", "residuals": "checkpoints"}
     ground = *job.set_of(GroundClasses).ground_classes, *job.known["roads"]
     buildings = {"surface_returns": "all", "surface_classes": (*ground, _BUILDING)}
@@ -43,7 +45,8 @@ def rows_of(job: DeliveryJob) -> tuple[Row, ...]:
             {"source": "expected_error", "dtm": "dtm", "cause": "error_cause"},
             {"places": "places", "page": "review"}, "review"),
         Row("accuracy", "check", 1.5, ("check",),
-            {name: name for name in ("checkpoints", "dtm", "expected_error")}, checked, "check"),
+            {name: name for name in ("checkpoints", "dtm", "expected_error", "low_confidence")},
+            checked, "check"),
     )  # fmt: skip
 
 

@@ -100,7 +100,7 @@ def _residuals(values: SimpleNamespace, sets: list[Any]) -> Features:
         raise BareEarthError("Give checkpoints.")
     with may_use(available_cpus()):
         found = residuals_of(
-            points, checkpoints, (None, None, None), tuple(values.vegetated or ()),
+            points, checkpoints, (None, None, None), (), tuple(values.vegetated or ()),
             options.max_edge, options.min_confidence, progress_of(values.progress),
         )  # fmt: skip
     return Features.of(*layer_of(found, points.survey.crs))

@@ -15,7 +15,7 @@ from ..core.words import option
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..survey.files import Inputs
-from ..survey.vector_files import FORMATS
+from ..survey.vector_files import FORMATS, is_source, read_boundary
 from ..tools import (
     COMPOSITIONS,
     FILE_TOOLS,
@@ -157,6 +157,8 @@ def input_of(declared: Input, values: SimpleNamespace) -> Any:
         return ToFind(given) if is_found else given
     value = getattr(values, declared.name)
     if declared.kind == "polygons":
+        if declared.may_be_empty and is_source(value):
+            value = read_boundary(value, may_be_empty=True)
         return ToFind() if is_found else declared.of(polygons_of(value))
     if declared.kind == "clouds":
         return Inputs(value)

@@ -50,11 +50,11 @@ def is_source(given: Any) -> bool:
     return isinstance(given, (str, PathLike)) or is_frame(given) or _geojson_of(given) is not None
 
 
-def read_boundary(source: Any) -> tuple[Polygon, ...]:
+def read_boundary(source: Any, may_be_empty: bool = False) -> tuple[Polygon, ...]:
     """Read the polygons of a file, of a GeoDataFrame, of GeoJSON or objects that can become it, or
     of arrays of rings, and nothing else.
     """
-    return _shapes(source, "Polygon", lambda rings, _: _polygon(rings))
+    return _shapes(source, "Polygon", lambda rings, _: _polygon(rings), may_be_empty)
 
 
 def read_polygons_with_classes(source: Any) -> tuple[Shapes, tuple[Any, ...]]:
@@ -76,7 +76,9 @@ def read_points(source: Any) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
     return _shapes(source, "Point", lambda place, attributes: (_line([place])[0], attributes))
 
 
-def _shapes(source: Any, kind: str, shape_of: Callable[[Any, dict], Any]) -> Shapes:
+def _shapes(
+    source: Any, kind: str, shape_of: Callable[[Any, dict], Any], may_be_empty: bool = False
+) -> Shapes:
     """Return what `shape_of` returns for coordinates and attributes of each geometry of a kind."""
     what, crs = _WORDS[kind], None
     try:
@@ -95,7 +97,7 @@ def _shapes(source: Any, kind: str, shape_of: Callable[[Any, dict], Any]) -> Sha
         shapes = tuple(shape_of(*feature) for feature in found)
     except _INVALID as error:
         raise BareEarthError(f"{label} is not valid: {_one_line(error)}.") from error
-    if not any(map(len, shapes)):
+    if not any(map(len, shapes)) and not may_be_empty:
         raise BareEarthError(f"{label} holds no {what}. Give one that does.")
     return Shapes(shapes, crs, label)
 

@@ -61,6 +61,7 @@ class Input:
     optional: bool = False  # otherwise a cloud or a raster is an argument of the command
     advanced: bool = False
     is_last: bool = False  # whether the field is below the parameters
+    may_be_empty: bool = False  # of polygons: whether a file or a layer may hold none
     # Finds the value in place of `ToFind`, where the user gives no polygons, or the word automatic:
     # given files, which of their points are ground, and the progress.
     found: Callable[[Inputs, GroundClasses, Progress], Any] | None = None

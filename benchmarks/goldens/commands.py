@@ -110,11 +110,12 @@ COMMANDS = {
     "check/file": f"check truth.laz {_CHECKPOINTS} --dtm terrain/file/dtm.tif --confidence"
     " terrain/file/confidence.tif --report OUT/page.html --table OUT/points.csv --residuals"
     " OUT/points.geojson --accuracy-class 0.1 --json",
-    "check/survey": f"check truth {_CHECKPOINTS} --hold-out 0.1 --residuals OUT/points.gpkg",
+    "check/survey": f"check truth {_CHECKPOINTS} --hold-out 0.1 --residuals OUT/points.gpkg"
+    " --low-confidence water.geojson",
     "review": "review terrain/file/error.tif OUT/places.gpkg --dtm terrain/file/dtm.tif --cause"
     " terrain/file/cause.tif --page OUT/page.html --json",
     "quality/file": "quality truth.laz --specification lbs-ql1 --page OUT/page.html --folder OUT/q"
-    " --json",
+    " --low-confidence OUT/areas.geojson --low-confidence-area 100 --json",
     "quality/survey": "quality truth --specification linz --page OUT/page.html",
     "assess": "assess classify/tin/a.laz truth.laz --report OUT/page.html --error-map OUT/map.tif"
     " --json",

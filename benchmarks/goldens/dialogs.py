@@ -89,11 +89,12 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
     }),
     "check": ("check", {
         "INPUT": "truth.laz", "CHECKPOINTS": "checkpoints.csv", "DTM": "terrain/dtm.tif",
-        "HOLD_OUT": 0.1, "OUTPUT": "OUT/points.gpkg", "REPORT": "OUT/page.html",
+        "HOLD_OUT": 0.1, "LOW_CONFIDENCE": "water.geojson", "OUTPUT": "OUT/points.gpkg",
+        "REPORT": "OUT/page.html",
     }),
     "quality": ("quality", {
         "INPUT": "truth.laz", "SPECIFICATION": "lbs-ql2", "PAGE": "OUT/page.html",
-        "FOLDER": "OUT/all",
+        "FOLDER": "OUT/all", "LOW_CONFIDENCE_AREA": 100, "LOW_CONFIDENCE": "OUT/areas.gpkg",
     }),
     "assess": ("assess", {
         "CLASSIFIED": "tin/a.laz", "REFERENCE": "truth.laz", "REPORT": "OUT/page.html",

@@ -916,6 +916,10 @@
         <translation>Kleinste Höhe eines Dachs</translation>
     </message>
     <message>
+        <source>Least low confidence area</source>
+        <translation>Kleinste solche Fläche</translation>
+    </message>
+    <message>
         <source>Leave out</source>
         <translation>Weglassen</translation>
     </message>
@@ -954,6 +958,10 @@
     <message>
         <source>Longest edge of a triangle</source>
         <translation>Längste Kante eines Dreiecks</translation>
+    </message>
+    <message>
+        <source>Low confidence areas</source>
+        <translation>Flächen mit geringer Verlässlichkeit</translation>
     </message>
     <message>
         <source>Low noise</source>
@@ -1394,6 +1402,10 @@
     <message>
         <source>Share of ground points to hold out</source>
         <translation>Anteil wegzulassender Bodenpunkte</translation>
+    </message>
+    <message>
+        <source>Share of low confidence areas</source>
+        <translation>Anteil der Flächen mit geringer Verlässlichkeit</translation>
     </message>
     <message>
         <source>Share of wrong points</source>
@@ -2016,8 +2028,8 @@
         <translation>Qualität</translation>
     </message>
     <message>
-        <source>quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,specification,lasoverlap,lasgrid</source>
-        <translation>qualität,qualitätskontrolle,qs,dichte,pulsdichte,lücken,flugstreifen,streifen,überlappung,usgs,linz,ign,spezifikation,abnahme</translation>
+        <source>quality,qc,density,pulse density,voids,low confidence,swath,strips,overlap,usgs,lbs,linz,ign,specification,lasoverlap,lasgrid</source>
+        <translation>qualität,qc,dichte,punktdichte,lücken,geringe verlässlichkeit,streifen,überlappung,usgs,lbs,linz,ign,spezifikation,lasoverlap,lasgrid</translation>
     </message>
     <message>
         <source>raised objects</source>

@@ -916,6 +916,10 @@
         <translation>Hauteur minimale d'un toit</translation>
     </message>
     <message>
+        <source>Least low confidence area</source>
+        <translation>Surface minimale de ces zones</translation>
+    </message>
+    <message>
         <source>Leave out</source>
         <translation>Laisser de côté</translation>
     </message>
@@ -954,6 +958,10 @@
     <message>
         <source>Longest edge of a triangle</source>
         <translation>Plus long côté d'un triangle</translation>
+    </message>
+    <message>
+        <source>Low confidence areas</source>
+        <translation>Zones de faible confiance</translation>
     </message>
     <message>
         <source>Low noise</source>
@@ -1394,6 +1402,10 @@
     <message>
         <source>Share of ground points to hold out</source>
         <translation>Part des points de sol à mettre de côté</translation>
+    </message>
+    <message>
+        <source>Share of low confidence areas</source>
+        <translation>Part des zones de faible confiance</translation>
     </message>
     <message>
         <source>Share of wrong points</source>
@@ -2016,8 +2028,8 @@
         <translation>qualité</translation>
     </message>
     <message>
-        <source>quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,specification,lasoverlap,lasgrid</source>
-        <translation>qualité,contrôle,cq,densité,impulsions,vides,bandes,recouvrement,usgs,linz,ign,spécification,recette</translation>
+        <source>quality,qc,density,pulse density,voids,low confidence,swath,strips,overlap,usgs,lbs,linz,ign,specification,lasoverlap,lasgrid</source>
+        <translation>qualité,qc,densité,lacunes,faible confiance,bandes,recouvrement,usgs,lbs,linz,ign,spécification,lasoverlap,lasgrid</translation>
     </message>
     <message>
         <source>raised objects</source>

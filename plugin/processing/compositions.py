@@ -175,6 +175,7 @@ class CompositionAlgorithm(ToolAlgorithm):
         """Let QGIS load rasters, lines and polygons; `first` is visible at first."""
         looks = {
             "water": layers.WATER, "breaklines": layers.BREAKLINES, "places": layers.PLACES,
+            "low_confidence": layers.LOW_CONFIDENCE,
         }  # fmt: skip
         if done.interval is not None:
             looks["contours"] = layers.contours(done.interval)

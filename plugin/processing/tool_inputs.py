@@ -41,7 +41,6 @@ from .inputs import (
     add_survey,
     box_of,
     clouds_of,
-    layer_polygons,
     layer_shapes,
     names_of,
     raster_of,
@@ -286,6 +285,8 @@ def _checkpoints(request: Request, declared: Input) -> Given:
 
 
 def _polygons(request: Request, declared: Input) -> Given:
+    if declared.optional and request.is_empty(declared):
+        return Given(declared.of(()))
     if declared.found and request.is_empty(declared):
         return Given(ToFind(), {declared.name: "automatic"})
     algorithm, parameters, context, progress = request
@@ -296,7 +297,10 @@ def _polygons(request: Request, declared: Input) -> Given:
     )
     crs = algorithm.crs_of(*algorithm.inputs)
     field = declared.field_name, declared.label
-    polygons = layer_polygons(algorithm, parameters, *field, context, crs)
+    shapes = layer_shapes(
+        algorithm, parameters, *field, context, crs, may_be_empty=declared.may_be_empty
+    )
+    polygons = tuple(rings for rings, _ in shapes)
     return Given(declared.of(polygons), {declared.name: file})
 
 

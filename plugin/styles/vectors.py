@@ -116,6 +116,17 @@ def places(layer: QgsVectorLayer) -> None:
     layer.setDisplayExpression('"RANK" || \': \' || "REASON"')
 
 
+def low_confidence(layer: QgsVectorLayer) -> None:
+    """Draw low confidence areas hatched, so that what lies below is seen."""
+    symbol = QgsFillSymbol.createSimple(
+        {
+            "style": "b_diagonal", "color": "120,60,140", "outline_color": "120,60,140",
+            "outline_width": "0.4",
+        }
+    )  # fmt: skip
+    layer.setRenderer(QgsSingleSymbolRenderer(symbol))
+
+
 def breaklines(layer: QgsVectorLayer) -> None:
     """Draw breaklines of water in dark blue."""
     # Not a symbol for the renderer that is there: the legend would keep the random colour of QGIS.

@@ -242,6 +242,20 @@ def test_the_expected_error_is_compared_with_the_errors(survey, tmp_path):
     assert check([survey], points(places(10)), dtm=str(dtm)).expected is None
 
 
+def test_checkpoints_in_low_confidence_areas_have_figures_of_their_own(survey):
+    xy = places()
+    inside = xy[:, 0] < 50
+    given = points(xy, np.where(inside, 1.0, 0.1))
+    corners = np.array([[0, 0], [50, 0], [50, 100], [0, 100]]) + CORNER
+    found = check([survey], given, low_confidence=((corners,),))
+    assert found.counted == found.nva.count == np.count_nonzero(~inside)
+    assert found.nva.rmse < 0.2 < 0.9 < found.low_confidence.rmse
+    assert found.low_confidence.count == np.count_nonzero(inside)
+    assert len(found.not_counted["low confidence area"]) == found.low_confidence.count
+    assert found.dtm_low_confidence is None
+    assert check([survey], given, low_confidence=()).counted == len(xy)
+
+
 def test_points_in_feet(tmp_path):
     foot = 1200 / 3937
     x, y, z, classes = cloud()

@@ -43,7 +43,7 @@ FILES = {
     "survey": {
         *REVIEWED, "dsm.tif", "quality/pulse_density.tif", "quality/ground_density.tif",
         "quality/voids.tif", "quality/overlap.tif", "quality/strip_differences.tif",
-        "quality/surface_height.tif",
+        "quality/surface_height.tif", "low_confidence.gpkg",
     },
     "archaeology": {
         "vat.tif", "sky_view.tif", "openness.tif", "negative_openness.tif", "local_dominance.tif",
@@ -53,6 +53,7 @@ FILES = {
     "forestry": {"dsm.tif", "chm.tif", "quality/low_vegetation.tif"},
     "flood": {
         *REVIEWED, "dsm.tif", "contours.gpkg", "water.gpkg", "breaklines.gpkg",
+        "low_confidence.gpkg",
     },
     "drone-site": {*REVIEWED, "dsm.tif", "contours.gpkg", "quality/ground_density.tif"},
 }  # fmt: skip

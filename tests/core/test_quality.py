@@ -101,6 +101,51 @@ def test_only_first_returns_count_as_pulses_and_neither_noise_nor_withheld(tmp_p
     assert np.nanmax(heights) == 400.0
 
 
+def forest(path, x, y, share=0.1, classes=5):
+    """Write a survey with 4 pulses in a square metre, of which a share reaches the ground in a
+    square of 50 m.
+    """
+    is_forest = (np.abs(x - 50) < 25) & (np.abs(y - 50) < 25)
+    is_above = is_forest & (np.arange(len(x)) % round(1 / share) > 0)
+    z = terrain(x, y) + np.where(is_above, 9.0, 0.0)
+    return write(path, x, y, z, classification=np.where(is_above, classes, 2))
+
+
+def low_confidence(path):
+    """Return the attributes of low confidence areas, and x and y of their corners."""
+    features = json.loads(path.read_text("utf-8"))["features"]
+    corners = (np.concatenate(one["geometry"]["coordinates"]) for one in features)
+    return [one["properties"] for one in features], list(corners)
+
+
+def test_a_low_confidence_area_of_known_size(tmp_path):
+    path, areas = forest(tmp_path / "in.laz", *grid(0.5)), tmp_path / "areas.geojson"
+    found = measured(path, low_confidence=areas, page=tmp_path / "page.html")
+    assert found.low_confidence_density == 1.0 and found.low_confidence_count == 1
+    ((area,), (corners,)) = low_confidence(areas)
+    # Cells along its edge see the ground beside it.
+    assert 46**2 < area["AREA"] < 51**2
+    assert area["DENSITY"] == pytest.approx(0.4, abs=0.05) and area["RETURNS"] == 0.0
+    assert np.abs(corners - (EAST + 50, NORTH + 50)).max() < 26
+    # The land is the survey without its border of 10 m.
+    assert found.low_confidence_share == pytest.approx(area["AREA"] / 80**2)
+    assert "1 area of 2,000 m2 and more" in (tmp_path / "page.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize("why", ["smaller", "enough ground", "specification", "water", "building"])
+def test_what_is_no_low_confidence_area(tmp_path, why):
+    share = {"enough ground": 0.5, "specification": 0.2}.get(why, 0.1)
+    classes = {"water": 9, "building": 6}.get(why, 5)
+    path = forest(tmp_path / "in.laz", *grid(0.5), share, classes)
+    least = {"low_confidence_area": 2600.0} if why == "smaller" else {}
+    # The specification asks for 2 pulses in a square metre, of which 0.8 are more than a quarter.
+    asked = {"specification": "lbs-ql2"} if why == "specification" else {}
+    areas = tmp_path / "areas.geojson"
+    found = measured(path, low_confidence=areas, **least, **asked)
+    assert found.low_confidence_count == 0 and found.low_confidence_share == 0.0
+    assert low_confidence(areas) == ([], [])
+
+
 def test_a_void_of_known_size(tmp_path):
     x, y = grid(0.5)
     hole = (np.abs(x - 50) < 10) & (np.abs(y - 50) < 10)
@@ -460,7 +505,8 @@ def test_the_command_writes_a_page_and_prints_figures(one_and_many, tmp_path, ca
     assert main([*command, "--page", str(page), "--folder", str(folder), "--cell-size", "2"]) == 0
     assert "first returns/m2" in capsys.readouterr().out
     html = page.read_text(encoding="utf-8")
-    assert html.count("<figure>") == len(os.listdir(folder))
+    # All rasters, and the low confidence areas.
+    assert html.count("<figure>") == len(os.listdir(folder)) + 1
     assert "Spatial Distribution and Regularity" in html and "<script" not in html
     assert main([*command, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)

@@ -125,6 +125,7 @@ def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
     expected = [
         "Places to review",
         "Contour lines",
+        "Low confidence areas",
         "Classes",
         "Expected error",
         "Cause of the expected error",

@@ -136,9 +136,8 @@ PARAMETERS = {
     "bareearth:check": [
         "INPUT", "CHECKPOINTS", "Z_FIELD", "COVER_FIELD", "NAME_FIELD", "DTM", "CRS",
         "ACCURACY_CLASS", "SURVEY_ERROR", "MAX_EDGE", "MIN_CONFIDENCE", "HOLD_OUT",
-        "GROUND_CLASSES", "OVERLAP", "VEGETATED", "EXPECTED_ERROR", "CONFIDENCE", "EXTENT", "LIMIT",
-        "OUTPUT",
-        "REPORT",
+        "GROUND_CLASSES", "OVERLAP", "VEGETATED", "EXPECTED_ERROR", "LOW_CONFIDENCE",
+        "CONFIDENCE", "EXTENT", "LIMIT", "OUTPUT", "REPORT",
     ],
     "bareearth:review": [
         "INPUT", "DTM", "CAUSE", "LEAST_ERROR", "LEAST_AREA", "MOST_PLACES",
@@ -149,8 +148,8 @@ PARAMETERS = {
         "HEIGHT_UNIT", "FOLLOW", "OUTPUT",
     ],
     "bareearth:quality": [
-        "INPUT", "CRS", "SPECIFICATION", "CELL_SIZE", "VOID_DISTANCE", "GROUND_CLASSES", "OVERLAP",
-        "EXTENT", "LIMIT", "PAGE", "FOLDER",
+        "INPUT", "CRS", "SPECIFICATION", "CELL_SIZE", "VOID_DISTANCE", "LOW_CONFIDENCE_AREA",
+        "GROUND_CLASSES", "OVERLAP", "EXTENT", "LIMIT", "PAGE", "FOLDER", "LOW_CONFIDENCE",
     ],
     "bareearth:relief": [
         "INPUT", "KINDS", "RELIEF_RADIUS", "RELIEF_SMOOTHING",
@@ -247,8 +246,10 @@ OUTPUTS = {
     "bareearth:quality": [
         "PAGE",
         "FOLDER",
+        "LOW_CONFIDENCE",
         "PULSE_DENSITY",
         "GROUND_DENSITY",
+        "LOW_CONFIDENCE_SHARE",
         "STRIP_RMS",
         "MEETS_SPECIFICATION",
         "VERDICT",

@@ -2,7 +2,13 @@ import laspy
 import numpy as np
 import pytest
 from osgeo import gdal
-from qgis.core import QgsLayerTreeModel, QgsProcessingException, QgsProject, QgsRasterLayer
+from qgis.core import (
+    QgsLayerTreeModel,
+    QgsProcessingException,
+    QgsProject,
+    QgsRasterLayer,
+    QgsVectorLayer,
+)
 from qgis.PyQt.QtGui import QColor
 from support import Log, write_scene
 
@@ -22,16 +28,25 @@ def cloud(scene, tmp_path):
 
 def test_run_with_page_and_rasters(registry, cloud, tmp_path, context, log):
     algorithm = registry.createAlgorithmById(ALGORITHM)
-    page, folder = tmp_path / "page.html", tmp_path / "rasters"
+    page, folder, areas = tmp_path / "page.html", tmp_path / "rasters", tmp_path / "areas.gpkg"
     parameters = {
         "INPUT": str(cloud), "SPECIFICATION": 2, "PAGE": str(page), "FOLDER": str(folder),
+        "LOW_CONFIDENCE": str(areas),
     }  # fmt: skip
     results, ok = algorithm.run(parameters, context, log)
     assert ok, log.text
     assert results["PULSE_DENSITY"] > results["GROUND_DENSITY"] > 0
     assert "Lidar Base Specification, QL2" in page.read_text(encoding="utf-8")
     assert len(list(folder.glob("*.tif"))) == 7
-    assert "--specification lbs-ql2" in log.text
+    assert "--specification lbs-ql2" in log.text and "--low-confidence" in log.text
+    # An empty layer is one that Check can take: the scene has no such area.
+    assert results["LOW_CONFIDENCE_SHARE"] == 0.0
+    layer = QgsVectorLayer(str(areas))
+    assert layer.isValid() and layer.featureCount() == 0
+    check = registry.createAlgorithmById("bareearth:check")
+    given = {"INPUT": str(cloud), "HOLD_OUT": 0.1, "LOW_CONFIDENCE": str(areas)}
+    _, ok = check.run(given, context, log)
+    assert ok, log.text
     assert " pass; not: " in results["VERDICT"] and results.get("MEETS_SPECIFICATION") != 1
     results, ok = algorithm.create().run({"INPUT": str(cloud)}, context, log)
     assert ok and "VERDICT" not in results and "MEETS_SPECIFICATION" not in results

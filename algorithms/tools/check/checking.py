@@ -18,9 +18,11 @@ from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
 from ...core.words import option
 from ...report.units import round_length
+from ...survey.area import Polygon
 from ...survey.feature_files import FORMATS as LAYERS
 from ...survey.feature_files import feature_writer
 from ...survey.files import Inputs
+from ...survey.vector_files import read_boundary
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, TIN, FileTool, Input, Output
 from .accuracy import Accuracy, Figures, statement
 from .checkpoints import Checkpoints
@@ -29,7 +31,7 @@ from .land_covers import VVA
 from .page import checkpoint_html
 from .reading import FORMATS
 from .residuals import Residuals, layer_of, residuals_of, write_table
-from .results import COUNTED, NOT_STATED, REASONS, Check, Expectation
+from .results import COUNTED, LOW_CONFIDENCE, NOT_STATED, REASONS, Check, Expectation
 from .survey_ground import SurveyGround
 
 # How many of the largest errors are named.
@@ -78,6 +80,7 @@ def check_points(
     vegetated: Sequence[str] | None = None,  # words of land covers; none: those that are known
     confidence: str | None = None,
     expected_error: str | None = None,
+    low_confidence: Sequence[Polygon] | None = None,
     report: Path | None = None,
     table: Path | None = None,
     residuals: Path | None = None,
@@ -103,8 +106,9 @@ def check_points(
     middle, found, left = 0.95 if share is None else 0.5, None, None
     if checkpoints is not None:
         found = residuals_of(
-            points, checkpoints, (dtm, confidence, expected_error), tuple(vegetated or ()),
-            options.max_edge, options.min_confidence, progress.part(0.05, middle),
+            points, checkpoints, (dtm, confidence, expected_error), low_confidence or (),
+            tuple(vegetated or ()), options.max_edge, options.min_confidence,
+            progress.part(0.05, middle),
         )  # fmt: skip
     if share is not None:
         part = progress.part(0.05 if checkpoints is None else middle, 0.95)
@@ -138,11 +142,18 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None)
             f"None of the {count:,} checkpoints can be compared: {why}. Check their CRS, and"
             " which classes are ground."
         )
-    is_vegetated = np.array(found.kinds) == VVA
+    is_vegetated, is_low = (
+        np.array(values) == value
+        for values, value in ((found.kinds, VVA), (found.states, LOW_CONFIDENCE))
+    )
     nva, vva, dtm_nva, dtm_vva = (
         Figures.of(errors[counted & land & ~np.isnan(errors)], accuracy.survey_error)
         for errors in (found.errors, found.dtm_errors)
         for land in (~is_vegetated, is_vegetated)
+    )
+    low, dtm_low = (
+        Figures.of(errors[is_low & ~np.isnan(errors)], accuracy.survey_error)
+        for errors in (found.errors, found.dtm_errors)
     )
     doubt, dtm_doubt = map(found.doubt, (found.errors, found.dtm_errors))
     order = np.argsort(np.where(counted, -np.abs(found.errors), np.inf), kind="stable")
@@ -154,6 +165,7 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None)
         checkpoint_count=count,
         counted=int(np.count_nonzero(counted)),
         nva=nva, vva=vva, dtm_nva=dtm_nva, dtm_vva=dtm_vva,
+        low_confidence=low, dtm_low_confidence=dtm_low,
         not_counted=others,
         unknown_covers=found.unknown_covers,
         doubt=doubt or (f"Terrain model: {dtm_doubt}" if dtm_doubt else ""),
@@ -179,6 +191,11 @@ def _lacks(inputs: Mapping[str, Any], sets: Sequence[ParameterSet]) -> str:
     if inputs["checkpoints"] is None and CheckOptions.among(sets).hold_out is None:
         return _nothing_to_compare()
     return ""
+
+
+def _areas(given: str | Sequence[Polygon] | None) -> Sequence[Polygon]:
+    """Return low confidence areas, perhaps none; a delivery gives the file that it has written."""
+    return read_boundary(given, may_be_empty=True) if isinstance(given, str) else given or ()
 
 
 def _nothing_to_compare() -> str:
@@ -232,6 +249,20 @@ TOOL = FileTool(
             optional=True,
             advanced=True,
             is_last=True,
+        ),
+        Input(
+            "low_confidence",
+            "polygons",
+            of=_areas,
+            help="low confidence areas, as the command quality finds them: checkpoints in them have"
+            " figures of their own ({formats})",
+            label="Low confidence areas",
+            field_help="Low confidence areas, as *Quality of a survey* finds them. Checkpoints in"
+            " them have figures of their own, and are not counted for the accuracy elsewhere.",
+            optional=True,
+            advanced=True,
+            is_last=True,
+            may_be_empty=True,
         ),
         Input(
             "confidence",

@@ -51,6 +51,8 @@ def _summary(check: Check) -> list[Html]:
         "Ground points, with vegetation (VVA)": check.vva,
         "Terrain model, without vegetation (NVA)": check.dtm_nva,
         "Terrain model, with vegetation (VVA)": check.dtm_vva,
+        "Ground points, in low confidence areas": check.low_confidence,
+        "Terrain model, in low confidence areas": check.dtm_low_confidence,
     }
     count = 0 if check.nva is None else check.nva.count
     shift = "" if check.shift is None else f"{check.shift:+.3f} m"

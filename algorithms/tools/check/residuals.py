@@ -13,11 +13,13 @@ from ...core.progress import Progress
 from ...crs.system import Crs
 from ...crs.unit_names import FOOT
 from ...rasters.sampling import FAR_BELOW, HeightRaster, HeightSampler
+from ...survey.area import Area, Polygon
 from ...survey.feature_files import Feature, Layer
 from ...survey.files import Survey
+from ...survey.shapes import located
 from .checkpoints import Checkpoints
 from .land_covers import CONTROL, LandCovers, kinds_of
-from .results import COUNTED, listed
+from .results import COUNTED, LOW_CONFIDENCE, listed
 from .survey_ground import SurveyGround
 
 # Fields of the layer. Heights are in the unit of the points, errors in metres.
@@ -76,6 +78,7 @@ def residuals_of(
     ground: SurveyGround,
     checkpoints: Checkpoints,
     rasters: Sequence[str | None],  # a terrain model, its confidence and its expected error
+    low_confidence: Sequence[Polygon],
     vegetated: tuple[str, ...],  # words
     max_edge: float,  # metres
     min_confidence: float,
@@ -104,11 +107,14 @@ def residuals_of(
         ground.check()
     kinds, unknown = kinds_of(checkpoints, LandCovers(vegetated), progress)
     is_void = np.isnan(heights)
+    areas = located(low_confidence, "the low confidence areas", ground.place, progress)
+    is_low = Area(None, areas).contains(x, y) if areas else np.zeros(len(x), dtype=bool)
     reasons = {
         CONTROL: np.array(kinds) == CONTROL,
         "outside": is_void & ~_touches(survey, x, y),
         "void": is_void,
         "doubtful": ~(sure >= min_confidence),
+        LOW_CONFIDENCE: is_low,
     }
     states = np.select(list(reasons.values()), list(reasons), COUNTED)
     checkpoints = _with_fitting_heights(checkpoints, heights, states == COUNTED, up, progress)

@@ -11,6 +11,8 @@ from .accuracy import NEEDED, Figures
 from .hold_out import AGREEMENT, HoldOut
 
 COUNTED = "counted"
+# The standard reports the accuracy in low confidence areas apart from that elsewhere.
+LOW_CONFIDENCE = "low confidence area"
 # Colours of errors, from low to high. Blue: the data lie below the checkpoint; red: above it. They
 # differ for colour-blind people.
 COLOURS = ("#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b")
@@ -26,6 +28,7 @@ REASONS = {
     "outside": "outside of the survey",
     "void": "where there is no ground near",
     "doubtful": "where the confidence is low",
+    LOW_CONFIDENCE: "in low confidence areas, which have figures of their own",
     "control": "to which the survey was fitted (control)",
 }
 
@@ -71,6 +74,8 @@ class Check:
     vva: Figures | None = None  # the same with vegetation
     dtm_nva: Figures | None = None  # the same of the terrain model
     dtm_vva: Figures | None = None
+    low_confidence: Figures | None = None  # the same in low confidence areas
+    dtm_low_confidence: Figures | None = None
     not_counted: dict[str, list[str]] | None = None  # names by the reason as in `REASONS`
     # how many checkpoints, counted as without vegetation, have which
     unknown_covers: dict[str, int] | None = None
@@ -139,6 +144,7 @@ class Check:
         named = {
             "points NVA": self.nva, "points VVA": self.vva,
             "DTM NVA": self.dtm_nva, "DTM VVA": self.dtm_vva,
+            "low confidence": self.low_confidence, "DTM low conf.": self.dtm_low_confidence,
         }  # fmt: skip
         left = self.hold_out
         if left is not None:

@@ -13,11 +13,13 @@ from ...core.parameters import ParameterSet, parameter
 from ...core.points import Frame
 from ...core.progress import SILENT, Progress
 from ...las.cloud import survey_frame
+from ...survey.feature_files import FORMATS
 from ...survey.files import Inputs, Survey, open_survey
 from ...survey.repeated_points import RepeatedPoints
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, FileTool, Output
 from .cells import Grids, QualityCells, Store
 from .figures import Quality
+from .low_confidence import write_areas
 from .made_points import MadePoints
 from .measuring import quality_of
 from .page import quality_html
@@ -56,18 +58,30 @@ class QualityOptions(ParameterSet):
         advanced=True,
         help="Cells that are farther from a ground point are voids of the ground.",
     )
+    low_confidence_area: float = parameter(
+        2000.0,
+        label="Least low confidence area",
+        unit="m2",
+        minimum=0.0,
+        maximum=500_000.0,
+        advanced=True,
+        help="Areas in which fewer points reach the ground than a quarter of the pulses have low"
+        " confidence if they are as large as this. ASPRS states from half an acre (2000 m2) on, the"
+        " more the coarser the survey; agree on it with your client.",
+    )
 
 
 def measure_quality(
     sources: Inputs,
     page: Path | None = None,
     folder: Mapping[str, Path] | None = None,
+    low_confidence: Path | None = None,
     options: QualityOptions = QualityOptions(),
     ground: GroundClasses = GroundClasses(),
     progress: Progress = SILENT,
 ) -> Quality:
-    """Measure the quality of one classified file, or of many as one survey, and write a page and
-    rasters, given by their names.
+    """Measure the quality of one classified file, or of many as one survey, and write a page,
+    rasters, given by their names, and low confidence areas.
     """
     # The files are read twice, part by part. Cells are in memory, or on disk if there are many.
     survey = open_survey(sources, progress.part(0.0, 0.02))
@@ -76,11 +90,13 @@ def measure_quality(
     frame = survey_frame(survey.crs)
     with tempfile.TemporaryDirectory() as work:
         cells = _filled_cells(survey, frame, options, ground, Path(work), progress)
-        found = quality_of(cells, survey, options.specification)
+        found, low = quality_of(cells, survey, options.specification, options.low_confidence_area)
         if folder:
             write_rasters(folder, cells, frame, progress.part(0.8, 0.98))
         if page:
-            page.write_text(quality_html(found, cells, survey), encoding="utf-8")
+            page.write_text(quality_html(found, cells, survey, low), encoding="utf-8")
+        if low_confidence:
+            write_areas(low_confidence, low, frame, survey.crs, progress.part(0.98, 1.0))
     return found
 
 
@@ -140,6 +156,18 @@ TOOL = FileTool(
             by_default=False,
             files=lambda folder, sets: {name: folder / f"{name}.tif" for name in QUALITY_RASTERS},
         ),
+        Output(
+            "low_confidence",
+            "features",
+            help=f"the low confidence areas to write ({', '.join(FORMATS)}); all but .geojson need"
+            " pyogrio",
+            label="Low confidence areas",
+            field_help="Areas as polygons in which fewer points reach the ground than a quarter of"
+            " the pulses, outside water and buildings, with their area, the density of ground"
+            " points, and the share of cells with several returns.",
+            by_default=False,
+            look="low confidence",
+        ),
     ),
     json="the figures",
     command="quality",
@@ -153,19 +181,21 @@ TOOL = FileTool(
     about="Measures a classified survey, of one file or many: densities of first returns and of"
     " ground points, voids, low vegetation, overlap of flight strips and differences between them,"
     " classes and file formats. It compares the figures with a specification, and makes a web page,"
-    " which opens from the Results Viewer, and rasters.",
+    " which opens from the Results Viewer, rasters, and polygons where too few points reach the"
+    " ground (low confidence areas).",
     page="quality",
     run_name="quality",
     words=(
         CLOUD,
         TERRAIN,
-        "quality,qc,density,pulse density,voids,swath,strips,overlap,usgs,lbs,linz,ign,"
-        "specification,lasoverlap,lasgrid",
+        "quality,qc,density,pulse density,voids,low confidence,swath,strips,overlap,usgs,lbs,linz,"
+        "ign,specification,lasoverlap,lasgrid",
     ),
     shown=("specification", "cell_size"),
     numbers=(
         ("PULSE_DENSITY", "First returns per m²"),
         ("GROUND_DENSITY", "Ground points per m²"),
+        ("LOW_CONFIDENCE_SHARE", "Share of low confidence areas"),
         ("STRIP_RMS", "Differences between strips [m]"),
         ("MEETS_SPECIFICATION", "Meets the specification (1 or 0)"),
     ),

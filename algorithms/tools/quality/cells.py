@@ -27,6 +27,7 @@ from ...grids.cell_window import CellWindow
 from ...grids.parts import parts_with
 from ...las.cloud import PointCloud
 from ...rasters.cell_grid import MOST_CELLS
+from ...report.pictures import reduced
 from ...survey.repeated_points import RepeatedPoints
 from .made_points import WATER, MadePoints
 from .planes import WINDOWS, planes
@@ -36,6 +37,8 @@ PULSE = 1  # a first return that counts as a pulse
 WET = 2  # water
 FLAGGED = 4  # a first return with the flag of overlap
 ROUGH = 8  # a pulse with several returns
+BUILT = 16  # a building
+_BUILDING = 6  # the class
 # Flight strips that are told apart in a cell.
 STRIPS = 4
 _BYTES = 72  # for a cell
@@ -180,7 +183,7 @@ class QualityCells:
     # highest: float32 (rows / 2, columns / 2), height of the highest point in metres that is not
     # withheld, minus infinity for none.
     # filled: uint8, `PULSE`, `WET` and `FLAGGED`, in the cells of `Grids.spaced`. marks: uint8
-    # (rows / 2, columns / 2), `PULSE`, `WET`, `FLAGGED` and `ROUGH`.
+    # (rows / 2, columns / 2), `PULSE`, `WET`, `FLAGGED`, `ROUGH` and `BUILT`.
     # strip, strip_low, strip_points, strip_sum: (4, rows / 2, columns / 2), up to four strips of a
     # cell (point source id + 1, 0 for none), with the height of their lowest last return, and with
     # number and sum of the heights of last returns near to it, in metres above the common plane of
@@ -232,6 +235,7 @@ class QualityCells:
         is_water = ((part.classification == WATER) & ~is_made)[used]
         _mark(self.marks, coarse[is_water], WET)
         _mark(self.filled, self.grids.spaced.places(x[is_water], y[is_water])[0], WET)
+        _mark(self.marks, coarse[(part.classification == _BUILDING)[used]], BUILT)
         real = _real(part, is_made)[used]
         if part.strip is not None:
             last = (part.return_number >= part.number_of_returns)[used]
@@ -362,6 +366,25 @@ class QualityCells:
         for there in self.surveyed(rows, is_coarse):
             own = slice(there[0].start - rows.start, there[0].stop - rows.start)
             found[own, there[1]] = self.values(make, there, is_coarse)
+        return found
+
+    def reduced(
+        self, make: Make, step: int, is_coarse: bool = False, greatest: bool = False
+    ) -> np.ndarray:
+        """Return the means, or the greatest, of what is made in squares of `step` cells, from south
+        to north; NaN for no value.
+        """
+        grid = self.grids.coarse if is_coarse else self.grids.fine
+        found = np.full([-(-count // step) for count in grid.window.shape], np.nan)
+        for rows in grid.parts(2 * step):
+            for there in self.surveyed(rows, is_coarse):
+                squares = tuple(slice(side.start // step, -(-side.stop // step)) for side in there)
+                whole = tuple(
+                    slice(step * side.start, min(step * side.stop, count))
+                    for side, count in zip(squares, grid.window.shape)
+                )
+                values = self.values(make, whole, is_coarse)
+                found[squares] = reduced(values, step, greatest)
         return found
 
     def _coarse(self, row: np.ndarray, column: np.ndarray) -> np.ndarray:

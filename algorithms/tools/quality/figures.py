@@ -54,6 +54,11 @@ class Quality:
     void_count: int | None = None
     # of cells farther from the ground than the given distance
     ground_void_share: float | None = None
+    # ground points in 1/m2, below which confidence is low; the areas, and their share of the land
+    low_confidence_density: float | None = None
+    low_confidence_least_area: float | None = None  # m2
+    low_confidence_count: int = 0
+    low_confidence_share: float | None = None
     overlap_share: float | None = None  # of cells of twice the size, with several strips
     overlapping: int = 0  # these cells
     compared: int = 0  # those on even, open land, in which strips are compared
@@ -106,6 +111,18 @@ class Quality:
         }  # fmt: skip
         area = f", {self.flagged_area:,.0f} m2 have only points with this flag"
         return _counts(counts) + area * bool(self.flagged_area)
+
+    @property
+    def low_confidence_areas(self) -> str | None:
+        """The low confidence areas; None if they were not measured."""
+        if self.low_confidence_density is None or self.low_confidence_share is None:
+            return None
+        areas = counted(self.low_confidence_count, "area")
+        return (
+            f"{areas} of {self.low_confidence_least_area:,.0f} m2 and more,"
+            f" {_share(self.low_confidence_share)} of the land, with fewer than"
+            f" {_ground(self.low_confidence_density)}"
+        )
 
     @property
     def compared_cells(self) -> str:
@@ -181,6 +198,12 @@ FIGURES = (
     Figure(
         "ground voids", "Cells that are far from a ground point, outside water",
         "ground_void_share", _share,
+    ),
+    Figure(
+        "low conf.",
+        "Low confidence areas: fewer ground points than a quarter of the pulses, outside water and"
+        " buildings",
+        "low_confidence_areas", str,
     ),
     Figure("overlap", "Cells with several strips", "overlap_share", _share),
     Figure(

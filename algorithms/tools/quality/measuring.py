@@ -15,6 +15,7 @@ from ...las.crs_records import WKT_RECORD
 from ...survey.files import Survey
 from .cells import PULSE, ROUGH, WET, QualityCells, twice
 from .figures import Quality, lines_of
+from .low_confidence import LowConfidence, low_confidence_of
 from .rasters import LIMITS, overlap, strip_differences, voids
 from .specifications import SPECIFICATIONS, Specification
 
@@ -22,8 +23,12 @@ from .specifications import SPECIFICATIONS, Specification
 _STEEPEST = 10.0
 
 
-def quality_of(cells: QualityCells, survey: Survey, specification: str) -> Quality:
-    """Return the figures of a survey whose cells are filled, and the comparison."""
+def quality_of(
+    cells: QualityCells, survey: Survey, specification: str, least_area: float
+) -> tuple[Quality, LowConfidence | None]:
+    """Return the figures of a survey whose cells are filled, with the comparison, and the low
+    confidence areas of `least_area` m2 and more.
+    """
     counts, asked = cells.counts, SPECIFICATIONS[specification]
     files = [
         {
@@ -38,8 +43,14 @@ def quality_of(cells: QualityCells, survey: Survey, specification: str) -> Quali
         "strips": sorted(counts.strips),
     }  # fmt: skip
     of_cells = {**_densities(cells, asked), **_filled(cells, asked), **_strips(cells)}
+    low = low_confidence_of(cells, asked.pulses or of_cells["pulse_density"], least_area)
+    if low is not None:
+        of_cells |= {
+            "low_confidence_density": low.limit, "low_confidence_least_area": least_area,
+            "low_confidence_count": len(low.areas), "low_confidence_share": low.share,
+        }  # fmt: skip
     found = Quality(specification=specification, files=files, **of_points, **of_cells)
-    return replace(found, comparison=lines_of(found, asked))
+    return replace(found, comparison=lines_of(found, asked)), low
 
 
 def _share(part: float, whole: float) -> float | None:

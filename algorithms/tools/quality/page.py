@@ -13,11 +13,13 @@ from ...report.units import Units
 from ...survey.files import Survey
 from .cells import QualityCells
 from .figures import FAILED, FIGURES, LOOK, PASSED, Quality
+from .low_confidence import LowConfidence
 from .rasters import QUALITY_RASTERS, QualityRaster
 from .specifications import SPECIFICATIONS
 
 _LONGEST = 600  # pixels: longest side of a map
 _MOST_ROWS = 1000  # of the table of files
+_LOW = "#e4ecdf", "#c0262d"  # colours of the map of low confidence areas
 _STATES = {
     PASSED: ("#1a7f37", "pass"),
     FAILED: ("#c0262d", "fail"),
@@ -28,7 +30,9 @@ _STYLE = """
 """
 
 
-def quality_html(found: Quality, cells: QualityCells, survey: Survey) -> str:
+def quality_html(
+    found: Quality, cells: QualityCells, survey: Survey, low: LowConfidence | None
+) -> str:
     """Return the page about a survey."""
     parts = [
         *_comparison(found),
@@ -45,7 +49,7 @@ def quality_html(found: Quality, cells: QualityCells, survey: Survey) -> str:
                 " returns have the flag of overlap."
             ),
         ),
-        section("Maps", maps(_maps(cells, survey))),
+        section("Maps", maps(_maps(cells, survey, low))),
         _files(found, survey),
     ]
     return page("Quality of the survey", parts, _STYLE)
@@ -72,32 +76,22 @@ def _state(state: str) -> Html:
     return Html(f'<span class="state" style="background: {colour}">{words}</span>')
 
 
-def _maps(cells: QualityCells, survey: Survey) -> Iterator[Html]:
+def _maps(cells: QualityCells, survey: Survey, low: LowConfidence | None) -> Iterator[Html]:
     units = Units(survey.crs.horizontal_unit, survey.crs.vertical_unit)
     for raster in QUALITY_RASTERS.values():
         grid = raster.grid(cells)
         step = math.ceil(max(grid.window.shape) / _LONGEST)
-        values = _reduced(cells, raster, step)
+        values = cells.reduced(raster.make, step, raster.is_coarse, raster.shows_greatest)
         if not np.isnan(values).all():
             pixels, legend = _coloured(raster, values[::-1], units)
             picture = Picture(pixels, grid.size * step)
             yield map_of(picture, raster.label or raster.title, legend, units)
-
-
-def _reduced(cells: QualityCells, raster: QualityRaster, step: int) -> np.ndarray:
-    """Return a raster in cells of `step` of its own, from south to north; NaN for no value."""
-    grid = raster.grid(cells)
-    found = np.full([-(-count // step) for count in grid.window.shape], np.nan)
-    for rows in grid.parts(2 * step):
-        for there in cells.surveyed(rows, raster.is_coarse):
-            squares = tuple(slice(side.start // step, -(-side.stop // step)) for side in there)
-            whole = tuple(
-                slice(step * side.start, min(step * side.stop, count))
-                for side, count in zip(squares, grid.window.shape)
-            )
-            values = cells.values(raster.make, whole, raster.is_coarse)
-            found[squares] = reduced(values, step, raster.shows_greatest)
-    return found
+    if low is not None:
+        step = math.ceil(max(low.low.shape) / _LONGEST)
+        shown = np.where(reduced(low.low[::-1].astype(float), step, True) > 0, 1, 0)
+        table = np.array([rgb(colour) for colour in _LOW], dtype=np.uint8)
+        picture = Picture(table[shown], low.cell * step)
+        yield map_of(picture, "Low confidence areas", keys(_LOW, ("none", "low confidence")), units)
 
 
 def _coloured(raster: QualityRaster, values: np.ndarray, units: Units) -> tuple[np.ndarray, Html]:
