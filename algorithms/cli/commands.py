@@ -10,6 +10,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Sequence
 
 from ..core.errors import BareEarthError, UsageError
+from ..core.imports import import_only_what_runs_need
 from ..remote.addresses import is_address, name_of
 from ..tools import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS, Listed, any_tool, file_tool
 from .options import DONE, FAILED, Command, add_json, add_parameters, chosen
@@ -156,6 +157,7 @@ def _do_composition(name: str, options: argparse.Namespace) -> int:
 
 def _called(function: Function, options: argparse.Namespace) -> Any:
     """Call a function with the values of the options."""
+    import_only_what_runs_need()
     sets = chosen(options)
     _check_boxes(options)
     values = SimpleNamespace(**vars(options), in_processes=True)

@@ -7,7 +7,6 @@ are free at that moment. All computations of a run share one number of threads, 
 from __future__ import annotations
 
 import contextlib
-import importlib
 import os
 import threading
 from typing import Any, Callable, Iterable, Iterator, Protocol, Sequence, TypeVar
@@ -17,18 +16,6 @@ from .progress import SILENT, Progress
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
 _current = threading.local()
-
-
-def import_early(*names: str) -> None:
-    """Import modules that a later step needs in a thread, while the caller reads a file."""
-
-    # Modules that are missing or broken are left to that step, which says so.
-    def load() -> None:
-        with contextlib.suppress(ImportError):
-            for name in names:
-                importlib.import_module(name)
-
-    threading.Thread(target=load, name="imports", daemon=True).start()
 
 
 def available_cpus() -> int:

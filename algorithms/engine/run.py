@@ -5,11 +5,12 @@ from __future__ import annotations
 import contextlib
 from dataclasses import MISSING, dataclass, field, fields
 from pathlib import Path
-from typing import Any, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
 from ..core.files import Outputs
+from ..core.imports import import_early
 from ..core.progress import SILENT, Progress
-from ..core.threads import import_early, may_use
+from ..core.threads import may_use
 from ..las.cloud import PointCloud, survey_frame
 from ..las.lasfile import LasFile
 from ..las.opening import NoPoints
@@ -19,10 +20,11 @@ from .file_points import FilePoints, TileResult, copies_all_else, place_of
 from .memory import Resources
 from .options import TileOutput
 from .step import PointStep, Step, placed
-from .survey_run import work_on_survey
 from .values import PointValues, with_values
 from .visits import Work, visited
-from .workers import Threads, Workers
+
+if TYPE_CHECKING:
+    from .workers import Workers
 
 # Share of reading in the progress, as the `weight` of steps, and of all before points are written.
 _READING = 1.5
@@ -53,6 +55,9 @@ class Run:
         # each point. The workers are by default threads of this process. All but the files of a
         # survey get their names when `outputs` ends, or else at the end of the run.
         if inputs.is_survey:
+            from .survey_run import work_on_survey
+            from .workers import Threads
+
             workers = workers or Threads(self.resources)
             return work_on_survey(
                 self.steps, inputs, target, self.output, progress, workers, vpc, outputs

@@ -8,7 +8,7 @@ import signal
 import sys
 import threading
 import time
-from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -116,6 +116,8 @@ class Processes(Workers):
         self._open()
 
     def _open(self) -> None:
+        from concurrent.futures import ProcessPoolExecutor
+
         free = self._context.Value("i", self.resources.thread_count)
         begin: Any = _begin
         values = self._stop, free, self.share.thread_count, names_in_use()

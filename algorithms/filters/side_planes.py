@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any, Callable, NamedTuple
 
 import numpy as np
@@ -48,16 +49,18 @@ class Sides:
     def __init__(
         self, ground: Points, reach: float, apart: float = 0.0, cells: Cells | None = None
     ) -> None:
-        from scipy.spatial import cKDTree
-
         self._ground, self._reach, self._apart = ground, reach, apart
-        self._tree = None
         self._of_cells = None
         if cells and cells.rows * cells.columns < _MOST_VOID * ground.count:
             self._of_cells = _OfCells.over(cells, ground)
-        if ground.count:
-            places = np.column_stack((ground.x, ground.y))
-            self._tree = cKDTree(places, _LEAF, compact_nodes=False, balanced_tree=False)
+
+    @cached_property
+    def _tree(self) -> Any:
+        """The ground, for neighbours that are not found by cell."""
+        from scipy.spatial import cKDTree
+
+        places = np.column_stack((self._ground.x, self._ground.y))
+        return cKDTree(places, _LEAF, compact_nodes=False, balanced_tree=False)
 
     def rises(
         self, points: Points, own: bool, enough: Enough | None = None
@@ -77,11 +80,10 @@ class Sides:
         the plane of the first side is `enough`.
         """
         found = np.full((4, points.count, _SIDES), np.nan)
-        tree = self._tree
-        if tree is not None:
+        if self._ground.count and points.count:
 
             def judge(part: slice) -> None:
-                terms, there = self._neighbours(tree, points.take(part), own)
+                terms, there = self._neighbours(points.take(part), own)
                 rest = np.arange(there.shape[1])
                 if enough:
                     beside = _beside(terms, there, np.zeros(1))[0].astype(float)
@@ -96,27 +98,28 @@ class Sides:
             over_parts(judge, points.count, _AT_ONCE, SILENT)
         return tuple(found)
 
-    def _nearest(self, tree: Any, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+    def _nearest(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
         """Return the distances and the numbers of the neighbours of points, shape (17, n), the
         farthest one last.
         """
         places, count = np.column_stack((points.x, points.y)), _NEIGHBOURS + 1 + own
         if self._of_cells is None or own:
-            found = tree.query(places, count, distance_upper_bound=self._reach)
+            found = self._tree.query(places, count, distance_upper_bound=self._reach)
         else:
             found = distance, which = self._of_cells.nearest(points, count)
             far = np.flatnonzero(distance[:, -1] > min(self._of_cells.certain, self._reach))
-            distance[far], which[far] = tree.query(
-                places[far], count, distance_upper_bound=self._reach
-            )
+            if len(far):
+                distance[far], which[far] = self._tree.query(
+                    places[far], count, distance_upper_bound=self._reach
+                )
         distance, which = (np.ascontiguousarray(values.T[int(own) :]) for values in found)
         return distance, which
 
-    def _neighbours(self, tree: Any, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
+    def _neighbours(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
         """Return the terms of which sums give planes, shape (10, 16, n), for the neighbours of
         points, and which of these count, shape (16, n).
         """
-        distance, which = self._nearest(tree, points, own)
+        distance, which = self._nearest(points, own)
         # If several are equally far away, the tree may return any of them. Then none of them
         # counts.
         there = (distance[:-1] < distance[-1]) & (distance[:-1] >= self._apart)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import inspect
 import re
 import textwrap
@@ -191,6 +190,8 @@ def _filled(text: str, indent: str = "") -> str:
 
 
 def _suggestion(name: str, names: Iterable[str]) -> str:
+    import difflib
+
     nearest = difflib.get_close_matches(name, names)
     return f" Did you mean {' or '.join(nearest)}?" if nearest else ""
 

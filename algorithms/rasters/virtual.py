@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from html import escape
 from pathlib import Path
 from typing import Mapping
 
@@ -35,6 +34,8 @@ def write_virtual(
     """Write a virtual raster of parts that need not exist yet, as ``gdalbuildvrt`` does, with paths
     relative to the folder in which it will lie.
     """
+    from html import escape
+
     transform = ", ".join(repr(float(number)) for number in grid.geotransform)
     lines = [
         f'<VRTDataset rasterXSize="{grid.columns}" rasterYSize="{grid.rows}">',

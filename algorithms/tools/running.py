@@ -7,7 +7,7 @@ import dataclasses
 import inspect
 import tempfile
 from pathlib import Path
-from typing import Any, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence
 
 from ..classes.ground_classes import GroundClasses
 from ..core.files import Outputs, new_folder, temporary_folder
@@ -16,7 +16,6 @@ from ..core.progress import SILENT, Progress
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..engine.run import Run
-from ..engine.workers import Workers
 from ..rasters.content import MemoryRaster
 from ..rasters.virtual import virtual_of
 from ..remote.addresses import is_address
@@ -24,6 +23,9 @@ from ..survey.files import Inputs
 from ..survey.outputs import check_outputs, place
 from . import file_tool
 from .declaration import FileTool, MapTool, PointTool, ToFind, Tool
+
+if TYPE_CHECKING:
+    from ..engine.workers import Workers
 
 _FILES = ("cloud", "raster", "address")
 

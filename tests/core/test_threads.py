@@ -12,7 +12,6 @@ from bare_earth.algorithms.core.progress import paced
 from bare_earth.algorithms.core.threads import (
     SharedThreads,
     available_cpus,
-    import_early,
     in_threads,
     may_use,
     over_parts,
@@ -167,26 +166,6 @@ def test_pieces_are_as_long_as_the_pace_lets_them_be(monkeypatch):
     lengths = [count.stop - count.start for count in seen]
     assert lengths[:3] == [500_000, 1_000_000, 2_000_000]
     assert sum(lengths) == 5_000_000 and abs(lengths[-2] - 200_000) < 10
-
-
-def test_modules_are_imported_early_and_missing_ones_are_left_alone(monkeypatch):
-    asked, done = [], threading.Event()
-
-    def load(name):
-        asked.append(name)
-        if name == "missing":
-            done.set()
-            raise ImportError(name)
-
-    monkeypatch.setattr("importlib.import_module", load)
-    failed = []
-    monkeypatch.setattr(threading, "excepthook", failed.append)
-    import_early("present", "missing", "never")
-    assert done.wait(10.0)
-    for thread in threading.enumerate():
-        if thread.name == "imports":
-            thread.join(10.0)
-    assert asked == ["present", "missing"] and not failed
 
 
 def test_there_is_a_cpu():

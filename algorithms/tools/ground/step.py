@@ -81,7 +81,7 @@ class LabelGround(PointStep):
 
     counts = PointCounts
     weight = 5.0
-    imports = "scipy.ndimage", "scipy.spatial", "scipy.sparse.csgraph"
+    imports = ("scipy.ndimage",)
     summary_type = Summary
 
     @property

@@ -1,0 +1,89 @@
+"""Which packages a run imports, and when."""
+
+import subprocess
+import sys
+import threading
+
+import numpy as np
+from runs import environment
+from surveys import write_points
+
+from bare_earth.algorithms.core.imports import import_early
+
+# Modules that are imported only if a package is, which `sys.modules` may name without it.
+_OF_SLOW = {
+    "laszip": "laszip",
+    "pyproj": "pyproj",
+    "requests": "requests",
+    "numpy.f2py": "numpy.f2py.crackfortran",
+    "numpy.testing": "numpy.testing._private",
+    "scipy.special": "scipy.special._ufuncs",
+    "scipy.spatial": "scipy.spatial",
+    "scipy.sparse": "scipy.sparse",
+    "processes": "concurrent.futures.process",
+    "HTML": "html.entities",
+}
+_RUN = """
+import sys
+from bare_earth.algorithms.cli import main
+failed = main(sys.argv[1:])
+print(failed, *sys.modules)
+"""
+
+
+def _imported(*arguments):
+    done = subprocess.run(
+        [sys.executable, "-c", _RUN, *map(str, arguments)],
+        capture_output=True, text=True, check=True, env=environment(),
+    )  # fmt: skip
+    failed, *modules = done.stdout.splitlines()[-1].split()
+    assert failed == "0", done.stderr
+    return set(modules)
+
+
+def test_a_run_imports_only_what_it_needs(tmp_path):
+    generator = np.random.default_rng(1)
+    x, y = generator.uniform(0.0, 30.0, (2, 4_000))
+    write_points(tmp_path / "a.laz", x, y, 0.05 * x)
+    modules = _imported("classify", tmp_path / "a.laz", tmp_path / "b.laz")
+    assert {"laspy", "lazrs", "numpy", "scipy.ndimage"} <= modules
+    assert not {package for package, inner in _OF_SLOW.items() if inner in modules}
+
+
+def test_modules_are_imported_early_and_missing_ones_are_left_alone(monkeypatch):
+    asked, done = [], threading.Event()
+
+    def load(name):
+        asked.append(name)
+        if name == "missing":
+            done.set()
+            raise ImportError(name)
+
+    monkeypatch.setattr("importlib.import_module", load)
+    failed = []
+    monkeypatch.setattr(threading, "excepthook", failed.append)
+    import_early("present", "missing", "never")
+    assert done.wait(10.0)
+    for thread in threading.enumerate():
+        if thread.name == "imports":
+            thread.join(10.0)
+    assert asked == ["present", "missing"] and not failed
+
+
+def test_what_waits_for_its_import_can_be_used_as_always():
+    code = (
+        "from bare_earth.algorithms.core.imports import import_only_what_runs_need\n"
+        "import_only_what_runs_need()\n"
+        "import numpy, scipy.special as early\n"
+        "from scipy import special\n"
+        "from scipy.special import gamma\n"
+        "import scipy.special._basic, sys\n"
+        "assert gamma(5.0) == special.gamma(5.0) == early.gamma(5.0) == 24.0\n"
+        "assert numpy.testing.assert_allclose is sys.modules['numpy.testing'].assert_allclose\n"
+        "assert not hasattr(numpy.f2py, 'no_such_name') and numpy.f2py.__file__\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False,
+        env=environment(),
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
