@@ -14,7 +14,7 @@ from ..grids.cells import Cells, cells_at
 from ..grids.planes import means_and_moments, plane_slopes
 
 _NEIGHBOURS = 16  # nearest neighbours that are used
-_LEAST = 4  # of them on a side, for a plane
+LEAST = 4  # of them on a side, for a plane
 # Number of sides, in evenly spread directions.
 _SIDES = 8
 # The columns of x, y and z among the sums, of which the products are summed up as well.
@@ -202,5 +202,5 @@ def _planes(sums: np.ndarray) -> tuple[np.ndarray, ...]:
     rise = east * x + north * y - z
     square = zz - 2.0 * (east * xz + north * yz)
     square += east * east * xx + 2.0 * east * north * xy + north * north * yy
-    rise[count < _LEAST] = square[count < _LEAST] = np.nan
+    rise[count < LEAST] = square[count < LEAST] = np.nan
     return rise, east, north, np.sqrt(np.maximum(square, 0.0))

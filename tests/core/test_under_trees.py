@@ -243,3 +243,14 @@ def test_shrubs_can_stay_where_it_is_open():
     assert len(state.seeds) == len(of_shrub) and not len(state.waiting)
     Shrubs(most_open=0.99).apply(state)
     assert np.isin(np.flatnonzero(of_shrub), state.seeds).mean() < 0.2
+
+
+def test_shrubs_are_not_looked_for_where_seeds_are_far_apart():
+    # Blocks of a few metres over as much land would be refused for want of memory.
+    random = np.random.default_rng(7)
+    x, y = random.uniform(0.0, 80_000.0, (2, 300))
+    points = Points(x, y, 0.01 * x)
+    state = State(points, Progress(), seeds=np.arange(points.count))
+    state.grids = [GridState.of(points, 100.0, 100.0)]
+    Shrubs().apply(state)
+    assert len(state.seeds) == points.count

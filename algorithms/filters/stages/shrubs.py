@@ -14,7 +14,7 @@ from ...grids.cells import Cells, in_order
 from ...grids.gradient import steepness
 from ...grids.morphology import within_square
 from ..pipeline import PointRule, Stage
-from ..side_planes import Sides
+from ..side_planes import LEAST, Sides
 from ..state import State
 from .breaks import mean_surface, openness_of
 
@@ -70,6 +70,9 @@ class Shrubs(PointRule):
         self, seeds: Points, in_wood: np.ndarray, judged: np.ndarray, width: float
     ) -> np.ndarray:
         """Return which of the judged seeds lie above the planes of all sides."""
+        wrong = np.zeros(seeds.count, dtype=bool)
+        if not _have_neighbours(seeds, (_REACH + 1.0) * width):
+            return wrong
         blocks = Cells.over(seeds, width)
         lowest = blocks.lowest_points(seeds)
         mean = mean_surface(seeds, lowest, blocks, width)
@@ -112,7 +115,6 @@ class Shrubs(PointRule):
 
         # Planes of all seeds together would take more memory than all else.
         over_parts(judge, len(which), _AT_ONCE, SILENT)
-        wrong = np.zeros(seeds.count, dtype=bool)
         wrong[doubtful] = above > limit
         wrong[doubtful] &= in_wood[doubtful] | (above < self.tallest)
         return wrong
@@ -132,3 +134,12 @@ class Shrubs(PointRule):
         ]
         is_long = np.array([0, *extents]) * cells.size >= self.longest
         return is_long[groups.ravel()[cells.index[seeds]]]
+
+
+def _have_neighbours(seeds: Points, reach: float) -> bool:
+    """Return whether there are somewhere as many seeds within the reach as a plane needs."""
+    # Sparse land has none, and a grid of blocks over it would cost more than all other rules.
+    cells = Cells.over(seeds, reach)
+    counts = np.pad(cells.counts, 1)
+    rows = counts[:-2] + counts[1:-1] + counts[2:]
+    return bool((rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]).max() >= LEAST)
