@@ -163,9 +163,7 @@ class PointJob(BlockJob):
             for cloud in self.clouds(work.store, progress.part(0.0, 0.3)):
                 parts.append((cloud.path, self._numbers(cloud)))
                 work.add(cloud, wanted=parts[-1][1] > 0)
-            working = progress.part(0.3, 0.95)
-            work.store.finish(working.part(0.0, 0.08))
-            failure = work.failure(share.resources, working.part(0.08, 1.0), self._is_wanted)
+            failure = work.failure(share.resources, progress.part(0.3, 0.95), self._is_wanted)
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
             for number, place in enumerate(self.output.files, start=1):
                 counts: dict[Path, int] = defaultdict(int)
@@ -198,10 +196,8 @@ class SinkJob(BlockJob):
         with self.work(share) as work:
             for cloud in self.clouds(work.store, progress.part(0.0, 0.5)):
                 work.add(cloud)
-            working = progress.part(0.5, 0.95)
-            work.store.finish(working.part(0.0, 0.2))
             found: dict[BlockIndex, list[Any]] = defaultdict(list)
-            done = work.done(share.resources, working.part(0.2, 1.0), self._is_wanted)
+            done = work.done(share.resources, progress.part(0.5, 0.95), self._is_wanted)
             for block, result in done or ():
                 found[grid.holding(block)].append(result)
             progress(1.0)  # ends a job of a run that was cancelled, before it writes

@@ -100,10 +100,11 @@ class Work:
         progress: Progress = SILENT,
         is_wanted: Callable[[Block], bool] | None = None,
     ) -> Any:
-        """Let the step work as `visited` does; return None if no point takes part."""
-        if not self.has_points:
-            return None
-        return visited([self], resources, progress, is_wanted)[0]
+        """Let the step work as `visited` does, when all points are there; return None if none of
+        them takes part.
+        """
+        self.store.finish(progress.part(0.0, 0.1))
+        return self._found(resources, progress.part(0.1, 1.0), is_wanted)
 
     def failure(
         self,
@@ -112,11 +113,17 @@ class Work:
         is_wanted: Callable[[Block], bool] | None = None,
     ) -> str:
         """Let a step work that finds a value for each point; return why it found none, or ""."""
+        self.store.finish(progress.part(0.0, 0.1))
         try:
-            self.done(resources, progress, is_wanted)
+            self._found(resources, progress.part(0.1, 1.0), is_wanted)
         except BareEarthError as error:
             return str(error)
         return ""
+
+    def _found(self, resources: Resources, progress: Progress, is_wanted: Any) -> Any:
+        if not self.has_points:
+            return None
+        return visited([self], resources, progress, is_wanted)[0]
 
 
 def visited(

@@ -274,10 +274,8 @@ def points_of(
         for cloud in clouds:
             kept.append((cloud, grid.codes(cloud) == number))
             working.add(cloud, wanted=kept[-1][1])
-        part = progress.part(0.3, 1.0)
-        working.store.finish(part.part(0.0, 0.08))
         failure = working.failure(
-            ONE_THREAD, part.part(0.08, 1.0), lambda one: grid.holding(one) == work.place
+            ONE_THREAD, progress.part(0.3, 1.0), lambda block: grid.holding(block) == work.place
         )
     if failure:
         progress.warning(failure)

@@ -119,7 +119,6 @@ def _layers_of(
         for cloud in near:
             if cloud.count:
                 work.add(cloud)
-        work.store.finish()
         found = work.done(ONE_THREAD, is_wanted=lambda block: grid.holding(block) == index)
     return [layers for _, layers in found or ()]
 

@@ -108,8 +108,7 @@ class Window:
         selected = np.concatenate([work.add(cloud).selected for cloud in self.clouds])
         step.tell(work.counts, self.clouds[0].path, progress if is_first else progress.quiet())
         progress.info(f"{setting.label}:")
-        work.store.finish(progress.part(0.0, 0.1))
-        failure = work.failure(resources, progress.part(0.1, 1.0))
+        failure = work.failure(resources, progress)
         if failure:
             progress.warning(f"{setting.label}: {failure}")
         values = map(work.store.values, range(len(self.clouds)))
