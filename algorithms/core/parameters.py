@@ -167,6 +167,8 @@ def _kind_of(default: Any) -> str:
 class ParameterSet:
     """Base class of parameters: checks each value when an instance is made."""
 
+    only_for_many = False  # whether they mean nothing for a single file
+
     def __post_init__(self) -> None:
         for declaration in self.declarations():
             checked = declaration.check(getattr(self, declaration.name))

@@ -68,7 +68,7 @@ class DeliveryJob(Settings):
         unpacked: Path,  # a folder for records that are decompressed
         workers: Workers | None,  # for many files
     ) -> None:
-        self.content, self.is_survey, self.summary = content, sources.is_survey, summary
+        self.content, self.summary = content, summary
         self.survey = open_survey(sources)  # of the raw files
         self.working, self.folder, self.unpacked = working, folder, unpacked
         self.files: list[Path] = []  # of points, at their places
@@ -130,7 +130,7 @@ class DeliveryJob(Settings):
         """Let the tool of a row work."""
         if not any_tool(row.tool).writes_points:
             done = self._run(row, progress)
-        elif self.is_survey:
+        elif self.sources.is_survey:
             done = self._write_many(row, progress)
         else:
             done = self._write_one(row, progress)

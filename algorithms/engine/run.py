@@ -63,7 +63,7 @@ class Run:
                 self.steps, inputs, target, self.output, progress, workers, vpc, outputs
             )
         try:
-            las = inputs.open_file()
+            (las,) = inputs.open().tiles
         except NoPoints as empty:
             if target is None:
                 raise

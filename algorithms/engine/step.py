@@ -56,6 +56,11 @@ class Step:
         return False
 
     @property
+    def writes_all(self) -> bool:
+        """Whether it leaves no point out of the output."""
+        return True
+
+    @property
     def looks_first(self) -> bool:
         """Whether `seeing` reads the points."""
         return False
@@ -78,6 +83,11 @@ class Step:
     def placed(self, place: Place, progress: Progress = SILENT) -> Any:
         """Return the step for points at a place."""
         return self
+
+    def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
+        """Refuse, before any work, a survey of many files with an unsuitable extent, in units of
+        the CRS, or what such a run of these steps cannot make.
+        """
 
     def seeing(self, look: Look, frame: Frame, progress: Progress = SILENT) -> Any:
         """Return the step after a look at all points, with what was found for them."""
@@ -166,9 +176,6 @@ class PointStep(Step):
 
     def check_tile(self, tile: LasFile) -> None:
         """Refuse, before any work, a file that cannot hold the result."""
-
-    def check_survey(self, box: Box) -> None:
-        """Refuse, before any work, a survey with an unsuitable extent, in units of the CRS."""
 
     def skips(self, tile: LasFile) -> bool:
         """Return whether no point of a file is to be written, according to its header."""

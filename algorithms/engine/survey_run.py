@@ -162,7 +162,8 @@ class _SurveyRun:
         count = len(self._steps)
         steps = placed([*self._steps, *self._sinks], survey.place, progress)
         self._steps, self._sinks = steps[:count], steps[count:]
-        self._steps[0].check_survey(survey.box)
+        for step in steps:
+            step.check_survey(survey.box, steps)
         self._targets = targets_of(survey, self._folder, self._output.format)
         for step in self._sinks:
             others = self._vpc, *self._targets, *self._targets.values()

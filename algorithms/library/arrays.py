@@ -27,7 +27,6 @@ from ..engine.options import TileInput
 from ..engine.run import FileRun
 from ..engine.step import Step
 from ..las.cloud import PointCloud
-from ..survey.files import Inputs
 from ..tools import map_tool, point_tool
 from ..tools.heights import HeightOutput, HeightsOfPoints
 from ..tools.key_points import KeyPointMark
@@ -54,7 +53,6 @@ from .points import cloud_of, cloud_with_ground
 from .rasters import Collected, Raster
 from .tools import arguments_of, input_of
 
-_NO_FILES = Inputs((), is_survey=False)
 _NO_CONSTRAINTS = dict.fromkeys(
     (argument.name for argument in arguments.of_group("constraints")), None
 )
@@ -88,7 +86,7 @@ def _classes(values: SimpleNamespace, sets: list[Any]) -> Any:
     """Return the class of each point."""
     progress = progress_of(values.progress)
     inputs = {"area": area_of(values), "corrections": corrections_of(values)}
-    steps = map_tool("classify").steps(sets, {"input": _NO_FILES, **inputs}, {})
+    steps = map_tool("classify").steps(sets, inputs, {})
     cloud = cloud_of(values, progress)
     return _found(cloud, steps, Resources.among(sets).now(), progress).classification
 
@@ -164,7 +162,7 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
         raise BareEarthError("Water is found in files only: give polygons of water.")
     sets = [TerrainModel(**vars(one)) if type(one) is ArrayTerrain else one for one in sets]
     inputs = {
-        "input": _NO_FILES, "area": area_of(values), "constraints": constraints_of(values),
+        "area": area_of(values), "constraints": constraints_of(values),
         "raster_target": target_of(values),
     }  # fmt: skip
     made: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]

@@ -165,7 +165,7 @@ def are_blocks(points: Any) -> bool:
 def blocks_of(values: SimpleNamespace, sets: list[Any]) -> list[Block]:
     """Return the blocks of files and addresses, from south to north."""
     progress = progress_of(values.progress)
-    inputs = {"input": Inputs((), is_survey=True), "corrections": corrections_of(values)}
+    inputs = {"corrections": corrections_of(values)}
     (step,) = map_tool("classify").steps(sets, inputs, {})
     stated, cache = stated_wkt(values.crs), values.cache and cache_of(values.cache)
     given = several(values.sources)
@@ -212,8 +212,8 @@ def _local(
     """Yield path, CRS, extent and header of each file; all must be readable."""
     if not paths:
         return
-    inputs = Inputs(paths, is_survey=True)
-    survey = open_survey(inputs.read_as(stated, TileInput.among(sets).recursive), progress)
+    recursive = TileInput.among(sets).recursive
+    survey = open_survey(Inputs(paths).read_as(stated, recursive), progress)
     if survey.broken:  # it would look like a void
         raise BareEarthError(survey.broken[0].reason)
     for tile in survey.tiles:

@@ -48,12 +48,12 @@ class Inputs(Tuple[Path, ...]):
     opened: Survey | None = None  # what they hold, if that is known
 
     def __new__(cls, sources: Sources, is_survey: bool | None = None) -> Inputs:
-        """Return them; a single file is no survey unless `is_survey`."""
+        """Return them; nothing is no survey, and neither is a single file unless `is_survey`."""
         if isinstance(sources, Inputs) and is_survey is None:
             return sources
         new = super().__new__(cls, map(Path, _several(sources)))
         is_file = len(new) == 1 and not new[0].is_dir() and is_cloud(new[0])
-        new.is_survey = not is_file if is_survey is None else is_survey
+        new.is_survey = bool(new) and (not is_file if is_survey is None else is_survey)
         return new
 
     def read_as(self, stated: str | None, recursive: bool = False) -> Inputs:
@@ -74,9 +74,12 @@ class Inputs(Tuple[Path, ...]):
         """The kind of output that their points are written into: a survey becomes a folder."""
         return "folder" if self.is_survey else "cloud"
 
-    def open_file(self) -> LasFile:
-        """Open the only file."""
-        return open_las(self[0], self.stated) if self.opened is None else self.opened.tiles[0]
+    def open(self, progress: Progress = SILENT) -> Survey:
+        """Open the files; a single one is a survey of one tile, whose header can be wrong."""
+        if self.is_survey or self.opened is not None:
+            return open_survey(self, progress)
+        las = open_las(self[0], self.stated)
+        return Survey((las,), (), read_crs(las), self.stated)
 
 
 @dataclass(frozen=True)

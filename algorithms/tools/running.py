@@ -61,6 +61,7 @@ def _run_on_points(
     the folder of many files are written, or none.
     """
     points = Inputs(inputs["input"]).read_as(inputs.get("crs"), TileInput.among(sets).recursive)
+    sets = [one for one in sets if points.is_survey or not one.only_for_many]
     check_outputs(_kinds(tool, points, outputs), points)
     given, progress = _with_found(tool, {**inputs, "input": points}, sets, progress)
     drawn = [output for output in tool.all_outputs if output.drawn_by and output.name in outputs]
@@ -107,7 +108,7 @@ def _kinds(tool: Tool, points: Inputs, outputs: Mapping[str, Path]) -> Iterator[
     """Yield the kinds and paths of the outputs, but for those in a folder that the run makes."""
     kinds = {one.name: one.kind for one in tool.all_outputs}
     kinds.update(output=points.output_kind, vpc="list")
-    folder = outputs.get("output") if points.is_survey else None
+    folder = outputs.get("output") if points.output_kind == "folder" else None
     for name, path in outputs.items():
         if name == "vpc" and folder is None:
             continue  # one file has no list

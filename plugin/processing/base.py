@@ -58,7 +58,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     layer_crs: str | None = None  # of a remote layer; set by `find_inputs`
     is_elsewhere = False  # whether the points are remote, and not here yet
     unused: tuple[str, ...] = ()  # parameters without a field, since no output depends on them
-    inputs = Inputs((), is_survey=False)  # files and folders; set by `find_inputs`
+    inputs = Inputs(())  # files and folders; set by `find_inputs`
     _has_page = False
 
     def __init__(self) -> None:

@@ -146,7 +146,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         paths = [path for found in self._given.values() for path in found.paths]
         kind = next(declared.kind for declared in self._inputs if declared.kind in _FILES)
         is_survey = {"cloud": False, "address": False, "files": True}.get(kind, is_list or None)
-        self.inputs = Inputs(paths, is_survey if paths else False)
+        self.inputs = Inputs(paths, is_survey)
 
     def prepare(
         self,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from ...core.points import Box
 from ...core.progress import Progress
 from ...engine.blocks import Blocks
 from ...engine.memory import Cost
-from ...engine.step import PointStep, with_classes
+from ...engine.step import PointStep, Step, with_classes
 from ...engine.store import Marks
 from ...engine.summary import TileSummary
 from ...engine.visits import Visit
@@ -83,7 +84,7 @@ class ClassifyAboveGround(PointStep):
             changes &= self.corrections.classes_of(part) != part.classification
         return changes if self.area is None else changes & self.area.of(part)
 
-    def check_survey(self, box: Box) -> None:
+    def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
         """Refuse the survey if the area lies outside its extent."""
         if self.area is not None and not self.area.may_touch(box):
             raise outside("the area", self.area.bounds, "the files", box)

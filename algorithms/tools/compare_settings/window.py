@@ -18,7 +18,6 @@ from ...engine.memory import Resources
 from ...engine.visits import Work
 from ...grids.expected_error import expected_error, expected_rmse
 from ...las.cloud import PointCloud, survey_frame
-from ...las.crs_records import read_crs
 from ...las.lasfile import LasFile
 from ...las.reading import read_chunks
 from ...report.units import Units
@@ -148,21 +147,16 @@ def read_points(inputs: Inputs, box: Box | None, context: float, progress: Progr
     message tells, and in `context` metres round it.
     """
     # An error says if the window is invalid, too wide or empty.
-    area, reading = None, progress
+    area = None
     if box is not None:
         west, south, east, north = map(float, box)
         area = Area((west, south, east, north))
-    files: Sequence[LasFile]
-    if not inputs.is_survey:
-        las = inputs.open_file()
-        files, crs, extent = [las], read_crs(las), las.box
-    else:
-        survey = open_survey(inputs, progress.part(0.0, 0.1))
-        files, crs, extent = survey.tiles, survey.crs, survey.box
-        reading = progress.quiet()  # the messages were given
+    survey = open_survey(inputs, progress.part(0.0, 0.1))
+    files, crs, extent = survey.tiles, survey.crs, survey.box
     require_measurable("The survey", crs, extent)
     wanted, unit = area, crs.horizontal_unit
     area = area or Area(_middle_window(files, unit))
+    reading = progress.quiet()  # the messages were given
     window = _read(files, crs, area, context / unit, reading.part(0.1, 1.0 if wanted else 0.8))
     where = "in the middle of the points"
     if wanted is None and not (window.count and window.inside.any()):

@@ -20,7 +20,7 @@ from ...core.points import Box, Frame
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...engine.blocks import Block, Blocks
-from ...engine.step import Allocate, PointResult, PointStep, with_classes
+from ...engine.step import Allocate, PointResult, PointStep, Step, with_classes
 from ...engine.store import Marks, Store
 from ...engine.summary import TileSummary
 from ...engine.visits import Visit
@@ -128,8 +128,15 @@ class LabelGround(PointStep):
         """Refuse a file whose points cannot hold the classes."""
         self.chooser.check_classes(tile.path, tile.point_format)
 
-    def check_survey(self, box: Box) -> None:
-        """Refuse the survey if the area lies outside its extent."""
+    @property
+    def writes_all(self) -> bool:
+        """Whether all points are written, and not only the ground."""
+        return not self.output.ground_only
+
+    def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
+        """Refuse a survey whose extent the area does not touch, or whose rules are to be shown."""
+        if self.explain is not None:
+            raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
         if self.area is not None and not self.area.may_touch(box):
             raise self.chooser.no_point_in_area("the files", box)
 

@@ -117,8 +117,6 @@ def _steps(
     rasters = rasters_of(sets, inputs, outputs, ground, selection.roads)
     rasters = replace(rasters, covers_ground=written.ground_only and not rasters.needs_all)
     _check(written, area, above, rasters)
-    if inputs["input"].is_survey:
-        _check_survey(written, rasters, explain)
     steps: list[Step] = [
         LabelGround(_method(sets), selection, area, written, None, corrections, explain)
     ]
@@ -155,17 +153,6 @@ def _check(
         raise BareEarthError(
             "Breaklines, water, rivers and places without ground only change rasters. Choose a"
             " raster to make, such as the terrain model."
-        )
-
-
-def _check_survey(written: Written, rasters: MakeRasters, explain: Path | None) -> None:
-    """Refuse what needs all points at hand, as those of one file are."""
-    if explain is not None:
-        raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
-    if written.ground_only and rasters.files.wanted and not rasters.covers_ground:
-        raise BareEarthError(
-            "The surface model, the canopy height and the confidence need all points. Write all"
-            " points, not only the ground."
         )
 
 

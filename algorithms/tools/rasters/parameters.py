@@ -175,6 +175,8 @@ class SurfaceModel(ParameterSet):
 class RasterOutput(ParameterSet):
     """How the rasters of many files are cut."""
 
+    only_for_many = True
+
     raster_per_file: bool = parameter(
         False,
         label="One raster for each file",

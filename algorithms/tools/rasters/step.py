@@ -12,7 +12,7 @@ from ...classes.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...classes.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
 from ...core.errors import BareEarthError
 from ...core.files import Outputs, split_name
-from ...core.points import Frame
+from ...core.points import Box, Frame
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...crs.measurable import require_measurable
@@ -20,7 +20,7 @@ from ...engine.block_grid import BlockGrid, BlockIndex
 from ...engine.blocks import Blocks
 from ...engine.disk_store import rows_in
 from ...engine.memory import Cost
-from ...engine.step import Look, Sink
+from ...engine.step import Look, Sink, Step
 from ...engine.store import OTHERS, Marks, Store
 from ...engine.visits import Visit
 from ...grids.cell_window import CellWindow
@@ -115,6 +115,16 @@ class MakeRasters(Drawing, Sink):
         cell = self.cell / VERTICES_A_SIDE
         fixed = fixed_terrain(self.constraints, look(), frame, self.ground, cell, progress)
         return replace(self, fixed=fixed)
+
+    def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
+        """Refuse rasters that need points which are not written, since a run that goes on later
+        reads what was written.
+        """
+        if self.needs_all and not all(step.writes_all for step in steps):
+            raise BareEarthError(
+                "The surface model, the canopy height and the confidence need all points. Write"
+                " all points, not only the ground."
+            )
 
     @property
     def blocks(self) -> Blocks:

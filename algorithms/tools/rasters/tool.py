@@ -53,12 +53,11 @@ def rasters_of(
     """Return the step that makes the wanted rasters, given which points are ground."""
     gaps = next((values.max_edge for values in sets if isinstance(values, Gaps)), None)
     surface = SurfaceModel.among(sets) if gaps is None else SurfaceModel(max_edge=gaps)
-    per_file = RasterOutput.among(sets).raster_per_file and inputs["input"].is_survey
     return MakeRasters(
         files=RasterFiles(**{name: outputs.get(name) for name in RASTERS}),
         model=TerrainModel.among(sets), surface=surface, ground=ground, roads=roads,
         constraints=inputs.get("constraints") or NO_CONSTRAINTS, area=inputs.get("area"),
-        per_file=per_file,
+        per_file=RasterOutput.among(sets).raster_per_file,
         target=inputs.get("raster_target") or ANYWHERE,
     )  # fmt: skip
 
