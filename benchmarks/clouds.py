@@ -10,8 +10,8 @@ from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.progress import SILENT, Progress
 from bare_earth.algorithms.core.threads import may_use
 from bare_earth.algorithms.engine.file_points import FilePoints
+from bare_earth.algorithms.engine.file_run import FileRun
 from bare_earth.algorithms.engine.memory import Resources
-from bare_earth.algorithms.engine.run import FileRun
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey.area import Area
 from bare_earth.algorithms.tools.ground.step import LabelGround

@@ -22,9 +22,9 @@ from ..core.points import Frame
 from ..core.progress import Progress
 from ..core.threads import may_use
 from ..engine.file_points import FilePoints, TileResult
+from ..engine.file_run import FileRun
 from ..engine.memory import Resources
 from ..engine.options import TileInput
-from ..engine.run import FileRun
 from ..engine.step import Step
 from ..las.cloud import PointCloud
 from ..tools import map_tool, point_tool

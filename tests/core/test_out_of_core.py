@@ -252,13 +252,13 @@ sys.exit(cli.main(sys.argv[1:]))
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without telling it")
 @pytest.mark.parametrize(
     ("module", "number"),
-    [("tools.ground.labelling", signal.SIGTERM), ("engine.run", signal.SIGKILL)],
+    [("tools.ground.labelling", signal.SIGTERM), ("engine.file_run", signal.SIGKILL)],
 )
 def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path):
     # In the middle of the blocks, and when they are about to begin.
     name = "_labels" if module == "tools.ground.labelling" else "visited"
     wait = "import time; [time.sleep(0.1) or arguments[-1](0.5) for _ in range(300)]"
-    if module == "engine.run":
+    if module == "engine.file_run":
         wait = "import time; time.sleep(30)"
     source, out = write(tmp_path / "in.las", 9000), tmp_path / "out"
     out.mkdir()
