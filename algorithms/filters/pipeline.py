@@ -169,8 +169,8 @@ def _apply_to_grids(rule: GridRule, state: State, progress: Progress) -> None:
 
 
 def _warn_of_outliers(count: int, left: np.ndarray, progress: Progress) -> None:
-    """Warn if many of the lowest points, so many in all, are taken for low outliers, which are NaN
-    in `left`.
+    """Warn if many of the `count` lowest points are taken for low outliers, which are NaN in
+    `left`.
     """
     outliers = count - np.count_nonzero(np.isfinite(left))
     if count >= _LEAST_CELLS and outliers > _MOST_OUTLIERS * count:

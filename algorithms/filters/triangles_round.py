@@ -71,7 +71,7 @@ class CellVertices:
     def _near(
         self, which: np.ndarray, row: np.ndarray, column: np.ndarray, reach: int
     ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield places, some at a time, with the vertices within so many cells, (k, q)."""
+        """Yield places, some at a time, with the vertices within `reach` cells, (k, q)."""
         width, lines = 2 * reach + 1, np.arange(-reach, reach + 1)[:, None]
         start = (row[which] + lines) * self._cells.columns + column[which] - reach
         first = self._before.take(start)
@@ -86,7 +86,7 @@ class CellVertices:
             yield which[part], listed(first[:, part], count[:, part])
 
     def _found(self, x: np.ndarray, y: np.ndarray, vertices: np.ndarray, reach: int) -> np.ndarray:
-        """Return the corners round places from vertices (k, q) within so many cells, (q, 3)."""
+        """Return the corners round places from vertices (k, q) within `reach` cells, (q, 3)."""
         size = self._cells.size
         from_west, from_south = (places - np.floor(places / size) * size for places in (x, y))
         more = reach * size

@@ -79,7 +79,7 @@ def stands_above(
     points: Points, rule: Neighbours, at_least: int = 0, progress: Progress = SILENT
 ) -> np.ndarray:
     """Return which points (n,) stand far above a neighbour; one with fewer than `at_least`
-    neighbours is compared with its so many nearest, and those as near as the last of them.
+    neighbours is compared with its `at_least` nearest points, and all that are as near as these.
     """
     neighbourhood, heights = _Neighbourhood(points, rule.radius, at_least), points.z
     if rule.top_hat:
@@ -96,7 +96,7 @@ class _Neighbourhood:
     """The points within a radius of each point, or its nearest points if those are too few."""
 
     # If a point has fewer than `at_least` other points within the radius, the radius of this point
-    # grows until it has so many. Strips (from south to north) bound the memory.
+    # grows until it has. Strips (from south to north) bound the memory.
 
     def __init__(self, points: Points, radius: float, at_least: int) -> None:
         self._points, self._radius = points, radius

@@ -139,7 +139,7 @@ class _Compass(NamedTuple):
         return cls(rows, columns, rows * relief.heights.shape[1] + columns, length)
 
     def cells(self, lines: Sections, step: int | np.ndarray) -> np.ndarray:
-        """Return the cells of some lines after so many steps."""
+        """Return the cells of some lines after `step` steps."""
         return lines.start + self.offsets[lines.direction, step]
 
     def back(self, lines: Sections) -> Sections:

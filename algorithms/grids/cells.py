@@ -26,8 +26,8 @@ _FEW = 16
 # Side in metres of the blocks in which points are counted. A block without a point is a gap in the
 # survey.
 _BLOCK = 10.0
-# If the bounding box has so many times the points of a dense survey, most blocks are dense, and the
-# points need not be counted.
+# With this many times the points that a dense survey has in the bounding box, most blocks are
+# dense, and the points need not be counted.
 _SURELY = 4.0
 # Step in metres to which the usual distance between points is rounded by default.
 _SPACING_STEP = 0.5
@@ -50,8 +50,8 @@ class Cells:
 
     @classmethod
     def over(cls, points: Points, size: float, shift: float = 0.0) -> Cells:
-        """Return the cells of `size` metres that cover points, at least one, with borders shifted
-        so many metres to west and south; refuse more cells than fit into memory.
+        """Return the cells of `size` metres that cover points, at least one, with borders `shift`
+        metres farther west and south; refuse more cells than fit into memory.
         """
         first_column, first_row, last_column, last_row = (
             math.floor((extreme + shift) / size) for extreme in points.box

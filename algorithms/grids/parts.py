@@ -28,7 +28,7 @@ class Part(NamedTuple):
 
 def parts_with(wanted: np.ndarray, margin: int) -> Iterator[Part]:
     """Yield rectangles that together hold all wanted cells (rows, columns), none of them twice,
-    each with a margin of so many cells.
+    each with `margin` cells round it.
     """
     shape = wanted.shape
     starts = [np.arange(0, max(count, 1), _SQUARE) for count in shape]

@@ -96,8 +96,8 @@ class Compression(NamedTuple):
         )
 
     def chunk_count_fits(self, chunks: int, count: int, size: int) -> bool:
-        """Return whether so many chunks, which all begin with an uncompressed point, can hold so
-        many points in so many bytes.
+        """Return whether chunks, which all begin with an uncompressed point, can hold `count`
+        points in `size` bytes.
         """
         most = 1 + size // self.record_length
         capacity = chunks * self.chunk_size if self.chunk_size else size * _MOST_POINTS_A_BYTE

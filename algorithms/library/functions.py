@@ -20,7 +20,6 @@ from .remote_points import bring_points
 
 PACKAGE = __name__.partition(".algorithms.")[0]
 _WIDTH = 92
-_OPTION = re.compile(r"--([a-z-]+)")  # in texts of the command line
 # Arguments that stand behind the parameters.
 _LAST = ("crs", "vpc", "cache", "limit", "scheduler", "progress")
 _TYPES = {"number": "float", "integer": "int", "boolean": "bool"}
@@ -206,7 +205,7 @@ def _of_argument(argument: Argument, is_keyword: bool = True) -> Described:
     kinds = inspect.Parameter
     place = kinds.KEYWORD_ONLY if is_keyword else kinds.POSITIONAL_OR_KEYWORD
     parameter = kinds(argument.name, place, default=default, annotation=annotation)
-    help = _OPTION.sub(lambda found: f"`{found[1].replace('-', '_')}`", argument.help.rstrip("."))
+    help = argument.help.rstrip(".")
     return Described(parameter, words, f"{help[:1].upper()}{help[1:]}.")
 
 

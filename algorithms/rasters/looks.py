@@ -54,7 +54,7 @@ class Ramp(NamedTuple):
     stops: Stops
     low: float | None = None
     high: float | None = None
-    # They are at least so far apart, so that noise of millimetres does not look like relief.
+    # Their least distance, so that noise of millimetres does not look like relief.
     least: float = 0.5
     is_even: bool = False  # reaches as far below 0 as above
     multiplies: bool = False  # a hillshade below stays visible

@@ -221,8 +221,8 @@ def area_of(area: Area | None, place: Place, progress: Progress = SILENT) -> Are
 
 
 def levels_of(spacing: float, resolution: float | None, crs: Crs, box: Box) -> int:
-    """Return how many levels of an octree are needed for points so many metres apart; each has half
-    the spacing of the one above.
+    """Return how many levels of an octree are needed for points `resolution` metres apart; each has
+    half the spacing of the one above.
     """
     if not resolution or not spacing > 0:
         return 64

@@ -14,8 +14,8 @@ from .dense_surface import VERTICES_A_SIDE, DenseSurface
 _SPACINGS = 2.0
 _LEAST = 0.1
 _MOST = 0.5
-# A road lies on the ground if it is so near to the TIN of the ground points, in metres: far more
-# than a kerb or the crown of a road, and less than the clearance below a bridge.
+# Metres from the TIN of the ground points up to which a road lies on the ground: far more than a
+# kerb or the crown of a road, and less than the clearance below a bridge.
 _ON_GROUND = 1.0
 
 

@@ -59,8 +59,8 @@ class Densification(PointRule):
     # The largest distance in clouds from images, whose walls are slopes that the TIN would climb;
     # None for the same as in others.
     in_images: float | None = 0.5
-    # One of the eight cells round a candidate is level with it, within so many metres beside the
-    # rise of the surface: ground continues, but bushes below trees have points at any height.
+    # One of the eight cells round a candidate is level with it, within this many metres more than
+    # the surface rises: ground continues, but bushes below trees have points at any height.
     level: float | None = 0.3
     in_woods: bool = False  # under trees the TIN would climb what grows there, bush by bush
 

@@ -54,8 +54,8 @@ class HeightSteps:
     def regions_and_rims(
         self, threshold: float, roughness_factor: float
     ) -> tuple[Regions, np.ndarray]:
-        """Return the `regions`, and which cells are rims if the usual unevenness is added so many
-        times.
+        """Return the `regions`, and which cells are rims if the usual unevenness, multiplied by
+        `roughness_factor`, is added.
         """
         steps, large = self._steps(threshold, (1.0, roughness_factor))
         return self._regions(steps), self._unframed(self._rims(large))
@@ -79,7 +79,7 @@ class HeightSteps:
         return Regions(self._unframed(regions), border, self._size, self._step)
 
     def pits(self, candidates: np.ndarray, threshold: float, max_size: float) -> np.ndarray:
-        """Return the cells of patches of candidates, at most so many metres wide, that lie below
+        """Return the cells of patches of candidates, at most `max_size` metres wide, that lie below
         the cells round them on all sides; cells that touch are one patch, even if they are uneven.
         """
         from scipy import ndimage

@@ -50,9 +50,9 @@ class LowGroups(PointRule):
     # Most heights beyond the group that are as low, as a share of those on the plane.
     most_beside: float = 0.0
     # Points of the ground lie above a group as densely as beside it: half of its points have one no
-    # farther than so many times the usual distance to the nearest among them. A group that spreads
-    # less, as a multiple of the same, shows nothing of this, and must be parted from the plane by a
-    # gap in height, as a share of its depth.
+    # farther than this multiple of the usual distance to the nearest among them. A group that
+    # spreads less, as a multiple of the same, shows nothing of this, and must be parted from the
+    # plane by a gap in height, as a share of its depth.
     nearest: float = 1.3
     spread: float = 2.0
     gap: float = 0.6

@@ -58,17 +58,18 @@ class ProgressiveOpening(GridRule):
     steepest: float = 0.6
     # Whether heights beyond the survey are those of its border, not filled smoothly.
     level_beyond: bool = True
-    # Windows of a larger radius than for houses, in metres, cut off halls only: what is so many
-    # metres high, and so many more for each metre of their radius on a slope of 45 degrees, where a
-    # wide window cuts off land whose contours bend.
+    # Windows with a larger radius in metres than houses need cut off halls only: what is `hall`
+    # metres high, and on a slope of 45 degrees `hall_per_slope` more for each metre of the radius,
+    # since a wide window cuts off land whose contours bend.
     usual_window: float = 24.0
     hall: float = 2.5
     hall_per_slope: float = 0.1
-    # In woods, windows are no larger than crowns of this radius in metres, but so near the edge,
-    # where houses may stand: where hardly a pulse reaches the ground, larger ones cut ridges off.
+    # In woods, windows are no larger than crowns of this radius in metres, except `wood_edge`
+    # metres from the edge, where houses may stand: where hardly a pulse reaches the ground, larger
+    # ones cut ridges off.
     crown: float = 11.0
     wood_edge: float = 5.0
-    # All of a plateau is an object if windows cut off so large a share: its uphill side is low.
+    # All of a plateau is an object if windows cut off this share of it: its uphill side is low.
     plateau_share: float = 0.3
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:

@@ -42,8 +42,8 @@ class Corroborated(Rule):
     # Faults are scattered: hardly any other cell lies at their level, or far fewer than on the even
     # surface above them.
 
-    # Cells between so many metres from a pit are its witnesses; nearer ones may belong to the same
-    # fault.
+    # The witnesses of a pit are the cells between these distances from it, in metres; nearer ones
+    # may belong to the same fault.
     nearest: float = 3.0
     farthest: float = 10.0
     apart: float = 0.5  # metres between witnesses
@@ -279,7 +279,7 @@ def even_cells(grid: HeightGrid) -> np.ndarray:
 def below_ground(
     points: Points, ground: np.ndarray, depth: float, progress: Progress = SILENT
 ) -> np.ndarray:
-    """Return which points (n,), never ground, lie so many metres, and the rise over a cell, below
+    """Return which points (n,), never ground, lie `depth` metres, and the rise over a cell, below
     the lowest ground points of cells of 1 m; none where there is no ground.
     """
     below = np.zeros(points.count, dtype=bool)

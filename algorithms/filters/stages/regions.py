@@ -99,8 +99,8 @@ class Regions:
         return self._bounded(max_size, 1, share, whole_share, steepness, height)
 
     def without_ramps(self, found: np.ndarray, width: float) -> np.ndarray:
-        """Return the cells of the regions of some cells whose border is nowhere level over so many
-        metres in one place.
+        """Return the cells of those regions whose border is nowhere level over `width` metres in
+        one place.
         """
         from scipy import ndimage
 

@@ -146,7 +146,7 @@ class Woods(PointRule):
 
 
 def share_around(which: np.ndarray, cells: Cells, width: float, default: float) -> np.ndarray:
-    """Return the share of some points in the square of so many metres round each cell (rows,
+    """Return the share of some points in the square of `width` metres round each cell (rows,
     columns), or a default where there are none.
     """
     from scipy import ndimage

@@ -108,16 +108,17 @@ class GentleBorder(Rule):
     # one of the second area the second; between them it falls with the logarithm of the area.
     areas: tuple[float, float] = (400.0, 3000.0)
     shares: tuple[float, float] = (0.3, 0.2)
-    # One of the second area needs so large a share only if it is level over so many metres in one
-    # place: points on walls make some of the border of a roof level, here and there.
+    # With a smaller share, this one at the second area, a region is terrain only if its border is
+    # level over `width` metres in one place: points on walls make some of the border of a roof
+    # level, here and there.
     in_one_place: float = 0.05
     width: float = 4.0
     least_area: float = 100.0  # square metres: crowns and sheds are smaller
     # If the survey ends along a larger share of the border, the first share is needed: the rest of
     # a roof or of a closed canopy may lie beyond it.
     most_cut: float = 0.1
-    # A region of up to so many square metres is an object, as an A-frame or a polytunnel is, if its
-    # mean height is more than so many metres, and more than this share of its mean width. Regions
+    # A region of up to `small` square metres is an object, as an A-frame or a polytunnel is, if its
+    # mean height is more than `tall` metres, and more than this share of its mean width. Regions
     # that `SteepRises` or `Rims` raise are whole rocks, so only TIN densification asks for it.
     small: float = 0.0
     tall: float = 2.0

@@ -107,9 +107,9 @@ class WallFoot(Rule):
     """In clouds from images, the ground rises at the foot of walls and trees: edges are rounded."""
 
     more: float = 0.3  # metres that this adds to the tolerance above
-    # Points so many metres above the ground show what is tall, if they are more than this share of
-    # the points of a cell. Its foot are the cells within one cell of it, but for those with ground
-    # in all cells round them.
+    # A cell is tall if more than this share of its points are more than `tall` metres above the
+    # ground. Its foot are the cells within one cell of it, but for those with ground in all cells
+    # round them.
     tall: float = 2.0
     share: float = 0.05
 

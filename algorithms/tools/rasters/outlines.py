@@ -103,7 +103,7 @@ class CellContents:
 
 
 def _apart(counts: np.ndarray, side: int, area: int) -> float:
-    """Return the usual distance of cells, of which squares of some cells hold so many."""
+    """Return the usual distance of cells, given their number in each square of `side` cells."""
     # It is never more than if they were spread evenly over the `area`, in cells, of the raster: a
     # small raster is only a part of a square.
     if not counts.any():

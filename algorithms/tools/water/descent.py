@@ -187,7 +187,7 @@ def _percentiles(
 
 
 def _medians_near(network: Network, values: np.ndarray, steps: int) -> np.ndarray:
-    """Return the median of the values up to so many stations away, without NaN."""
+    """Return the median of the values up to `steps` stations away, without NaN."""
     from scipy.sparse import identity
 
     beside, near = network.matrix(), identity(network.size, format="csr")

@@ -49,7 +49,7 @@ def cell_for(area: float, count: int, size: float | None = None, extent: float =
 
 
 def _smallest_cell(extent: float) -> float:
-    """Return the smallest side of cells that are not too many in so many square metres."""
+    """Return the smallest side of cells that are not too many in an area of square metres."""
     return math.ceil(math.sqrt(extent / (_SHARE_FOR_BORDERS * _MOST_CELLS)) / _STEP) * _STEP
 
 
@@ -163,8 +163,8 @@ class WaterGrid:
 def regions_of(
     cells: np.ndarray, least: float = 1.0, reach: float = math.inf, progress: Progress = SILENT
 ) -> Iterator[tuple[Window, np.ndarray]]:
-    """Yield the connected regions of at least so many cells, bool, each in a window that goes so
-    many cells beyond it.
+    """Yield the connected regions of at least `least` cells, bool, each in a window that goes
+    `reach` cells beyond it.
     """
     from scipy.ndimage import find_objects, label
 

@@ -38,7 +38,7 @@ _RISE = 0.15  # least height of half of the shore, m
 
 
 def level_areas(grid: WaterGrid, outside: np.ndarray, least: float) -> np.ndarray:
-    """Return which cells belong to dead-level areas of at least so many cells that are lower than
+    """Return which cells belong to dead-level areas of at least `least` cells that are lower than
     the land round them and not outside the survey.
     """
     low = np.zeros(grid.shape, dtype=bool)

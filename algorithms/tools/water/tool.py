@@ -200,7 +200,7 @@ def given_water(
     cell: float,
 ) -> SurveyWater:
     """Return water and breaklines of the user, in the CRS of the points, with the heights that they
-    have in a terrain model whose points are thinned in cells of so many metres.
+    have in a terrain model whose points are thinned in cells of `cell` metres.
     """
     given = GivenTerrain.of(constraints, clouds, survey_frame(crs), ground, cell / PER_CELL)
     kinds = {True: "river", False: "lake"}
