@@ -12,22 +12,20 @@ from ..las.lasfile import LasFile
 from ..survey.files import Inputs
 from .memory import Resources
 from .options import TileOutput
-from .step import Step
-from .workers import Workers
 
 
 @dataclass(eq=False)
 class Execution:
     """Base of the ways in which a run works on its inputs; the parameters are those of a run."""
 
-    steps: Sequence[Step]
-    target: Any  # the file or folder for the points; None if no step finds a value for each
-    vpc: Any
-    output: TileOutput
+    steps: Sequence[Any]
     resources: Resources
-    workers: Workers
     progress: Progress
-    outputs: Outputs | None
+    target: Any = None  # the file or folder for the points; None if no step finds a value for each
+    vpc: Any = None
+    outputs: Outputs | None = None
+    output: TileOutput = field(default_factory=TileOutput)
+    workers: Any = None
     opened: ExitStack = field(default_factory=ExitStack)  # what the end of the run closes
 
     def open(self, inputs: Inputs) -> None:

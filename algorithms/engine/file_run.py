@@ -16,7 +16,7 @@ from ..las.writing import write_without_points
 from ..survey.files import Inputs
 from .execution import Execution
 from .file_points import FilePoints, TileResult, copies_all_else, place_of
-from .step import PointStep, Step, placed
+from .step import PointStep, placed
 from .values import PointValues, with_values
 from .visits import Work, visited
 
@@ -27,7 +27,7 @@ _BEFORE_WRITING = 0.92
 
 class OneFile(Execution):
     """A run on one file, which writes its points with what the steps find, and nothing else
-    changed; all outputs or none.
+    changed, all outputs or none; or on points in memory (`work_on`).
     """
 
     def open(self, inputs: Inputs) -> None:
@@ -59,20 +59,19 @@ class OneFile(Execution):
         needs_records = bool(for_points) and not copies_all_else(las, beside, for_points)
         before = self.progress.part(0.0, _BEFORE_WRITING) if target else self.progress
         reading, working = before.shares(_READING, sum(step.weight for step in steps))
-        self.outputs = self.outputs or opened.enter_context(Outputs())
+        self.outputs = self._files = self.outputs or opened.enter_context(Outputs())
         opened.enter_context(may_use(resources.thread_count))
         points = FilePoints.opened(las, beside, resources, needs_records, reading)
         opened.enter_context(points)
-        self._run = FileRun(points, steps, self.progress, self.outputs)
-        self._run.work(working)
+        self.work_on(points, working)
 
     def finish(self) -> Any:
         """Write the points, if any step finds values for them; else return what the last tells."""
         if self.target is None:
-            return self._run.told[-1]
+            return self.told[-1]
         writing = self.progress.part(_BEFORE_WRITING, 1.0)
-        result = self._run.found(writing.part(0.0, 0.2))
-        result.write(self._run.outputs.file(self.target), writing.part(0.2, 1.0))
+        result = self.found(writing.part(0.0, 0.2))
+        result.write(self._files.file(self.target), writing.part(0.2, 1.0))
         return result.summary(self.target.name)
 
     @property
@@ -80,26 +79,11 @@ class OneFile(Execution):
         """The files that the steps write beside points."""
         return [path for step in self.steps for _, path in step.outputs]
 
-
-class FileRun:
-    """Steps that work on the points of one file, one after the other; their own outputs get their
-    names when `outputs` is closed.
-    """
-
-    def __init__(
-        self,
-        points: FilePoints,
-        steps: Sequence[Step],
-        progress: Progress,
-        outputs: Outputs | None = None,
-    ) -> None:
-        self.steps: list[Any] = placed(steps, points.place, progress)
-        self.points, self.outputs = points, outputs or Outputs()
+    def work_on(self, points: FilePoints, progress: Progress) -> None:
+        """Let the steps work on points, each of which sees what those before it have found."""
+        self._points, self._values = points, list[PointValues]()
         self.told: list[Any] = []  # what `finish` of the steps returned
-        self._values: list[PointValues] = []
-
-    def work(self, progress: Progress) -> None:
-        """Run the steps, each of which sees what those before it have found."""
+        self.steps = placed(self.steps, points.place, self.progress)
         start, weights = 0, [step.weight for step in self.steps]
         total = sum(weights)
         while start < len(self.steps):
@@ -115,7 +99,7 @@ class FileRun:
 
     def _work_group(self, group: slice, progress: Progress) -> None:
         """Run steps that see the same points."""
-        points = self.points
+        points = self._points
         works = [Work(step, points.store_for(step)) for step in self.steps[group]]
         reading = points.sparing(progress.part(0.0, 0.08))
         for where, part in with_values(points.parts(reading, self._reads_once), self._values):
@@ -139,7 +123,7 @@ class FileRun:
             else:
                 result = [found for _, found in result]
             frame = survey_frame(points.cloud.crs, step.origin)
-            self.told.append(step.finish(result, frame, self.outputs, rest))
+            self.told.append(step.finish(result, frame, self.outputs or Outputs(), rest))
 
     @property
     def _reads_once(self) -> bool:
@@ -148,15 +132,15 @@ class FileRun:
 
     def _seeing(self, step: Any, progress: Progress) -> Any:
         """Return a step after a look at the points."""
-        frame = survey_frame(self.points.cloud.crs, step.origin)
+        frame = survey_frame(self._points.cloud.crs, step.origin)
         return step.seeing(self._look, frame, progress)
 
     def _look(self) -> Iterator[PointCloud]:
         """Yield the points with what was found for them by now, part by part."""
-        return (part for _, part in with_values(self.points.parts(), self._values))
+        return (part for _, part in with_values(self._points.parts(), self._values))
 
     def found(self, progress: Progress) -> TileResult:
         """Return what the steps found for each point."""
-        result = TileResult.found(self.points, self._values, progress)
+        result = TileResult.found(self._points, self._values, progress)
         result.tell(progress)
         return result

@@ -45,14 +45,11 @@ class Run:
         # survey get their names when `outputs` ends, or else at the end of the run.
         kind: type[Execution] = OneFile
         if inputs.is_survey:
-            from .survey_run import ManyFiles, SinksOfMany
+            from .survey_run import ManyFiles
 
-            kind = SinksOfMany if target is None or vpc is None else ManyFiles
-        from .workers import Threads
-
-        workers = workers or Threads(self.resources)
+            kind = ManyFiles
         execution = kind(
-            self.steps, target, vpc, self.output, self.resources, workers, progress, outputs
+            self.steps, self.resources, progress, target, vpc, outputs, self.output, workers
         )
         with execution.opened:
             try:

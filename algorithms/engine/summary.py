@@ -24,6 +24,13 @@ class RunSummary:
 
     # What tools told that drew outputs of those of the run, by the names of what they drew.
     drawn: Mapping[str, Any] = MappingProxyType({})
+    vpc: str | None = None  # the virtual point cloud of many files
+    failures: Mapping[str, str] = MappingProxyType({})  # why files could not be done
+
+    @property
+    def tiles(self) -> tuple[Any, ...]:
+        """The summaries of the files."""
+        return (self,)
 
     @property
     def text(self) -> str:
@@ -35,19 +42,7 @@ class RunSummary:
         return f"{output}: {self.text}"
 
 
-class FileSummary(RunSummary):
-    """Base of what runs on one file return."""
-
-    vpc: str | None = None  # the virtual point cloud of many files
-    failures: Mapping[str, str] = MappingProxyType({})  # why files could not be done
-
-    @property
-    def tiles(self) -> tuple[Any, ...]:
-        """The summaries of the files."""
-        return (self,)
-
-
-class TileSummary(FileSummary):
+class TileSummary(RunSummary):
     """Base of the summaries of written files, which have a `name`."""
 
     class_counts: dict[int, int]  # points of each class in the output
@@ -71,8 +66,10 @@ class SurveySummary(RunSummary):
     kept_count: int  # those that an earlier run finished
     point_count: int  # in the finished files
     ground_count: int  # as point_count
-    failures: dict[str, str]  # why other files could not be done, by their paths
-    vpc: str  # the virtual point cloud of the finished files
+    failures: Mapping[str, str] = field(
+        default_factory=dict
+    )  # why other files could not be done, by their paths
+    vpc: str = ""  # the virtual point cloud of the finished files
     tiles: tuple[Any, ...] = field(default=(), repr=False)  # their summaries
     jobs: tuple[JobCost, ...] = field(default=(), repr=False)
 

@@ -26,45 +26,13 @@ from ..survey.vpc import write_vpc
 from .execution import Execution
 from .job_queue import JobQueue
 from .manifest import folders_of, remove_record
-from .plan import Plan
+from .plan import Plan, Results
 from .sinks import run_sink
 from .step import PointStep, placed
 from .summary import SurveySummary
 from .targets import check_own, check_survey, targets_of
 from .unpacking import Unpacking
-from .workers import Workers
-
-
-class SinksOfMany(Execution):
-    """Sinks that work on many files as one survey, each of which writes all of its outputs or
-    none.
-    """
-
-    def open(self, inputs: Inputs) -> None:
-        """Open the files, tell of those that are left out, and refuse what would fail."""
-        own = [output for step in self.steps for output in step.outputs]
-        progress = self.progress.part(0.0, 0.05)
-        self._survey = survey = open_survey(inputs, progress)
-        require_measurable("The survey", survey.crs, survey.box)
-        check_own(own, survey, [tile.path for tile in survey.tiles])
-        for tile in survey.broken:
-            progress.warning(f"{tile.path} is left out. {tile.reason}")
-        self._beside = own[0][1].parent
-
-    def work(self) -> None:
-        """Let the sinks work, whose results wait beside the first output."""
-        survey, workers, progress = self._survey, self.workers, self.progress.part(0.05, 1.0)
-        with temporary_folder(self._beside) as working:
-            unpacking = _unpacking(working, survey, workers, is_whole=False)
-            parts = progress.shares(*(step.weight for step in self.steps))
-            for step, part in zip(placed(self.steps, survey.place, progress), parts):
-                self._told = run_sink(
-                    survey, working, step, workers, part, None, unpacking, self.outputs
-                )
-
-    def finish(self) -> Any:
-        """Return what the last sink tells."""
-        return self._told
+from .workers import Threads, Workers
 
 
 @contextlib.contextmanager
@@ -78,7 +46,7 @@ def _finished_files_stay() -> Iterator[None]:
 
 class ManyFiles(Execution):
     """Steps that work on many files as one survey, which are written into a folder with the names
-    of the inputs.
+    of the inputs, if any step finds values for their points.
     """
 
     # The results are those of one file with all points. A file that cannot be processed does not
@@ -87,36 +55,43 @@ class ManyFiles(Execution):
 
     def open(self, inputs: Inputs) -> None:
         """Open the files, and refuse now what would fail at the end."""
-        self.opened.enter_context(_finished_files_stay())
-        progress, self._searched = self.progress, inputs if inputs.recursive else ()
+        self._searched = inputs if inputs.recursive else ()
+        self.workers = self.workers or Threads(self.resources)
+        if self.target is not None:
+            self.opened.enter_context(_finished_files_stay())
         for source in inputs:
-            if is_same_file(source, self.vpc):
+            if self.vpc is not None and is_same_file(source, self.vpc):
                 raise BareEarthError(
                     f"Input and output are the same file, {source}. Choose another output."
                 )
-        self._survey = survey = open_survey(inputs, progress.part(0.0, 0.02))
+        self._survey = survey = open_survey(inputs, self.progress.part(0.0, 0.02))
         require_measurable("The survey", survey.crs, survey.box)
-        check_survey(survey, self.target, self.vpc, self._searched)
+        others: Sequence[Path] = [tile.path for tile in survey.tiles]
+        if self.target is not None:
+            self._choose_targets()
+            others = [self.vpc, *self._targets, *self._targets.values()]
         # Steps that find values for points, and then what is made of these.
         steps = sorted(self.steps, key=lambda step: not isinstance(step, PointStep))
-        steps = placed(steps, survey.place, progress)
+        steps = placed(steps, survey.place, self.progress)
         self._steps: list[Any] = [step for step in steps if isinstance(step, PointStep)]
         self._sinks: list[Any] = steps[len(self._steps) :]
         for step in steps:
             step.check_survey(survey.box, steps)
-        self._targets = targets_of(survey, self.target, self.output.format)
-        for step in self._sinks:
-            others = self.vpc, *self._targets, *self._targets.values()
-            check_own(step.outputs, survey, others, self.target)
+        own = [output for step in self._sinks for output in step.outputs]
+        check_own(own, survey, others, self.target)
         self._inputs = {tile.path.name: tile.path for tile in survey.tiles}
         # Inputs that cannot be done, and why, by their names.
         self._failures = {tile.path.name: (tile.path, tile.reason) for tile in survey.broken}
 
+    def _choose_targets(self) -> None:
+        """Find the output of each file, and refuse a folder that is not suitable."""
+        check_survey(self._survey, self.target, self.vpc, self._searched)
+        self._targets = targets_of(self._survey, self.target, self.output.format)
+
     def without_points(self, layouts: Sequence[LasFile]) -> SurveySummary:
         """Write the files as they are; no list of them has an extent."""
         self._survey = Survey((), (), Crs(), None, tuple(layouts))
-        check_survey(self._survey, self.target, self.vpc, self._searched)
-        self._targets = targets_of(self._survey, self.target, self.output.format)
+        self._choose_targets()
         with write_errors_told(self.target):
             self.target.mkdir(parents=True, exist_ok=True)
         self._write_empty()
@@ -131,6 +106,13 @@ class ManyFiles(Execution):
 
     def work(self) -> None:
         """Do what is to be done, in a folder of which no other run makes use meanwhile."""
+        if self.target is None:
+            progress = self.progress.part(0.02, 1.0)
+            self._tell_of_failures()
+            with temporary_folder(self._sinks[0].outputs[0][1].parent) as waiting:
+                unpacking = _unpacking(waiting, self._survey, self.workers, is_whole=False)
+                self._make(self._survey, waiting, progress, None, unpacking)
+            return
         progress = self.progress.part(0.02, 0.98)
         resume, (_, records, waiting) = self.output.resume, folders_of(self.target)
         plan = Plan(self._survey, self._targets, self._steps, waiting, progress.part(0.0, 0.02))
@@ -167,8 +149,21 @@ class ManyFiles(Execution):
             paths = [self.target / summary.name for summary in self._done]
             written = open_survey(Inputs(paths).read_as(self._survey.stated), progress.quiet())
             results, rest = plan.results(written), progress.part(end, 1.0)
-            for step, part in zip(self._sinks, rest.shares(*(s.weight for s in self._sinks))):
-                run_sink(written, waiting, step, workers, part, results, unpacking, self.outputs)
+            self._make(written, waiting, rest, results, unpacking)
+
+    def _make(
+        self,
+        survey: Survey,
+        waiting: Path,
+        progress: Progress,
+        results: Results | None,
+        unpacking: Unpacking | None,
+    ) -> None:
+        """Let the sinks work, whose results wait in a folder."""
+        for step, part in zip(self._sinks, progress.shares(*(s.weight for s in self._sinks))):
+            self._told = run_sink(
+                survey, waiting, step, self.workers, part, results, unpacking, self.outputs
+            )
 
     def _tell(self, done: Sequence[Any], progress: Progress) -> None:
         """Report on all files; remove the outputs of this run if they are refused together."""
@@ -188,12 +183,20 @@ class ManyFiles(Execution):
         for folder in folders:
             remove_leftovers(folder)
 
-    def finish(self) -> SurveySummary:
-        """Report the files that are left out, and list the others in a virtual point cloud."""
-        progress = self.progress
+    def _tell_of_failures(self) -> dict[str, str]:
+        """Report the files that are left out; return why, by their paths."""
         reasons = {str(path): reason for path, reason in sorted(self._failures.values())}
         for path, reason in reasons.items():
-            progress.warning(f"{path} is left out. {reason}")
+            self.progress.warning(f"{path} is left out. {reason}")
+        return reasons
+
+    def finish(self) -> Any:
+        """Report on the files, and list them in a virtual point cloud; or tell what the last sink
+        does, if no points are written.
+        """
+        if self.target is None:
+            return self._told
+        progress, reasons = self.progress, self._tell_of_failures()
         if not self._done:
             raise BareEarthError(
                 f"None of the {len(reasons):,} files could be done."

@@ -22,7 +22,7 @@ from ..core.points import Frame
 from ..core.progress import Progress
 from ..core.threads import may_use
 from ..engine.file_points import FilePoints, TileResult
-from ..engine.file_run import FileRun
+from ..engine.file_run import OneFile
 from ..engine.memory import Resources
 from ..engine.options import TileInput
 from ..engine.step import Step
@@ -77,8 +77,8 @@ def _found(
 ) -> TileResult:
     """Return what steps find for points."""
     with may_use(resources.thread_count):
-        run = FileRun(FilePoints(cloud, resources), steps, progress)
-        run.work(progress.part(0.0, 0.95))
+        run = OneFile(steps, resources, progress)
+        run.work_on(FilePoints(cloud, resources), progress.part(0.0, 0.95))
         return run.found(progress.part(0.95, 1.0))
 
 
@@ -172,8 +172,8 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
     cloud = cloud_with_ground(values, GroundClasses.among(sets), progress)
     resources = Resources.among(sets).now()
     with may_use(resources.thread_count):
-        run = FileRun(FilePoints(cloud, resources), [step], progress)
-        run.work(progress)
+        run = OneFile([step], resources, progress)
+        run.work_on(FilePoints(cloud, resources), progress)
     (rasters,) = run.told
     return {name: rasters[name] for name in names}
 

@@ -13,7 +13,7 @@ from ...core.errors import BareEarthError
 from ...core.files import Outputs, new_folder
 from ...core.points import Box, Frame, box_in_words, box_round
 from ...core.progress import SILENT, Progress
-from ...engine.summary import FileSummary
+from ...engine.summary import RunSummary
 from ...grids.cell_window import CellWindow
 from ...rasters.cell_grid import ANYWHERE, MOST_CELLS, CellGrid, RasterTarget, no_points
 from ...rasters.geotiff import NO_GROUND, RasterGrid, check_cells
@@ -65,7 +65,7 @@ class Drawing:
 
 
 @dataclass(frozen=True)
-class RasterSize(FileSummary):
+class RasterSize(RunSummary):
     """The size of rasters, and the points that terrain and surface were made from."""
 
     ground_count: int
