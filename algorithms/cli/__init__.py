@@ -9,6 +9,7 @@ import traceback
 from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay, UsageError
+from ..core.imports import own_this_process
 from ..core.words import Flags, use_names
 from ..engine.memory import share_one_heap
 from ..tools import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
@@ -51,6 +52,8 @@ _COMMANDS = (
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return 0 if it is done, 1 if it failed, 2 after wrong usage."""
+    if arguments is None:
+        own_this_process()
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     _set_output_encoding()
     share_one_heap()

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import contextlib
 import importlib
+import importlib.util
 import os
 import sys
 import threading
 from types import ModuleType
 from typing import Any, Iterator
 
-# What numpy and scipy import, and runs seldom or never use. Each takes longer than numpy itself.
-_SELDOM_USED = ("numpy.f2py", "numpy.testing", "scipy.special")
-# What laspy imports if it is installed, for what this package does without laspy.
-_BESIDE_LASPY = ("laszip", "pyproj", "requests")
+# Packages that others import, and runs seldom or never use, or not at once: each with those that it
+# imports where they are installed, and that runs do without.
+_LATE: dict[str, tuple[str, ...]] = {
+    "numpy.f2py": (), "numpy.testing": (), "scipy.special": (),
+    "boto3": (), "pyproj": (),
+    "laspy": ("laszip", "requests"),
+    "pyogrio": ("geopandas", "pandas", "pyarrow", "shapely"),
+}  # fmt: skip
+_is_ours = threading.Event()
 _lock = threading.Lock()
 
 
@@ -29,33 +35,47 @@ def import_early(*names: str) -> None:
     threading.Thread(target=load, name="imports", daemon=True).start()
 
 
-def import_only_what_runs_need() -> None:
-    """Prepare a process that is ours, and has no other thread yet, for fast imports."""
-    # Threads of BLAS take time to start, and all its matrices here are small.
+def own_this_process() -> None:
+    """Note that this process is ours, not that of a program that uses the library."""
+    # Threads of BLAS, for which numpy asks when it is imported, take time to start, and all its
+    # matrices here are small.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    import numpy as numpy
+    _is_ours.set()
 
-    for name in _SELDOM_USED:
-        if name not in sys.modules:
-            package, _, inner = name.rpartition(".")
-            sys.modules[name] = late = _WhenUsed(name)
+
+def import_only_what_runs_need() -> None:
+    """Let some packages wait until they are used, if this process is ours."""
+    if not _is_ours.is_set():
+        return
+    importlib.import_module("numpy")  # asks itself for its inner modules
+    for name, without in _LATE.items():
+        package, _, inner = name.rpartition(".")
+        if name not in sys.modules and (package or importlib.util.find_spec(name)):
+            sys.modules[name] = late = _Late(name, without)
             if package in sys.modules:
                 setattr(sys.modules[package], inner, late)
-    with _as_if_missing(*_BESIDE_LASPY), contextlib.suppress(ImportError):
-        importlib.import_module("laspy")
 
 
-class _WhenUsed(ModuleType):
+class _Late(ModuleType):
     """A module that is imported when one of its attributes is first asked for."""
 
+    def __init__(self, name: str, without: tuple[str, ...]) -> None:
+        super().__init__(name)
+        # Asked for where it matters whether a package is installed.
+        self.__spec__ = None if "." in name else importlib.util.find_spec(name)
+        self._without = without
+
     def __getattr__(self, name: str) -> Any:
-        # What Python itself asks modules for, such as __file__; but packages for their __path__.
-        if name.startswith("__") and name != "__path__":
+        # Python asks all modules for these.
+        if name in ("__file__", "__wrapped__", "__warningregistry__"):
             raise AttributeError(name)
         with _lock:
-            if sys.modules.get(self.__name__) is self:
+            is_first = sys.modules.get(self.__name__) is self
+            if is_first:
                 del sys.modules[self.__name__]
-        return getattr(importlib.import_module(self.__name__), name)
+        with _as_if_missing(*(self._without if is_first else ())):
+            module = importlib.import_module(self.__name__)
+        return getattr(module, name)
 
 
 @contextlib.contextmanager

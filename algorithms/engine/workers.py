@@ -12,6 +12,7 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..core.imports import import_only_what_runs_need, own_this_process
 from ..core.temporary import remove_leftovers
 from ..core.threads import Counter, SharedThreads
 from ..core.words import Keywords, names_in_use, option, use_names
@@ -192,6 +193,8 @@ def _begin(stop: threading.Event, free: Counter, threads: int, names: Keywords) 
     global _common
     _common = _OfProcess(stop, SharedThreads(free))
     share_one_heap()
+    own_this_process()
+    import_only_what_runs_need()
     use_names(names)
     # Ctrl-C reaches all processes of a terminal. Only the first one reacts, and stops the others.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
