@@ -9,9 +9,10 @@ all of them.
 from __future__ import annotations
 
 import argparse
+import functools
 import zlib
 from pathlib import Path
-from typing import Callable, NamedTuple, Sequence
+from typing import Callable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 from scipy.optimize import minimize
@@ -36,15 +37,19 @@ from bare_earth.algorithms.grids.expected_error import (
     evidence,
     expected_error,
     share_over,
+    spread_of,
 )
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.report.units import Units
 from bare_earth.algorithms.tin.dense_surface import DenseSurface
 from bare_earth.algorithms.tin.surface import Surface
+from bare_earth.algorithms.tools.ground.looks import looks_of
 from bare_earth.algorithms.tools.review.places import Rasters, Review, places_of
 
 from . import data
+from .clouds import classify_cloud
 from .measure import GROUND, Filter
+from .phases import shifted
 from .work import side_by_side
 
 # Cells that are drawn of each tile.
@@ -69,6 +74,8 @@ _BEND = 0.1
 # how much that weighs: some thirty tiles are few for as many numbers. Both were chosen by the AUC
 # on tiles that were not fitted.
 _PRIOR, _RIDGE = 0.15, 0.05
+# The spreads of several looks in metres at which factors are fitted.
+SPREADS = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
 LIMIT = 0.3  # metres from which an error is large
 
 
@@ -81,6 +88,8 @@ class Seen(NamedTuple):
     error: np.ndarray  # metres, positive
     slope: np.ndarray  # rise over run of the true terrain
     density: np.ndarray  # points in a square metre, in the tile
+    # standard deviation of the terrains of several looks, in metres; None for one look
+    spread: np.ndarray | None = None
 
 
 Terrain = Callable[[np.ndarray, np.ndarray], np.ndarray]  # heights at some x and y; NaN for none
@@ -107,6 +116,15 @@ class Tile(NamedTuple):
         """Return which of the points a filter takes for ground."""
         return Filter(method).ground(self.cloud)[self.takes_part]
 
+    def further_grounds(self, method: str) -> Iterator[np.ndarray]:
+        """Yield the same for the looks beside that of a filter."""
+        for one in looks_of(Filter(method).parameters):
+            cloud = shifted(self.cloud, *one.shift)
+            try:
+                yield (classify_cloud(cloud, one.parameters)[0] == GROUND)[self.takes_part]
+            except BareEarthError:
+                yield np.zeros(self.points.count, dtype=bool)
+
 
 def all_cells(path: Path) -> tuple[np.ndarray, np.ndarray]:
     """Return the expected error of each cell of a tile by TIN densification, and the error as it
@@ -129,20 +147,29 @@ def tiles() -> list[Path]:
     return [path for path in found if path.exists()] + data.isprs()
 
 
-def look(path: Path) -> list[Seen]:
-    """Run each filter on a tile, and compare its terrain with that of the reference."""
+def look(path: Path, several: bool = False) -> list[Seen]:
+    """Run each filter on a tile, and compare its terrain with that of the reference; `several`:
+    with the spread of several looks.
+    """
     tile, results = Tile.of(path), []
     for method in METHODS:
         try:
             ground = tile.ground(method)
         except BareEarthError:  # no ground, no terrain
             continue
-        seen = compared(tile.points, ground, tile.terrain, path.stem)
+        grounds = [ground, *tile.further_grounds(method)] if several else []
+        seen = compared(tile.points, ground, tile.terrain, path.stem, grounds)
         results.append(seen._replace(method=method))
     return results
 
 
-def compared(points: Points, ground: np.ndarray, terrain: Terrain, tile: str = "") -> Seen:
+def compared(
+    points: Points,
+    ground: np.ndarray,
+    terrain: Terrain,
+    tile: str = "",
+    grounds: Sequence[np.ndarray] = (),
+) -> Seen:
     """Compare the terrain of a ground mask with the true one, at cells drawn by the tile's name.
 
     Parameters
@@ -155,6 +182,8 @@ def compared(points: Points, ground: np.ndarray, terrain: Terrain, tile: str = "
         Returns the true heights at some x and y; NaN where they are not known.
     tile : str
         Its name.
+    grounds : sequence of numpy.ndarray of bool, shape (n,)
+        The same of several looks, of which the first is `ground`.
     """
     cells = Cells.over(points, CELL)
     random, count = np.random.default_rng(zlib.crc32(tile.encode())), cells.rows * cells.columns
@@ -169,6 +198,8 @@ def compared(points: Points, ground: np.ndarray, terrain: Terrain, tile: str = "
     )
     pieces = evidence(cells, points.z, ground, *map(np.arange, cells.shape))
     known = np.isfinite(error)
+    every = tuple(map(np.arange, cells.shape))
+    spread = spread_of(cells, points.z, grounds, *every)[places][known] if grounds else None
     return Seen(
         tile,
         "",
@@ -176,6 +207,7 @@ def compared(points: Points, ground: np.ndarray, terrain: Terrain, tile: str = "
         error[known],
         np.nan_to_num(np.hypot(*rises)[known]) / CELL,
         np.full(len(drawn), points.count / np.count_nonzero(cells.counts))[known],
+        spread,
     )
 
 
@@ -227,6 +259,19 @@ def fitted(seen: Sequence[Seen]) -> Fit:
     share = np.concatenate([np.full(len(one.error), 1.0 / len(one.error)) for one in seen])
     share /= share.sum()
 
+    best = _quantiles(design, wanted, share)
+    factors, first = {}, 1
+    for name, knots in KNOTS._asdict().items():
+        factors[name] = _factors(knots, best[first : first + len(knots) - 1])
+        first += len(knots) - 1
+    return Fit(factors, float(f"{np.exp(best[0]):.3g}"))
+
+
+def _quantiles(design: np.ndarray, wanted: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Return a constant and weights of the columns of a design, at least 0, whose sum 95 % of the
+    wanted values do not exceed; `share` is the weight of each value.
+    """
+
     def loss(values: np.ndarray) -> tuple[float, np.ndarray]:
         rest = wanted - values[0] - design @ values[1:]
         bent = (1.0 - BEYOND) * rest + _BEND * np.logaddexp(0.0, -rest / _BEND)
@@ -238,24 +283,63 @@ def fitted(seen: Sequence[Seen]) -> Fit:
     start = np.full(design.shape[1] + 1, 0.1)
     start[0] = np.quantile(wanted, 0.5)
     limits = [(None, None)] + [(0.0, None)] * design.shape[1]
-    best = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=limits).x
-    factors, first = {}, 1
-    for name, knots in KNOTS._asdict().items():
-        rises = np.exp(np.cumsum(np.append(0.0, best[first : first + len(knots) - 1])))
-        factors[name] = tuple((at, float(f"{rise:.3g}")) for at, rise in zip(knots, rises))
-        first += len(knots) - 1
-    return Fit(factors, float(f"{np.exp(best[0]):.3g}"))
+    return minimize(loss, start, jac=True, method="L-BFGS-B", bounds=limits).x
+
+
+def _factors(
+    knots: Sequence[float], logarithms: np.ndarray, first: float = 0.0
+) -> tuple[tuple[float, float], ...]:
+    """Return factors at knots, given the logarithms by which they grow, and that of the first."""
+    rises = np.exp(first + np.cumsum(np.append(0.0, logarithms)))
+    return tuple((at, float(f"{rise:.3g}")) for at, rise in zip(knots, rises))
 
 
 def _steps(pieces: Evidence) -> np.ndarray:
     """Return how much of each step between knots the evidence of each cell has climbed, 0 to 1."""
-    return np.column_stack(
-        [
-            np.clip((values - low) / (high - low), 0.0, 1.0)
-            for values, knots in zip(pieces, KNOTS)
-            for low, high in zip(knots, knots[1:])
-        ]
-    )
+    return np.column_stack([_climbed(*both) for both in zip(pieces, KNOTS)])
+
+
+def _climbed(values: np.ndarray, knots: Sequence[float]) -> np.ndarray:
+    """Return how much of each step between knots values have climbed; shape (n, steps)."""
+    low, high = np.array(knots[:-1]), np.array(knots[1:])
+    return np.clip((values[:, None] - low) / (high - low), 0.0, 1.0)
+
+
+def spread_factors(
+    seen: Sequence[Seen], expected: Sequence[np.ndarray]
+) -> tuple[tuple[float, float], ...]:
+    """Return the factors by which the expected error of one look changes with the spread."""
+    wanted = np.log(np.concatenate([one.error for one in seen]) + _NOISE)
+    share = np.concatenate([np.full(len(one.error), 1.0 / len(one.error)) for one in seen])
+    design = np.concatenate([_climbed(_spread(one), SPREADS) for one in seen])
+    best = _quantiles(design, wanted - np.log(np.concatenate(expected)), share / share.sum())
+    return _factors(SPREADS, best[1:], float(best[0]))
+
+
+def with_looks(seen: Sequence[Seen], expected: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Return the errors that several looks expect, given those of one, by factors that were fitted
+    to the other half of the tiles.
+    """
+    half, results = _halves(seen), []
+    tables = [
+        spread_factors(*zip(*((o, e) for o, e in zip(seen, expected) if half[o.tile] == other)))
+        for other in (1, 0)
+    ]
+    for one, values in zip(seen, expected):
+        knots, factors = np.array(tables[half[one.tile]]).T
+        results.append(values * np.exp(np.interp(_spread(one), knots, np.log(factors))))
+    return results
+
+
+def _spread(seen: Seen) -> np.ndarray:
+    """Return the spread of several looks, at most the largest that is fitted."""
+    values = np.zeros(len(seen.error)) if seen.spread is None else seen.spread
+    return np.minimum(values, SPREADS[-1])
+
+
+def _halves(seen: Sequence[Seen]) -> dict[str, int]:
+    """Return the half, 0 or 1, to which each tile belongs."""
+    return {name: number % 2 for number, name in enumerate(sorted({one.tile for one in seen}))}
 
 
 class Score(NamedTuple):
@@ -292,8 +376,7 @@ def auc(values: np.ndarray, which: np.ndarray) -> float:
 
 def crossed(seen: Sequence[Seen]) -> list[np.ndarray]:
     """Return the expected errors by tables that were fitted to the other half of the tiles."""
-    names = sorted({one.tile for one in seen})
-    half = {name: number % 2 for number, name in enumerate(names)}
+    half = _halves(seen)
     fits = [fitted([one for one in seen if half[one.tile] == other]) for other in (1, 0)]
     return [fits[half[one.tile]].of(one) for one in seen]
 
@@ -352,6 +435,7 @@ def main() -> None:
     """Print the tables by halves; with ``--fit`` also the factors fitted to all tiles."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fit", action="store_true", help="print the factors fitted to all tiles")
+    parser.add_argument("--looks", action="store_true", help="with the spread of several looks")
     parser.add_argument("--places", action="store_true", help="only what places to review hold")
     parser.add_argument("--tiles", nargs="+", help="only these, by their names without ending")
     chosen = parser.parse_args()
@@ -361,15 +445,20 @@ def main() -> None:
             share, area = 100 * found.share, 100 * found.area
             print(f"| {found.tile} | {share:.0f} | {area:.1f} | {found.places} |", flush=True)
         return
-    seen = [one for some in side_by_side(look, places) for one in some]
+    results = side_by_side(functools.partial(look, several=chosen.looks), places)
+    seen = [one for some in results for one in some]
     expected = crossed(seen)
     scores = [score(one.error, values) for one, values in zip(seen, expected)]
     print(table(seen, expected), by_kind(seen, expected), sep="\n\n")
     print(f"\nRMSE in relation to what is expected: {_middle([s.rmse for s in scores])}")
     over = np.array([s.over for s in scores])
     print(f"share over {LIMIT} m, expected and as it is: {over.mean(axis=0).round(4)}")
+    if chosen.looks:
+        print(f"\nWith several looks:\n\n{table(seen, with_looks(seen, expected))}")
     if chosen.fit:
         print(fitted(seen))
+        if chosen.looks:
+            print(spread_factors(seen, [error_of(one.pieces) for one in seen]))
     else:
         shipped = [error_of(one.pieces, FACTORS, LEAST) for one in seen]
         print(f"\nThe table that ships (RMSE share {RMSE_SHARE}):\n\n{table(seen, shipped)}")

@@ -80,6 +80,8 @@ class Declaration:
         return bool(self.word) and isinstance(only, str) and only.strip().lower() == self.word
 
     def _check_choice(self, value: Any) -> str:
+        if isinstance(value, int) and str(value) in self.choices:  # programs write numbers so
+            return str(value)
         if value not in self.choices:
             raise BareEarthError(
                 f"{self.label} must be one of {', '.join(self.choices)}, not {value}."

@@ -8,7 +8,7 @@ lie within what is expected; docs/check.md has the figures.
 
 from __future__ import annotations
 
-from typing import Iterator, Mapping, NamedTuple
+from typing import Iterator, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
@@ -121,6 +121,22 @@ _USUAL = (1.25, 1.74, 1.22, 1.1, 1.14, 1.16, 1.11)
 # the RMSE of a tile in relation to the root mean square of what is expected.
 SHAPE = 0.4
 RMSE_SHARE = 0.35
+# Number of looks at the ground, if there are several.
+LOOKS = 5
+# The factors by which the expected error of one look changes with the spread (standard deviation)
+# of the terrains of several, in metres.
+SPREAD_FACTORS = (
+    (0.0, 0.846),
+    (0.01, 0.983),
+    (0.02, 1.13),
+    (0.05, 1.3),
+    (0.1, 1.5),
+    (0.2, 1.77),
+    (0.5, 2.11),
+    (1.0, 2.5),
+    (2.0, 2.96),
+)
+LARGE = 0.3  # an expected error that is told, m
 # Share of the errors that are larger than the expected one.
 BEYOND = 0.05
 
@@ -169,17 +185,89 @@ def _logarithms(pieces: Evidence, factors: Table) -> Iterator[np.ndarray]:
         yield np.interp(values, start, np.log(factor)).astype(np.float32)
 
 
+def factor_of_looks(
+    cells: Cells,
+    z: np.ndarray,
+    grounds: Sequence[np.ndarray],
+    rows: np.ndarray,
+    columns: np.ndarray,
+) -> np.ndarray:
+    """Return the factors, float32, by which the expected error of one look changes with several:
+    their ground, of which the heights are given; for rows and columns as in `evidence`.
+    """
+    start, factor = np.array(SPREAD_FACTORS).T
+    spread = spread_of(cells, z, grounds, rows, columns)
+    return np.exp(np.interp(spread, start, np.log(factor))).astype(np.float32)
+
+
+def spread_of(
+    cells: Cells,
+    z: np.ndarray,
+    grounds: Sequence[np.ndarray],
+    rows: np.ndarray,
+    columns: np.ndarray,
+) -> np.ndarray:
+    """Return the standard deviation in metres of the heights of several grounds, float32, for rows
+    and columns as in `evidence`; infinite where one has no ground in all of the block.
+    """
+    total, squares = np.zeros((2, len(rows), len(columns)), dtype=np.float64)
+    first = None
+    for ground in grounds:
+        if not ground.any():
+            return np.full(total.shape, np.inf, dtype=np.float32)
+        heights = cells.minimum(z, np.flatnonzero(ground))
+        surface = inpaint(heights, _RELAXATIONS, cells.first)
+        values = surface.take(rows, axis=0).take(columns, axis=1).astype(np.float64)
+        first = values if first is None else first
+        total += values - first
+        squares += (values - first) ** 2
+    count = len(grounds)
+    variance = squares / count - (total / count) ** 2
+    return np.sqrt(np.maximum(variance, 0.0)).astype(np.float32)
+
+
 def share_over(limit: float, error: np.ndarray) -> np.ndarray:
     """Return the probability that a cell is more than a limit off, both in metres."""
     return BEYOND ** ((limit / error) ** SHAPE)
+
+
+class ExpectedAccuracy:
+    """What is expected of a terrain model, by the expected error of its cells, part by part."""
+
+    def __init__(self) -> None:
+        self.count = 0  # of cells with an expected error
+        self.large = 0  # of those with more than `LARGE`
+        self._squares = 0.0
+
+    def add(self, error: np.ndarray) -> None:
+        """Add cells by their expected error in metres, of which those that are NaN are left out."""
+        known = error[np.isfinite(error)].astype(np.float64)
+        self.count += len(known)
+        self.large += int(np.count_nonzero(known > LARGE))
+        self._squares += float(np.sum(known**2))
+
+    @property
+    def rmse(self) -> float:
+        """The RMSE of the terrain model in metres; NaN without cells."""
+        return RMSE_SHARE * (self._squares / self.count) ** 0.5 if self.count else float("nan")
+
+    @property
+    def text(self) -> str:
+        """What is expected, in words."""
+        return (
+            f"The expected RMSE of the terrain model is {self.rmse:.2f} m, by its points alone and"
+            f" not measured. {self.large / max(self.count, 1):.1%} of its cells have an expected"
+            f" error over {LARGE} m."
+        )
 
 
 def expected_rmse(error: np.ndarray) -> float:
     """Return the RMSE of a terrain model in metres by the expected error of its cells, of which
     those that are NaN are left out; NaN if all are.
     """
-    known = error[np.isfinite(error)].astype(np.float64)
-    return RMSE_SHARE * float(np.sqrt(np.mean(known**2))) if len(known) else float("nan")
+    expected = ExpectedAccuracy()
+    expected.add(error)
+    return expected.rmse
 
 
 def evidence(

@@ -572,6 +572,10 @@
         <translation>Erste Echos je m²</translation>
     </message>
     <message>
+        <source>Five, for the expected error</source>
+        <translation>Fünf, für den erwarteten Fehler</translation>
+    </message>
+    <message>
         <source>Flat land, fields</source>
         <translation>Flachland, Felder</translation>
     </message>
@@ -960,6 +964,10 @@
         <translation>Längste Kante eines Dreiecks</translation>
     </message>
     <message>
+        <source>Looks at the ground</source>
+        <translation>Blicke auf den Boden</translation>
+    </message>
+    <message>
         <source>Low confidence areas</source>
         <translation>Flächen mit geringer Verlässlichkeit</translation>
     </message>
@@ -1122,6 +1130,10 @@
     <message>
         <source>Number of strips</source>
         <translation>Anzahl der Flugstreifen</translation>
+    </message>
+    <message>
+        <source>One</source>
+        <translation>Einer</translation>
     </message>
     <message>
         <source>One light</source>

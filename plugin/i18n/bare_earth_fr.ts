@@ -572,6 +572,10 @@
         <translation>Premiers retours par m²</translation>
     </message>
     <message>
+        <source>Five, for the expected error</source>
+        <translation>Cinq, pour l'erreur attendue</translation>
+    </message>
+    <message>
         <source>Flat land, fields</source>
         <translation>Terrain plat, champs</translation>
     </message>
@@ -960,6 +964,10 @@
         <translation>Plus long côté d'un triangle</translation>
     </message>
     <message>
+        <source>Looks at the ground</source>
+        <translation>Regards sur le sol</translation>
+    </message>
+    <message>
         <source>Low confidence areas</source>
         <translation>Zones de faible confiance</translation>
     </message>
@@ -1122,6 +1130,10 @@
     <message>
         <source>Number of strips</source>
         <translation>Nombre de bandes</translation>
+    </message>
+    <message>
+        <source>One</source>
+        <translation>Un</translation>
     </message>
     <message>
         <source>One light</source>

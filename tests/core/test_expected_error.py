@@ -3,9 +3,13 @@
 import numpy as np
 import pytest
 from matrices import quick
+from surveys import classes_of, cut, heights_of, write
 
+import bare_earth
+from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.expected_error import (
     FACTORS,
     LEAST,
@@ -15,9 +19,10 @@ from bare_earth.algorithms.grids.expected_error import (
     expected_error,
     expected_rmse,
     share_over,
+    spread_of,
 )
 from benchmarks.clouds import classify_cloud
-from benchmarks.expected_error import Seen, auc, compared, fitted, score
+from benchmarks.expected_error import Seen, auc, compared, fitted, score, with_looks
 from benchmarks.scenes import make
 
 HOUSE = (40.0, 60.0)
@@ -151,3 +156,76 @@ def test_ranks_count_pairs():
     values, which = np.array([1.0, 2.0, 3.0, 4.0]), np.array([False, True, False, True])
     assert auc(values, which) == 0.75
     assert np.isnan(auc(values, np.zeros(4, dtype=bool)))
+
+
+def test_the_spread_is_the_standard_deviation_of_the_terrains():
+    points, ground = flat()
+    cells = Cells.over(points, 1.0)
+    every = tuple(map(np.arange, cells.shape))
+    grounds = [ground, ground, np.ones(points.count, dtype=bool)]
+    spread = spread_of(cells, points.z, grounds, *every)
+    row, column = np.indices(cells.shape)
+    (low, high), open_land = HOUSE, (row < HOUSE[0] - 5) & (column < 70)
+    house = (row > low) & (row < high - 1) & (column > low) & (column < high - 1)
+    # In one of three looks the house of 6 m is ground.
+    np.testing.assert_allclose(spread[house], np.std([0.0, 0.0, 6.0]), atol=0.1)
+    assert spread[open_land].max() == 0.0
+    nowhere = [*grounds, np.zeros(points.count, dtype=bool)]
+    assert np.isinf(spread_of(cells, points.z, nowhere, *every)).all()
+
+
+@pytest.fixture(scope="module")
+def looked_at(tmp_path_factory):
+    """A file, the same points in several files, and what one look makes of the file."""
+    folder = tmp_path_factory.mktemp("looks")
+    scene = make("open_forest", seed=7, size=60.0, density=3.0)
+    integers = np.round(np.column_stack(scene.points) * 100).astype(int)
+    one, many = write(folder / "one.laz", integers), cut(folder / "many", integers, 4)
+    out, error = folder / "out.laz", folder / "error.tif"
+    bare_earth.classify(one, out, method="slope", expected_error=error)
+    return one, many, out, error
+
+
+def test_several_looks_change_only_the_expected_error(looked_at, tmp_path):
+    one, _, usual, error = looked_at
+    out, other = tmp_path / "out.laz", tmp_path / "error.tif"
+    cause = tmp_path / "cause.tif"
+    bare_earth.classify(one, out, method="slope", looks=5, expected_error=other, error_cause=cause)
+    np.testing.assert_array_equal(classes_of(out), classes_of(usual))
+    factors = heights_of(other) / heights_of(error)
+    known = np.isfinite(factors)
+    assert (np.isfinite(heights_of(error)) == known).all()
+    assert factors[known].min() < 1.0 < 1.3 < factors[known].max()
+
+
+def test_several_looks_at_many_files_equal_those_at_one(looked_at, tmp_path):
+    one, many, *_ = looked_at
+    errors = []
+    for name, source in (("one", one), ("many", many)):
+        error = tmp_path / f"{name}.tif"
+        target = tmp_path / (f"{name}.laz" if source.is_file() else name)
+        bare_earth.classify(source, target, method="slope", looks="5", expected_error=error)
+        errors.append(heights_of(error))
+    np.testing.assert_array_equal(*errors)
+
+
+def test_several_looks_need_an_expected_error(looked_at, tmp_path):
+    with pytest.raises(BareEarthError, match="Make its raster, or look once"):
+        bare_earth.classify(looked_at[0], tmp_path / "a.laz", looks=5)
+    with pytest.raises(BareEarthError, match="must be one of 1, 5, not 3"):
+        bare_earth.classify(looked_at[0], tmp_path / "a.laz", looks=3)
+
+
+def test_the_fit_of_looks_finds_that_spread_tells_the_error():
+    random = np.random.default_rng(3)
+    nothing = Evidence(*np.zeros((7, 4000), dtype=np.float32))
+    seen = []
+    for name in "abcd":
+        spread = random.uniform(0, 1, 4000)
+        error = np.abs(random.normal(0, 0.05 + spread))
+        seen.append(Seen(name, "", nothing, error, spread, spread, spread))
+    one = [np.full(4000, 1.0)] * 4
+    several = with_looks(seen, one)
+    for found, before, after in zip(seen, one, several):
+        usual, better = score(found.error, before), score(found.error, after)
+        assert usual.auc == 0.5 < 0.7 < better.auc and 0.92 < better.inside < 0.98

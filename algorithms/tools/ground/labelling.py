@@ -5,7 +5,7 @@ from __future__ import annotations
 import collections
 from enum import IntEnum
 from functools import partial
-from typing import Callable
+from typing import Callable, Sequence
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from ...grids.cells import Cells, apart, keep_spacing
 from ...grids.high_groups import HighGroups
 from ...las.return_numbers import MULTI_RETURN
 from .explanation import ExplainedCells
+from .looks import Look, with_looks
 
 # Shares of the time of a block for finding bridges, and low outliers.
 _BRIDGES_SHARE = 0.15
@@ -56,10 +57,15 @@ def blocks_of(parameters: ParameterSet) -> Blocks:
 
 
 def labelled(
-    visit: Visit, parameters: ParameterSet, selection: Selection, explains: bool, progress: Progress
+    visit: Visit,
+    parameters: ParameterSet,
+    selection: Selection,
+    explains: bool,
+    looks: Sequence[Look],
+    progress: Progress,
 ) -> tuple[np.ndarray, np.ndarray, BlockMessages, ExplainedCells | None]:
-    """Return the positions of the points of a block and the `Label` of each, or 0; what is to tell;
-    and the cells of the rules that decided, if it `explains`.
+    """Return the positions of the points of a block and the `Label` of each, or 0, with the bits of
+    further looks; what is to tell; and the cells of the rules that decided, if it `explains`.
     """
     west, south, east, north = (
         side - start for side, start in zip(visit.block.box, visit.corner * 2)
@@ -73,7 +79,7 @@ def labelled(
     notes = BlockMessages(progress.part(0.15, 1.0), len(positions), visit.is_only)
     labels, cells = np.zeros(len(positions), dtype=np.uint8), None
     if notes.count:
-        label = partial(_label, parameters, selection, explains, box)
+        label = partial(_label, parameters, selection, explains, looks, box)
         try:
             found, decided = _labels(contents, core, label, visit.blocks.buffer, notes)
             labels = found if core.all() else found[core]
@@ -90,6 +96,7 @@ def _label(
     parameters: ParameterSet,
     selection: Selection,
     explains: bool,
+    looks: Sequence[Look],
     box: Box,
     contents: BlockPoints,
     progress: Progress,
@@ -128,7 +135,19 @@ def _label(
     if selection.high_noise_class:
         high = HighGroups(height=selection.high_noise_height).find(points)
         labels[high & (labels == 0)] = Label.HIGH
+    if looks:
+        multi = contents.flags[MULTI_RETURN]
+        labels = with_looks(labels, (_seen(look, points, box, known, multi) for look in looks))
     return labels, decided
+
+
+def _seen(look: Look, points: Points, box: Box, known: np.ndarray, multi: np.ndarray) -> np.ndarray:
+    """Return which points are ground in a further look, with those that are known to be."""
+    moved = look.moved(points)
+    if moved is not points:
+        (west, south, east, north), (right, up) = box, look.shift
+        tell_spacing(moved, (west + right, south + up, east + right, north + up))
+    return look.ground(moved, known, multi) | known
 
 
 def _labels(

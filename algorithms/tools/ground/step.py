@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Iterator, Sequence
 
 import numpy as np
 
@@ -33,6 +33,7 @@ from ...rasters.writing import raster_file
 from ...survey.area import Area
 from .explanation import ExplainedCells, write_explanation
 from .labelling import Label, blocks_of, labelled, tell
+from .looks import Look, label_of, looks_in, looks_of
 from .output import Output
 
 
@@ -96,6 +97,11 @@ class LabelGround(PointStep):
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
     @property
+    def _looks(self) -> Iterator[Look]:
+        """The looks beside that of the filter."""
+        return iter(()) if self.output.looks == "1" else looks_of(self.parameters)
+
+    @property
     def only_classes(self) -> bool:
         """Whether the output differs only in its classes."""
         return not (self.output.changes_points or self.selection.remember_classes)
@@ -113,11 +119,14 @@ class LabelGround(PointStep):
         self, part: PointCloud, values: np.ndarray, inside: np.ndarray, by_hand: ByHand | None
     ) -> PointCloud:
         """Return what `applied` does, given which points lie in the area, and those set by hand."""
-        ground, low, decks, high = (values == label for label in Label)
+        labels = label_of(values)
+        ground, low, decks, high = (labels == label for label in Label)
         classes = self.selection.classes(part, ground, low, inside, decks, by_hand, high)
         part = with_classes(part, classes, self.selection.remember_classes)
         if self.output.area_only:
             part = dataclasses.replace(part, withheld=part.withheld | ~inside)
+        if self.output.looks != "1":
+            part = dataclasses.replace(part, looks=looks_in(values, Label.GROUND))
         return part
 
     def tell(self, counts: PointCounts, path: Path, progress: Progress) -> None:
@@ -175,8 +184,8 @@ class LabelGround(PointStep):
 
     def in_block(self, visit: Visit, progress: Progress) -> tuple[Any, ...]:
         """Label the points of a block; see `labelled`."""
-        explains = self.explain is not None
-        return labelled(visit, self.parameters, self.selection, explains, progress)
+        explains, looks = self.explain is not None, tuple(self._looks)
+        return labelled(visit, self.parameters, self.selection, explains, looks, progress)
 
     def end(
         self, store: Store, results: Sequence[tuple[Block, Any]], progress: Progress
@@ -242,14 +251,15 @@ class ClassifiedPoints(PointResult):
             self.kept[where] = inside if self._step.output.area_only else True
             if self._step.output.ground_only:
                 self.kept[where] &= ground
-        self._has_ground |= bool((values == Label.GROUND).any())
+        labels = label_of(values)
+        self._has_ground |= bool((labels == Label.GROUND).any())
         if by_hand is not None:
             self._by_hand_count += int(np.count_nonzero(by_hand.known & inside))
         self._ground_count += int(np.count_nonzero(ground))
         self._area_ground_count += int(np.count_nonzero(ground & inside))
-        self._low_count += int(np.count_nonzero((values == Label.LOW) & inside))
-        self._deck_count += int(np.count_nonzero((values == Label.BRIDGE) & inside))
-        self._high_count += int(np.count_nonzero((values == Label.HIGH) & inside))
+        self._low_count += int(np.count_nonzero((labels == Label.LOW) & inside))
+        self._deck_count += int(np.count_nonzero((labels == Label.BRIDGE) & inside))
+        self._high_count += int(np.count_nonzero((labels == Label.HIGH) & inside))
 
     @property
     def is_empty(self) -> bool:

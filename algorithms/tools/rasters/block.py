@@ -14,7 +14,7 @@ from ...core.progress import SILENT, Progress
 from ...core.threads import over_parts, parts_of
 from ...grids.cell_window import CellWindow
 from ...grids.cells import Cells, are_inside, first_of_each
-from ...grids.expected_error import CELL, causes_of, error_of, evidence
+from ...grids.expected_error import CELL, causes_of, error_of, evidence, factor_of_looks
 from ...grids.high_groups import HighGroups
 from ...grids.morphology import within_square
 from ...tin.dense_surface import VERTICES_A_SIDE, DenseSurface
@@ -65,6 +65,7 @@ class BlockView(NamedTuple):
     # the ground as another step has thinned it, and which of its points lie in the block
     thinned: tuple[LatticeSample, np.ndarray] | None = None
     lacks_ground: bool = False  # that ground is not among the points
+    looks: tuple[np.ndarray, ...] = ()  # bool, (n,): the ground of several looks, if there were any
 
     @property
     def parts(self) -> list[tuple[Points, np.ndarray, np.ndarray, np.ndarray]]:
@@ -302,7 +303,10 @@ def _errors(
     )
     pieces = evidence(cells, view.points.z, view.ground, rows, columns)
     for name, values in found.items():
-        values[np.ix_(*inside)] = _OF_EVIDENCE[name](pieces)[np.ix_(of_rows, of_columns)]
+        made = _OF_EVIDENCE[name](pieces)
+        if view.looks and name == "expected_error":
+            made *= factor_of_looks(cells, view.points.z, view.looks, rows, columns)
+        values[np.ix_(*inside)] = made[np.ix_(of_rows, of_columns)]
     return found, None
 
 

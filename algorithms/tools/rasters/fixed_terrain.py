@@ -65,7 +65,10 @@ class FixedTerrain:
         are_edges[points.count : points.count + len(edges)] = True
         together = Points(*(np.concatenate(columns) for columns in zip(points, new.T)))
         top, core = longer(view.top), longer(view.core)
-        return BlockView(together, longer(stays, True), top, core, view.corner, are_edges)
+        looks = tuple(longer(look & (stays | ~view.ground), True) for look in view.looks)
+        return BlockView(
+            together, longer(stays, True), top, core, view.corner, are_edges, looks=looks
+        )
 
     @cached_property
     def _cells(self) -> np.ndarray:

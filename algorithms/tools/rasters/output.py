@@ -15,6 +15,7 @@ from ...core.points import Box, Frame, box_in_words, box_round
 from ...core.progress import SILENT, Progress
 from ...engine.summary import RunSummary
 from ...grids.cell_window import CellWindow
+from ...grids.expected_error import ExpectedAccuracy
 from ...rasters.cell_grid import ANYWHERE, MOST_CELLS, CellGrid, RasterTarget, no_points
 from ...rasters.geotiff import NO_GROUND, RasterGrid, check_cells
 from ...rasters.virtual import folder_of, virtual_of, write_virtual
@@ -106,11 +107,13 @@ def write_rasters(
     window = _covered(window, step, frame)
     windows = None if files is None else _windows_of(files, window, step.cell, frame)
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(step.files.wanted))
+    expected = ExpectedAccuracy()
     for (name, path), part in zip(step.files.wanted.items(), parts):
         raster = RASTERS[name]
         measured = outlines.canopy() if raster.needs_both else None
         layers = [mosaics[layer].limited(measured, area) for layer in raster.layers]
-        write = partial(_write, raster, layers, frame, step, write_cells)
+        told = expected if name == "expected_error" else None
+        write = partial(_write, raster, layers, frame, step, write_cells, told)
         if windows is None:
             write(path, window, part)
             continue
@@ -121,6 +124,8 @@ def write_rasters(
         virtual, grid = virtual_of(path), step.cells.of(window, frame)
         band = Band.of(grid, raster.nodata(step.model.nodata), raster.shows, raster.bands)
         write_virtual(outputs.file(virtual), virtual.parent, grid, grids, raster.kind, band)
+    if expected.count:
+        progress.info(expected.text)
     ground, top = np.sum([block.counts for block in blocks], axis=0).tolist()
     return RasterSize(ground, top, window.columns, window.rows)
 
@@ -131,6 +136,7 @@ def _write(
     frame: Frame,
     step: Drawing,
     write_cells: WriteCells,
+    expected: ExpectedAccuracy | None,
     path: Path,
     window: CellWindow,
     progress: Progress,
@@ -139,10 +145,20 @@ def _write(
     grid, nodata = step.cells.of(window, frame), raster.nodata(step.model.nodata)
     how = How((grid.cell_metres, grid.cell_metres), step.model, step.surface)
     make = partial(raster.rows, how=how, unit=frame.vertical_unit, nodata=nodata)
+    if expected is not None:
+        make = partial(_telling, make, expected)
     strips = gathered_strips(layers, window, make, raster.margin(how), progress)
     rows = Rows(window.shape, raster.kind, strips, raster.bands)
     write_cells(path, rows, grid, nodata, progress, raster.shows)
     return grid
+
+
+def _telling(
+    make: Callable[..., np.ndarray], expected: ExpectedAccuracy, error: np.ndarray, *others: Any
+) -> np.ndarray:
+    """Return rows of the expected error, and add those where there is a terrain."""
+    expected.add(np.where(np.isnan(others[0]), np.nan, error))
+    return make(error, *others)
 
 
 def _write_geotiff(outputs: Outputs, path: Path, *cells: Any) -> None:

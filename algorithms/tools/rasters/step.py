@@ -25,6 +25,7 @@ from ...engine.store import OTHERS, Marks, Store
 from ...engine.visits import Visit
 from ...grids.cell_window import CellWindow
 from ...grids.cells import first_of_each
+from ...grids.expected_error import LOOKS
 from ...las.cloud import PointCloud, survey_frame
 from ...las.lasfile import LasFile
 from ...rasters.cell_grid import cell_grid
@@ -43,6 +44,10 @@ _MOST_THINNED = 10
 # Bytes that a block takes for each point in it and its buffer, and for each cell.
 _BYTES_A_POINT = 130.0
 _BYTES_A_CELL = 120.0
+
+
+# The flags of the ground of each look, if there were several.
+_LOOKS = tuple(f"look {number}" for number in range(LOOKS))
 
 
 @dataclass
@@ -151,7 +156,18 @@ class MakeRasters(Drawing, Sink):
             shown = ground | roads | self._thinned(part, shown & ~ground & ~roads)
         top = shown & self.needs_surface & self._is_surface(part, ground)
         counts.top += int(np.count_nonzero(top))
-        return Marks(shown, ground, top, {ROADS_FLAG: roads})
+        return Marks(shown, ground, top, {ROADS_FLAG: roads, **self._looks(part, ground)})
+
+    def _looks(self, part: PointCloud, ground: np.ndarray) -> dict[str, np.ndarray]:
+        """Return the ground of several looks as flags, if there were any and they matter."""
+        if part.looks is None or "expected_error" not in self.files.layers:
+            return {}
+        # Points that the filter did not decide on are ground in all looks.
+        decided = part.looks & 1 > 0
+        return {
+            name: (part.looks >> number & 1 > 0) & (ground | ~decided) | ground & ~decided
+            for number, name in enumerate(_LOOKS)
+        }
 
     def _is_surface(self, part: PointCloud, ground: np.ndarray) -> np.ndarray:
         """Return which points are of the classes and returns of the surface."""
@@ -236,7 +252,10 @@ class MakeRasters(Drawing, Sink):
         if not lacks_ground:
             ground = with_roads(points, ground, roads, progress.part(0.1, 0.2))
         known = None if thinned is None else (thinned, block.holds(thinned.points, corner))
-        view = BlockView(points, ground, contents.wanted, core, corner, None, known, lacks_ground)
+        looks = tuple(contents.flags[name] for name in _LOOKS if name in contents.flags)
+        view = BlockView(
+            points, ground, contents.wanted, core, corner, None, known, lacks_ground, looks
+        )
         if self.fixed is not None and points.count:
             view = self.fixed.added_to(view)
         return self.of_block.of(view, block.box, progress.part(0.2, 1.0))
