@@ -1,8 +1,8 @@
-"""Measures what the filters cost: `python -m benchmarks.speed`.
+"""Measures what the filters cost, beside reading and writing, and other programs.
 
 Every contestant is a whole process, from file to file. On each tile all take their turn within a
 round, and several rounds follow; what counts is the ratio to reading and writing in the same round,
-since a machine is rarely quiet. Generated tiles are kept in ~/.cache/bare-earth/benchmarks (or
+since a machine is rarely quiet. What is not installed is left out and named. Generated tiles are kept in ~/.cache/bare-earth/benchmarks (or
 $BARE_EARTH_CACHE); real ones are sought in $BARE_EARTH_DATA.
 """
 
@@ -31,6 +31,14 @@ from .tiles import Tile
 
 SIZES = (1.0, 10.0, 50.0)
 REAL = ("nrw_rural.laz", "hawaii_forest.laz")
+# The tile and the rounds of --quick.
+_QUICK = 0.1
+_EXAMPLES = """examples:
+  python -m benchmarks.speed --quick                does all that is installed run here?
+  python -m benchmarks.speed --sizes --tile A.laz   on your own files, LAS to LAS or LAZ to LAZ
+  python -m benchmarks.speed --sizes 0.001 --tile   how long the start takes
+  python -m benchmarks.speed --only tin-densification pdal lasr
+"""
 _PACKAGES = ("numpy", "scipy", "laspy", "lazrs")
 
 
@@ -49,7 +57,7 @@ def compete(
     runs: list[Run] = []
     out: set[str] = set()
     with tempfile.TemporaryDirectory(prefix="bare-earth-speed-") as folder:
-        target = Path(folder) / "out" / "written.laz"
+        target = Path(folder) / "out" / f"written{tile.path.suffix}"
         target.parent.mkdir()
         classified = _classified(tile, takers, Path(folder))
         for number in range(rounds):
@@ -74,7 +82,7 @@ def compete(
 
 def _classified(tile: Tile, takers: Sequence[Contestant], folder: Path) -> Path:
     """Return the tile with classes, for those who need them."""
-    target = folder / "classified.laz"
+    target = folder / f"classified{tile.path.suffix}"
     if any(taker.needs_classes for taker in takers):
         first = next(contestant for contestant in contestants() if contestant.name == OURS[0])
         measure(first.command(tile.path, target), None)
@@ -175,6 +183,7 @@ def _parser(known: Sequence[Contestant]) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.speed",
         description=__doc__,
+        epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
@@ -184,6 +193,10 @@ def _parser(known: Sequence[Contestant]) -> argparse.ArgumentParser:
     parser.add_argument(
         "--tile", nargs="*", type=Path, metavar="FILE",
         help=f"real tiles (default: {' '.join(REAL)})",
+    )  # fmt: skip
+    parser.add_argument(
+        "--quick", action="store_true",
+        help=f"one round on a generated tile of {_QUICK * 1e6:,.0f} points alone",
     )  # fmt: skip
     parser.add_argument("--rounds", type=int, default=5, help="how often (default: 5)")
     parser.add_argument(
@@ -216,6 +229,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the benchmark that the command line asks for."""
     options = _parser(contestants()).parse_args(arguments)
     known = contestants(options.qgis)
+    if options.quick:
+        options.sizes, options.tile, options.rounds = [_QUICK], [], 1
     found = results.load(options.source) if options.source else _measured(options, known)
     if options.json:
         results.save(found, options.json)

@@ -89,6 +89,14 @@ def contestants(qgis: str = "") -> list[Contestant]:
             )
             for name, radius in (("whitebox", "2"), ("whitebox-wide", "18"))
         ),
+        _peer_program(
+            "pdal", "PDAL, SMRF", "pdal", "PDAL",
+            lambda source, target: [
+                "pdal", "translate", str(source), str(target), "smrf",
+                "--writers.las.forward=all", "--writers.las.extra_dims=all",
+            ],
+        ),
+        _peer_program("lasr", "lasR, PTD", "Rscript", "R with its package lasR", _lasr),
         *_beside_qgis(beside),
         *_products(),
     ]  # fmt: skip
@@ -168,6 +176,30 @@ def _peer(
     missing = "" if importlib.util.find_spec(module) else f"pip install {package}"
     command = _script(script or name, *filter(None, [option]))
     return Contestant(name, label, command, True, note, missing)
+
+
+def _peer_program(
+    name: str, label: str, program: str, package: str, command: Callable[[Path, Path], list[str]]
+) -> Contestant:
+    missing = "" if shutil.which(program) else package
+    if name == "lasr" and not missing and not _has_lasr():
+        missing = package
+    return Contestant(name, label, command, True, "its defaults", missing)
+
+
+def _lasr(source: Path, target: Path) -> list[str]:
+    """Return the command that lets lasR classify by its progressive TIN densification."""
+    code = (
+        "given <- commandArgs(TRUE);"
+        " lasR::exec(lasR::classify_with_ptd() + lasR::write_las(given[2]), on = given[1])"
+    )
+    return ["Rscript", "-e", code, str(source), str(target)]
+
+
+@functools.cache
+def _has_lasr() -> bool:
+    code = "quit(status = !requireNamespace('lasR', quietly = TRUE))"
+    return not subprocess.run(["Rscript", "-e", code], check=False, capture_output=True).returncode
 
 
 def _beside_qgis(beside: list[str]) -> list[Contestant]:

@@ -176,6 +176,27 @@ def made_up(times, memory=100, rounds=2):
     return found
 
 
+def test_written_files_are_of_the_kind_of_the_tile(survey, tmp_path):
+    import laspy
+
+    laspy.read(survey).write(str(tmp_path / "survey.las"))
+    code = "assert target.endswith('.las'); shutil.copy(source, target)"
+    runs = speed.compete(tiles.tile(tmp_path / "survey.las"), [taker("floor", code)], 1, 1, 60.0)
+    assert [run.cost.problem for run in runs] == [""]
+
+
+def test_programs_take_part_where_they_are_installed(tmp_path, monkeypatch):
+    program = tmp_path / "pdal"
+    program.write_text("#!/bin/sh\n")
+    program.chmod(0o755)
+    for path, is_missing in ((str(tmp_path), False), ("", True)):
+        monkeypatch.setenv("PATH", path)
+        known = {one.name: one for one in contestants.contestants()}
+        assert bool(known["pdal"].missing) == is_missing and known["lasr"].missing
+    words = known["pdal"].command("a.las", "b.las")
+    assert words[:5] == ["pdal", "translate", "a.las", "b.las", "smrf"]
+
+
 def test_ratios_are_to_the_floor_of_the_same_round():
     found = made_up({1: {"floor": 2.0, "slope": 3.0}})
     assert found.ratio("1 million", "slope") == (1.5, 1.5, 1.5)
@@ -313,8 +334,10 @@ def test_peers_that_are_there_write_every_point(survey, tmp_path):
 
 def test_missing_peers_say_what_installs_them():
     peers = [peer for peer in contestants.contestants() if peer.is_peer]
-    assert len({peer.name for peer in peers}) == 6
-    assert all(not peer.missing or peer.missing.startswith("pip install ") for peer in peers)
+    programs = {"pdal", "lasr"}
+    packages = {peer.name: peer.missing for peer in peers if peer.name not in programs}
+    assert len(peers) == len(packages) + len(programs) == 8
+    assert all(not missing or missing.startswith("pip install ") for missing in packages.values())
 
 
 def test_profile_of_a_run(survey):
