@@ -2,8 +2,9 @@
 
 Every contestant is a whole process, from file to file. On each tile all take their turn within a
 round, and several rounds follow; what counts is the ratio to reading and writing in the same round,
-since a machine is rarely quiet. What is not installed is left out and named. Generated tiles are kept in ~/.cache/bare-earth/benchmarks (or
-$BARE_EARTH_CACHE); real ones are sought in $BARE_EARTH_DATA.
+since a machine is rarely quiet. What is not installed is left out and named. Generated tiles are
+kept in ~/.cache/bare-earth/benchmarks (or $BARE_EARTH_CACHE); real ones are sought in
+$BARE_EARTH_DATA.
 """
 
 from __future__ import annotations
