@@ -500,6 +500,10 @@
         <translation>Zusatzdimension HeightAboveGround</translation>
     </message>
     <message>
+        <source>Factor of the expected error</source>
+        <translation>Faktor des erwarteten Fehlers</translation>
+    </message>
+    <message>
         <source>Fill pits of the canopy</source>
         <translation>Löcher im Kronendach füllen</translation>
     </message>

@@ -500,6 +500,10 @@
         <translation>Dimension supplémentaire HeightAboveGround</translation>
     </message>
     <message>
+        <source>Factor of the expected error</source>
+        <translation>Facteur de l'erreur attendue</translation>
+    </message>
+    <message>
         <source>Fill pits of the canopy</source>
         <translation>Combler les trous de la canopée</translation>
     </message>

@@ -237,6 +237,11 @@ def test_the_expected_error_is_compared_with_the_errors(survey, tmp_path):
     wrong = check([survey], points(places(60), 0.5), **rasters).expected
     assert wrong.inside < 20 and wrong.factor > 2.0
     assert f"{wrong.inside} of 60 errors lie inside the expected error" in wrong.text
+    assert f"with the factor {wrong.factor:.2f}" in wrong.text
+    command = ["terrain", str(survey), "--expected-error", rasters["expected_error"]]
+    assert main([*command, "--error-factor", f"{wrong.factor:.6f}"]) == 0
+    again = check([survey], points(places(60), 0.5), **rasters).expected
+    assert again.inside >= 57 and again.factor == pytest.approx(1.0, abs=0.01)
     few = check([survey], points(places(10)), **rasters)
     assert few.expected.factor is None and "with 30 checkpoints" in "\n".join(few.lines())
     assert check([survey], points(places(10)), dtm=str(dtm)).expected is None

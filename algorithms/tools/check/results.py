@@ -61,7 +61,7 @@ class Expectation:
         told = f"{self.inside:,} of {self.count:,} errors lie inside the expected error"
         if self.factor is None:
             return f"{told}; with {_ENOUGH} checkpoints it could be corrected."
-        return f"{told}; 95 % would, if it were {self.factor:.2f} times as large."
+        return f"{told}; 95 % would with the factor {self.factor:.2f}."
 
 
 @dataclass(frozen=True)

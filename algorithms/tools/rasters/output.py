@@ -146,7 +146,7 @@ def _write(
     how = How((grid.cell_metres, grid.cell_metres), step.model, step.surface)
     make = partial(raster.rows, how=how, unit=frame.vertical_unit, nodata=nodata)
     if expected is not None:
-        make = partial(_telling, make, expected)
+        make = partial(_telling, make, expected, step.model.error_factor)
     strips = gathered_strips(layers, window, make, raster.margin(how), progress)
     rows = Rows(window.shape, raster.kind, strips, raster.bands)
     write_cells(path, rows, grid, nodata, progress, raster.shows)
@@ -154,11 +154,15 @@ def _write(
 
 
 def _telling(
-    make: Callable[..., np.ndarray], expected: ExpectedAccuracy, error: np.ndarray, *others: Any
+    make: Callable[..., np.ndarray],
+    expected: ExpectedAccuracy,
+    factor: float,
+    error: np.ndarray,
+    terrain: np.ndarray,
 ) -> np.ndarray:
     """Return rows of the expected error, and add those where there is a terrain."""
-    expected.add(np.where(np.isnan(others[0]), np.nan, error))
-    return make(error, *others)
+    expected.add(np.where(np.isnan(terrain), np.nan, error * factor))
+    return make(error, terrain)
 
 
 def _write_geotiff(outputs: Outputs, path: Path, *cells: Any) -> None:

@@ -97,6 +97,15 @@ class TerrainModel(ParameterSet):
         " up to this distance. Choose about the width of the features that you want to see; larger"
         " landforms disappear.",
     )
+    error_factor: float = parameter(
+        1.0,
+        label="Factor of the expected error",
+        minimum=0.05,
+        maximum=20.0,
+        advanced=True,
+        help="The expected error is multiplied by this. A check against 30 checkpoints or more"
+        " tells the factor with which it holds 95 % of the errors.",
+    )
 
     def cells(self, unit: float) -> CellGrid:
         """Return the cells of rasters, given the metres in a unit of the CRS."""

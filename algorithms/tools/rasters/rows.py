@@ -119,8 +119,12 @@ def _horizon(how: How) -> int:
     return max(horizon_reach(how.radius, how.cells))
 
 
+def _scaled(error: np.ndarray, terrain: np.ndarray, how: How) -> np.ndarray:
+    return np.where(np.isnan(terrain), np.nan, error * how.terrain.error_factor)
+
+
 def _confidence(error: np.ndarray, terrain: np.ndarray, how: How) -> np.ndarray:
-    return np.where(np.isnan(terrain), np.nan, 1.0 - share_over(_RIGHT, error))
+    return 1.0 - share_over(_RIGHT, _scaled(error, terrain, how))
 
 
 _relief = partial(Raster, is_relief=True, is_smoothed=True)
@@ -173,7 +177,7 @@ RASTERS = {
         "How far the terrain model may be off: 95 of 100 errors are expected to be smaller. It is"
         " large under dense trees, across gaps, at breaks and in low plants.",
         "Expected error (95 %), {unit}",
-        lambda error, terrain, how: np.where(np.isnan(terrain), np.nan, error),
+        _scaled,
         Look(Ramp(looks.ERRORS, low=0.0), 5, hides=1),
         layers=("expected_error", "terrain"),
         is_height=True,
