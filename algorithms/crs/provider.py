@@ -175,6 +175,6 @@ class _Pyproj:
         from pyproj import CRS, Transformer
 
         references = [CRS.from_user_input(text) for text in (source, target)]
-        one, two = (crs.sub_crs_list[0] if crs.is_compound else crs for crs in references)
-        transformer = Transformer.from_crs(one, two, always_xy=True)
+        start, end = (crs.sub_crs_list[0] if crs.is_compound else crs for crs in references)
+        transformer = Transformer.from_crs(start, end, always_xy=True)
         return np.column_stack(transformer.transform(*places.T))

@@ -206,8 +206,10 @@ class DeliveryJob(Settings):
             elif declared.kind == "clouds":
                 inputs[declared.name], progress = self.opened(progress)
         sets = [
-            replace(one, **{name: row.values[name] for name in row.values if hasattr(one, name)})
-            for one in self.sets_of(tool)
+            replace(
+                values, **{name: row.values[name] for name in row.values if hasattr(values, name)}
+            )
+            for values in self.sets_of(tool)
         ]
         return run(tool, inputs, paths, sets, progress, self.workers)
 

@@ -133,7 +133,7 @@ class Settings:
 
     def __init__(self, sets: Iterable[ParameterSet], values: Mapping[str, Any]) -> None:
         self.values = dict(values)  # of parameters that the user left at their defaults, by name
-        named = (one.parameters if isinstance(one, TileMethod) else one for one in sets)
+        named = (values.parameters if isinstance(values, TileMethod) else values for values in sets)
         self.sets: list[ParameterSet] = [*named, METHODS[DEFAULT_METHOD].parameters()]
         self.sets.append(GroundClasses.of_selection(self.set_of(Selection)))
 

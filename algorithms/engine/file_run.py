@@ -46,8 +46,14 @@ class OneFile(Execution):
             f"{layout.path} holds no points: {target.name} is written as it is.{more}"
         )
         kind = next(step for step in self.steps if isinstance(step, PointStep)).summary_type
-        lacking = (one for one in fields(kind) if one.default is one.default_factory is MISSING)
-        return kind(**{one.name: target.name if one.name == "name" else 0 for one in lacking})
+        lacking = (
+            declared
+            for declared in fields(kind)
+            if declared.default is declared.default_factory is MISSING
+        )
+        return kind(
+            **{declared.name: target.name if declared.name == "name" else 0 for declared in lacking}
+        )
 
     def work(self) -> None:
         """Read the points, and let the steps work."""

@@ -205,8 +205,9 @@ class Plan:
                 return self._files_of(set().union(*(of_step[place].needs for place in group)))
 
             blocks += block_jobs(
-                PointJob, grid, survey, {place: one.file for place, one in of_step.items()},
-                {place: one.sources for place, one in of_step.items()}, before, workers, unpacking,
+                PointJob, grid, survey, {place: block.file for place, block in of_step.items()},
+                {place: block.sources for place, block in of_step.items()},
+                before, workers, unpacking,
             )  # fmt: skip
         tiles = [
             TileJob(

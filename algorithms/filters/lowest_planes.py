@@ -94,8 +94,8 @@ class Surroundings(NamedTuple):
         """Return the planes of weighted least squares."""
         columns = self.x, self.y, np.ones_like(self.x)
         normal, right = np.zeros((len(weights), 3, 3)), np.zeros((len(weights), 3, 1))
-        for i, one in enumerate(columns):
-            weighted = weights * one
+        for i, column in enumerate(columns):
+            weighted = weights * column
             right[:, i, 0] = np.einsum("pn,pn->p", weighted, self.z)
             for k in range(i, 3):
                 normal[:, i, k] = normal[:, k, i] = np.einsum("pn,pn->p", weighted, columns[k])

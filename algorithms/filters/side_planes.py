@@ -129,8 +129,8 @@ class Sides:
         for term, of, place in zip(terms[1:4], self._ground, points):
             np.subtract(of.take(which), place, out=term)
         terms[1:4] *= there
-        for product, (one, two) in zip(terms[4:], _PRODUCTS):
-            np.multiply(terms[one], terms[two], out=product)
+        for product, (first, second) in zip(terms[4:], _PRODUCTS):
+            np.multiply(terms[first], terms[second], out=product)
         return terms, there
 
 
@@ -149,8 +149,8 @@ class _OfCells(NamedTuple):
         shape = cells.rows + 2 * _STENCIL, cells.columns + 2 * _STENCIL
         number, (x, y) = np.zeros(shape, dtype=np.int64), np.full((2, *shape), np.inf)
         row, column = cells_at(ground.x, ground.y, cells.size)
-        at = row + _STENCIL - cells.first_row, column + _STENCIL - cells.first_column
-        number[at], x[at], y[at] = np.arange(ground.count), ground.x, ground.y
+        place = row + _STENCIL - cells.first_row, column + _STENCIL - cells.first_column
+        number[place], x[place], y[place] = np.arange(ground.count), ground.x, ground.y
         return cls(number, x, y, cells)
 
     @property

@@ -58,9 +58,9 @@ class CellWindow(NamedTuple):
 
     def wider(self, cells: int) -> CellWindow:
         """Return the window with a margin."""
-        both = 2 * cells
+        margins = 2 * cells
         return CellWindow(
-            self.row - cells, self.column - cells, self.rows + both, self.columns + both
+            self.row - cells, self.column - cells, self.rows + margins, self.columns + margins
         )
 
     def strip(self, start: int, end: int) -> CellWindow:

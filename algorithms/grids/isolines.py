@@ -163,9 +163,9 @@ def _nodes(
     """Return numbers and places of the points where lines cross edges of squares."""
     rows, columns = rows + (edges == _SOUTH), columns + (edges == _EAST)
     is_vertical = (edges == _EAST) | (edges == _WEST)
-    one = heights[rows, columns]
-    two = heights[rows + is_vertical, columns + ~is_vertical]
-    share = np.clip((level * interval - one) / (two - one), 0.0, 1.0)
+    start = heights[rows, columns]
+    end = heights[rows + is_vertical, columns + ~is_vertical]
+    share = np.clip((level * interval - start) / (end - start), 0.0, 1.0)
     edge = 2 * ((rows + row) * heights.shape[1] + columns) + is_vertical
     places = np.column_stack((rows + row + share * is_vertical, columns + share * ~is_vertical))
     return edge * _LEVELS + level + _LEVELS // 2, places

@@ -178,9 +178,9 @@ class _JoinedGaps:
         from scipy.sparse import coo_matrix
         from scipy.sparse.csgraph import connected_components
 
-        one, two = np.concatenate(self._pairs).T
+        first, second = np.concatenate(self._pairs).T
         shape = self._count, self._count
-        links = coo_matrix((np.ones(len(one), dtype=bool), (one, two)), shape=shape)
+        links = coo_matrix((np.ones(len(first), dtype=bool), (first, second)), shape=shape)
         groups = connected_components(links, directed=False)[1]
         return groups == groups[_OUTSIDE]
 

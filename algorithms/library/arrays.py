@@ -123,7 +123,7 @@ def _of_tool(
 
     def run(values: SimpleNamespace, sets: list[Any]) -> Any:
         progress = progress_of(values.progress)
-        inputs = {one.name: input_of(one, values) for one in tool.inputs}
+        inputs = {declared.name: input_of(declared, values) for declared in tool.inputs}
         steps = tool.steps([*sets, *fixed], inputs, {})
         cloud = cloud_with_ground(values, GroundClasses.among(sets), progress)
         return value(_found(cloud, steps, Resources.among(sets).now(), progress))
@@ -160,7 +160,7 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
         raise BareEarthError(f"Choose at least one raster to make: {', '.join(RASTERS)}.")
     if is_automatic(values.water):
         raise BareEarthError("Water is found in files only: give polygons of water.")
-    sets = [TerrainModel(**vars(one)) if type(one) is ArrayTerrain else one for one in sets]
+    sets = [TerrainModel(**vars(own)) if type(own) is ArrayTerrain else own for own in sets]
     inputs = {
         "area": area_of(values), "constraints": constraints_of(values),
         "raster_target": target_of(values),
@@ -168,7 +168,9 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
     made: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]
     if are_blocks(values.points):
         return _terrain_of_blocks(values, made)
-    step = _RastersInMemory(**{one.name: getattr(made, one.name) for one in fields(made)})
+    step = _RastersInMemory(
+        **{parameter.name: getattr(made, parameter.name) for parameter in fields(made)}
+    )
     cloud = cloud_with_ground(values, GroundClasses.among(sets), progress)
     resources = Resources.among(sets).now()
     with may_use(resources.thread_count):

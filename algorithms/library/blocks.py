@@ -159,7 +159,7 @@ class Block:
 
 def are_blocks(points: Any) -> bool:
     """Return whether a user gives blocks in the place of points."""
-    return isinstance(points, (list, tuple)) and any(isinstance(one, Block) for one in points)
+    return isinstance(points, (list, tuple)) and any(isinstance(point, Block) for point in points)
 
 
 def blocks_of(values: SimpleNamespace, sets: list[Any]) -> list[Block]:
@@ -169,12 +169,14 @@ def blocks_of(values: SimpleNamespace, sets: list[Any]) -> list[Block]:
     (step,) = map_tool("classify").steps(sets, inputs, {})
     stated, cache = stated_wkt(values.crs), values.cache and cache_of(values.cache)
     given = several(values.sources)
-    found = list(_local([one for one in given if not is_remote(one)], sets, stated, progress))
-    for seen in look([one for one in given if is_remote(one)], cache_of(cache), progress):
+    remote = [source for source in given if is_remote(source)]
+    local = [source for source in given if not is_remote(source)]
+    found = list(_local(local, sets, stated, progress))
+    for seen in look(remote, cache_of(cache), progress):
         found.append((seen.address, stated_crs(values.crs) or seen.crs, seen.box, None))
     crs, box = found[0][1], box_round(np.array([box for _, _, box, _ in found]))
-    for name, other, _, _ in found:
-        _check_same(name, other, crs)
+    for name, own, _, _ in found:
+        _check_same(name, own, crs)
     require_measurable("The survey", crs, box)
     (step,) = placed([step], Place("the files", crs, box), progress)
     grid = BlockGrid(survey_frame(crs), step, stated)
@@ -195,8 +197,8 @@ def blocks_of(values: SimpleNamespace, sets: list[Any]) -> list[Block]:
     for place in sorted(wanted, key=lambda place: (place.row, place.column)):
         extent = in_crs(grid, grid.blocks.block(*place).box)
         window = extent if values.classified else grid.window([place])
-        near = {one for other in indices(grid, window) for one in inside.get(other, ())}
-        names = sorted(one.name for one in near if touch(one.outer, window))
+        near = {source for around in indices(grid, window) for source in inside.get(around, ())}
+        names = sorted(source.name for source in near if touch(source.outer, window))
         whole = box_round(np.array([source.box for source in inside[place]]))
         work = _Work(
             grid, place, values.classified, shared_by(extent, whole), crs, cache,
@@ -220,12 +222,12 @@ def _local(
         yield str(tile.path), survey.crs, tile.box, tile
 
 
-def _check_same(name: str, crs: Crs, other: Crs) -> None:
+def _check_same(name: str, crs: Crs, common: Crs) -> None:
     """Refuse a point cloud in another CRS than the others."""
-    if not is_same_crs(crs, other):
+    if not is_same_crs(crs, common):
         raise BareEarthError(
             f"{shown(name)} is in another CRS ({described(crs)}) than others"
-            f" ({described(other)}). Reproject them to one CRS. If they are in one CRS all the"
+            f" ({described(common)}). Reproject them to one CRS. If they are in one CRS all the"
             f" same, give it: {how_to_state()}."
         )
 
@@ -243,16 +245,16 @@ def indices(grid: BlockGrid, box: Box) -> list[BlockIndex]:
     return [BlockIndex(column, row) for row in rows for column in columns]
 
 
-def touch(box: Box, other: Box) -> bool:
+def touch(first: Box, second: Box) -> bool:
     """Return whether two boxes touch."""
-    west, south, east, north = other
-    return box[0] <= east and box[2] >= west and box[1] <= north and box[3] >= south
+    west, south, east, north = second
+    return first[0] <= east and first[2] >= west and first[1] <= north and first[3] >= south
 
 
-def shared_by(box: Box, other: Box) -> Box:
+def shared_by(first: Box, second: Box) -> Box:
     """Return what two boxes share."""
-    west, south = max(box[0], other[0]), max(box[1], other[1])
-    return west, south, min(box[2], other[2]), min(box[3], other[3])
+    west, south = max(first[0], second[0]), max(first[1], second[1])
+    return west, south, min(first[2], second[2]), min(first[3], second[3])
 
 
 def points_of(

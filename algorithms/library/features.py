@@ -38,8 +38,12 @@ class Features:
     def of(cls, layer: Layer, features: Iterable[Feature]) -> Features:
         """Return features that could be written as well."""
         found = [*features]
-        columns = {name: [one.values[i] for one in found] for i, name in enumerate(layer.fields)}
-        return cls(layer.kind, [one.corners for one in found], columns, layer.wkt, layer.name)
+        columns = {
+            name: [feature.values[i] for feature in found] for i, name in enumerate(layer.fields)
+        }
+        return cls(
+            layer.kind, [feature.corners for feature in found], columns, layer.wkt, layer.name
+        )
 
     def to_geopandas(self) -> Any:
         """Return the features as `geopandas.GeoDataFrame`.

@@ -139,9 +139,9 @@ class Function:
             found.append(chosen(**{key: values[key] for key in names if values[key] is not None}))
         for declared in self.sets:
             given = {
-                one.name: values[one.name]
-                for one in declared.declarations()
-                if one.name not in self.without
+                parameter.name: values[parameter.name]
+                for parameter in declared.declarations()
+                if parameter.name not in self.without
             }
             for name, flag in self.flags.items():
                 if name in given and values[flag] is not None:

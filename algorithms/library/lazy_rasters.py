@@ -57,12 +57,12 @@ def lazy_rasters(blocks: Sequence[Block], step: MakeRasters) -> dict[str, Raster
         if cells.is_empty:
             continue
         near: list[Any] = []
-        for other in indices(grid, in_crs(grid, _box_of(cells, step.cell, reach + AROUND_AREA))):
-            if other not in layers:
-                places = indices(work.grid, grid.window([other]))
+        for around in indices(grid, in_crs(grid, _box_of(cells, step.cell, reach + AROUND_AREA))):
+            if around not in layers:
+                places = indices(work.grid, grid.window([around]))
                 needed = [points[place] for place in places if place in points]
-                layers[other] = delayed(_layers_of)(shared, other, needed) if needed else None
-            near += [layers[other]] * (layers[other] is not None)
+                layers[around] = delayed(_layers_of)(shared, around, needed) if needed else None
+            near += [layers[around]] * (layers[around] is not None)
         made = delayed(_cells_of)(shared, cells, reach, near)
         rows.setdefault(index.row, []).append((cells, made))
     rasters = {}

@@ -76,7 +76,7 @@ def _of_xarray(given: Any, with_cells: bool) -> MemoryRaster:
         wkt = given.rio.crs.to_wkt()
     nodata = {*map(attributes.get, _NODATA), *attributes.get("nodatavals", ())} - {None}
     scale, offset = (
-        float(attributes.get(*one)) for one in (("scale_factor", 1), ("add_offset", 0))
+        float(attributes.get(*usual)) for usual in (("scale_factor", 1), ("add_offset", 0))
     )
     words = (attributes.get(name, "") for name in ("long_name", "units"))
     return _made(

@@ -68,7 +68,7 @@ class Surroundings:
         """Call a function for the pieces of the heights that hold any, in threads."""
         side = math.isqrt(PIECE)
         rows, columns = (parts_of(count, side) for count in self.shape)
-        places = [(one, two) for one in rows for two in columns]
+        places = [(row, column) for row in rows for column in columns]
 
         def work_at(part: slice) -> None:
             piece = Piece(self._wide, self._reach, *places[part.start])

@@ -52,8 +52,8 @@ def archaeological_topography(heights: np.ndarray, cells: Cells, radius: float) 
     # with twice the radius.
     heights = heights.astype(np.float32)
     steep = slope(heights, cells)
-    both = [_blended(heights, steep, cells, radius, land) for land in (_HILLY, _LEVEL)]
-    return as_bytes(heights, (both[0] + both[1]) / 2)
+    blended = [_blended(heights, steep, cells, radius, land) for land in (_HILLY, _LEVEL)]
+    return as_bytes(heights, (blended[0] + blended[1]) / 2)
 
 
 def _blended(

@@ -65,11 +65,11 @@ class Relief:
         """Return the relief with points marked in two colours, such as ``#d1157f``; a pixel has
         that of the more frequent mark, stronger for a larger share of those counted.
         """
-        ones, others = self._counts(first), self._counts(second)
+        of_first, of_second = self._counts(first), self._counts(second)
         every = self._counts(np.ones(len(first), dtype=bool) if counted is None else counted)
-        share = (ones + others) / np.maximum(every, 1)
+        share = (of_first + of_second) / np.maximum(every, 1)
         weight = np.where(share > 0, _FAINTEST + (1 - _FAINTEST) * share, 0)[..., None]
-        colour = np.where((ones >= others)[..., None], *map(rgb, colours))
+        colour = np.where((of_first >= of_second)[..., None], *map(rgb, colours))
         pixels = weight * colour + (1 - weight) * self.shade[..., None]
         return Picture(np.rint(pixels).astype(np.uint8), self.cell_size)
 

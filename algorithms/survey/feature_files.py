@@ -109,10 +109,14 @@ def _by_pyogrio(
                 [feature.values[place] for feature in some] for place in range(len(layer.fields))
             ]
             fields = [
-                np.array([0 if kind is int and one is None else one for one in values], kinds[kind])
+                np.array(
+                    [0 if kind is int and value is None else value for value in values], kinds[kind]
+                )
                 for values, kind in zip(columns, layer.fields.values())
             ]
-            masks = [np.array([one is None for one in values], dtype=bool) for values in columns]
+            masks = [
+                np.array([value is None for value in values], dtype=bool) for values in columns
+            ]
             shapes = np.empty(len(some), dtype=object)
             shapes[:] = [wkb_of(layer.kind, feature.corners) for feature in some]
             with warnings.catch_warnings():

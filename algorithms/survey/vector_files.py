@@ -125,7 +125,11 @@ def _geojson_of(given: Any) -> Any:
         return given.__geo_interface__
     if isinstance(given, (str, PathLike)) or not hasattr(given, "__len__"):
         return None
-    some = [_geojson_of(one) for one in given if isinstance(one, dict) or hasattr(one, _KNOWS)]
+    some = [
+        _geojson_of(geometry)
+        for geometry in given
+        if isinstance(geometry, dict) or hasattr(geometry, _KNOWS)
+    ]
     if not some:
         return None
     if len(some) < len(given):
@@ -142,7 +146,7 @@ def _of_arrays(given: Any, kind: str) -> Iterator[tuple[Any, dict]]:
         depth, first = depth + 1, first[0]
     for _ in range(depth, _DEPTHS[kind] + 2):
         given = [given]
-    yield from ((one, {}) for one in given)
+    yield from ((corners, {}) for corners in given)
 
 
 def _of_frame(frame: Any, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:

@@ -106,12 +106,12 @@ def heights_of_four(
     # at most 180 degrees.
     is_first = cross[1] * dot[3] + dot[1] * cross[3] >= 0.0
     start = np.where(is_first, 0, 1)
-    one, opposite = start, start + 2
-    one_x, one_y = picked(x, one), picked(y, one)
-    is_left = (picked(y, opposite) - one_y) * one_x - (picked(x, opposite) - one_x) * one_y > 0.0
+    opposite, start_x, start_y = start + 2, picked(x, start), picked(y, start)
+    along_x, along_y = picked(x, opposite) - start_x, picked(y, opposite) - start_y
+    is_left = along_y * start_x - along_x * start_y > 0.0
     third = np.where(is_left, start + 3, start + 1) % 4
     corners = np.stack(
-        (one, np.where(is_left, opposite, third), np.where(is_left, third, opposite))
+        (start, np.where(is_left, opposite, third), np.where(is_left, third, opposite))
     )
     a, b = picked(x, corners), picked(y, corners)
     weights = _opposite_areas(a, b)

@@ -234,9 +234,9 @@ class GrowingTin:
         self.twins[after] = twins
         self.twins[twins[twins >= 0]] = after[twins >= 0]
 
-    def _join(self, one: np.ndarray, two: np.ndarray) -> None:
+    def _join(self, edges: np.ndarray, twins: np.ndarray) -> None:
         """Make half-edges twins."""
-        self.twins[one], self.twins[two] = two, one
+        self.twins[edges], self.twins[twins] = twins, edges
 
     def _flip(self, edges: np.ndarray, changed: np.ndarray) -> None:
         """Flip half-edges, and those round them, until no circumcircle holds a vertex; set
@@ -271,8 +271,8 @@ class GrowingTin:
         self._moved[before] = after
         later = self._moved[later]
         self._move(before, after)
-        for k, (one, two) in enumerate(((p, q), (b, c), (q, p))):
-            self.corners[3 * t + k], self.corners[3 * u + k] = one, two
+        for k, (corner, opposite) in enumerate(((p, q), (b, c), (q, p))):
+            self.corners[3 * t + k], self.corners[3 * u + k] = corner, opposite
         self._join(3 * t + 1, 3 * u + 1)
         return np.concatenate((after, later))
 
@@ -294,10 +294,10 @@ class GrowingTin:
         x, y = (values.take(corners) for values in self.vertices[:2])
         bx, by, cx, cy, qx, qy = (axis[k] - axis[0] for k in (1, 2, 3) for axis in (x, y))
         p_b_q, p_q_c = bx * qy - by * qx, qx * cy - qy * cx
-        one = (qx * qx + qy * qy) * (bx * cy - by * cx)
-        two, three = (cx * cx + cy * cy) * -p_b_q, (bx * bx + by * by) * -p_q_c
-        total = one + two + three
-        rounding = _ROUNDING * (np.abs(one) + np.abs(two) + np.abs(three))
+        of_q = (qx * qx + qy * qy) * (bx * cy - by * cx)
+        of_c, of_b = (cx * cx + cy * cy) * -p_b_q, (bx * bx + by * by) * -p_q_c
+        total = of_q + of_c + of_b
+        rounding = _ROUNDING * (np.abs(of_q) + np.abs(of_c) + np.abs(of_b))
         equal = np.flatnonzero(np.abs(total) <= rounding)
         return total < -rounding, equal, (p_b_q > 0.0) & (p_q_c > 0.0)
 

@@ -307,7 +307,7 @@ def _without_long(tin: Tin, triangle: np.ndarray, max_edge: float | None) -> np.
     if max_edge is None or not len(tin.triangles):
         return triangle
     longest = np.zeros(len(tin.triangles))
-    for one, two in ((0, 1), (1, 2), (2, 0)):
-        a, b = tin.triangles[:, one], tin.triangles[:, two]
+    for first, second in ((0, 1), (1, 2), (2, 0)):
+        a, b = tin.triangles[:, first], tin.triangles[:, second]
         np.maximum(longest, np.hypot(tin.x[a] - tin.x[b], tin.y[a] - tin.y[b]), out=longest)
     return np.where((triangle >= 0) & (longest[triangle] <= max_edge), triangle, -1)

@@ -257,9 +257,9 @@ def _crossed(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the smallest and the largest x of triangles (k, 3) on rows (k,)."""
     west, east = np.full(len(row), np.inf), np.full(len(row), -np.inf)
-    for one, two in ((0, 1), (1, 2), (2, 0)):
-        start_x, start_y = x[corners[:, one]], y[corners[:, one]]
-        end_x, end_y = x[corners[:, two]], y[corners[:, two]]
+    for first, second in ((0, 1), (1, 2), (2, 0)):
+        start_x, start_y = x[corners[:, first]], y[corners[:, first]]
+        end_x, end_y = x[corners[:, second]], y[corners[:, second]]
         with np.errstate(divide="ignore", invalid="ignore"):
             share = np.where(end_y == start_y, 0.0, (row - start_y) / (end_y - start_y))
         meets = (share >= -_ON_ROW) & (share <= 1.0 + _ON_ROW)

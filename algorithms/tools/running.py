@@ -61,7 +61,7 @@ def _run_on_points(
     the folder of many files are written, or none.
     """
     points = Inputs(inputs["input"]).read_as(inputs.get("crs"), TileInput.among(sets).recursive)
-    sets = [one for one in sets if points.is_survey or not one.only_for_many]
+    sets = [values for values in sets if points.is_survey or not values.only_for_many]
     check_outputs(_kinds(tool, points, outputs), points)
     given, progress = _with_found(tool, {**inputs, "input": points}, sets, progress)
     drawn = [output for output in tool.all_outputs if output.drawn_by and output.name in outputs]
@@ -106,7 +106,7 @@ def _folder_among(outputs: Mapping[str, Path]) -> Path:
 
 def _kinds(tool: Tool, points: Inputs, outputs: Mapping[str, Path]) -> Iterator[tuple[str, Path]]:
     """Yield the kinds and paths of the outputs, but for those in a folder that the run makes."""
-    kinds = {one.name: one.kind for one in tool.all_outputs}
+    kinds = {output.name: output.kind for output in tool.all_outputs}
     kinds.update(output=points.output_kind, vpc="list")
     folder = outputs.get("output") if points.output_kind == "folder" else None
     for name, path in outputs.items():
@@ -159,7 +159,7 @@ def _run_on_files(
         for _, path, files in wanted:
             if path not in files.values():
                 pending.enter_context(new_folder(path))
-        kinds = [(one.file_kind, file) for one, _, files in wanted for file in files.values()]
+        kinds = [(output.file_kind, file) for output, _, files in wanted for file in files.values()]
         check_outputs(kinds, _sources(tool, inputs))
         for output, _, files in wanted:
             places = {name: place(pending, output.file_kind, file) for name, file in files.items()}
@@ -167,7 +167,7 @@ def _run_on_files(
         found = tool.work(**given, **_by_name(tool, sets), progress=progress)
         progress(1.0)  # the last moment to cancel: after this the files are there
     # What it says of an output is not the temporary path.
-    told = {one.name: str(path) for one, path, _ in wanted if hasattr(found, one.name)}
+    told = {output.name: str(path) for output, path, _ in wanted if hasattr(found, output.name)}
     return dataclasses.replace(found, **told) if told else found
 
 

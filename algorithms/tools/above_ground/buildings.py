@@ -188,11 +188,11 @@ def _face_of(neighbours: np.ndarray, rise: np.ndarray, on: np.ndarray) -> np.nda
     normal = np.column_stack([-rise[:, :2], np.ones(len(rise), dtype=np.float32)])
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     has_plane = np.count_nonzero(on, axis=1) > 0
-    one, place = np.nonzero(on & has_plane[neighbours])
-    two = neighbours[one, place]
-    even = (normal[one] * normal[two]).sum(axis=1) >= math.cos(math.radians(_BEND))
-    one, two = one[even], two[even]
-    links = coo_matrix((np.ones(len(one), dtype=bool), (one, two)), shape=(len(rise),) * 2)
+    node, place = np.nonzero(on & has_plane[neighbours])
+    neighbour = neighbours[node, place]
+    even = (normal[node] * normal[neighbour]).sum(axis=1) >= math.cos(math.radians(_BEND))
+    node, neighbour = node[even], neighbour[even]
+    links = coo_matrix((np.ones(len(node), dtype=bool), (node, neighbour)), shape=(len(rise),) * 2)
     return connected_components(links, directed=False)[1]
 
 
@@ -280,16 +280,16 @@ def _planes(
     x, y, z = (np.ascontiguousarray(steps[:, :, axis].T) for axis in range(3))
     near, count = near.T, x.shape[1]
     best, east, north = np.zeros((3, count), dtype=np.float32)
-    for one, two in itertools.combinations(range(1, min(_TRIED + 1, len(x))), 2):
-        area = x[one] * y[two] - y[one] * x[two]
-        lengths = np.hypot(x[one], y[one]) * np.hypot(x[two], y[two])
+    for first, second in itertools.combinations(range(1, min(_TRIED + 1, len(x))), 2):
+        area = x[first] * y[second] - y[first] * x[second]
+        lengths = np.hypot(x[first], y[first]) * np.hypot(x[second], y[second])
         wide = np.abs(area) > _LEAST_SINE * lengths
         area = np.where(wide, area, 1.0)
-        to_east = (z[one] * y[two] - z[two] * y[one]) / area
-        to_north = (x[one] * z[two] - x[two] * z[one]) / area
+        to_east = (z[first] * y[second] - z[second] * y[first]) / area
+        to_north = (x[first] * z[second] - x[second] * z[first]) / area
         off = np.abs(z - to_east * x - to_north * y)
         votes = np.count_nonzero((off <= tolerance) & near, axis=0).astype(np.float32)
-        votes[~wide | ~near[one] | ~near[two] | (np.hypot(to_east, to_north) > slope)] = 0.0
+        votes[~wide | ~near[first] | ~near[second] | (np.hypot(to_east, to_north) > slope)] = 0.0
         better = votes > best
         best[better] = votes[better]
         east[better], north[better] = to_east[better], to_north[better]
@@ -307,9 +307,11 @@ def _fitted(
     weight, count = on.astype(np.float64), np.maximum(on.sum(axis=0), 1)
     mean_x, mean_y, mean_z = ((weight * axis).sum(axis=0) / count for axis in (x, y, z))
     dx, dy, dz = x - mean_x, y - mean_y, z - mean_z
-    xx, xy, yy = ((weight * one * two).sum(axis=0) for one, two in ((dx, dx), (dx, dy), (dy, dy)))
-    xz, yz = ((weight * one * dz).sum(axis=0) for one in (dx, dy))
+    xx, xy, yy = (
+        (weight * first * second).sum(axis=0) for first, second in ((dx, dx), (dx, dy), (dy, dy))
+    )
+    xz, yz = ((weight * first * dz).sum(axis=0) for first in (dx, dy))
     solid = xx * yy - xy * xy > 1e-6 * (xx + yy) ** 2 + 1e-12
     slopes = plane_slopes(xx, xy, yy, xz, yz)
-    east, north = (np.where(solid, *both) for both in zip(slopes, (east, north)))
+    east, north = (np.where(solid, *choices) for choices in zip(slopes, (east, north)))
     return east, north, mean_z - east * mean_x - north * mean_y

@@ -33,12 +33,12 @@ class TrialSummary:
 
     def lines(self) -> list[str]:
         """Return the figures as lines of text for a terminal or a log."""
-        wide = max(len(one["name"]) for one in self.settings)
+        wide = max(len(figures["name"]) for figures in self.settings)
         return [
-            f"{one['name']:<{wide}}  {one['ground_share']:6.2f} % ground, expected RMSE"
-            f" {_metres(one['expected_rmse'])}; {one['gained']:,} points more and"
-            f" {one['lost']:,} less ground than the first"
-            for one in self.settings
+            f"{figures['name']:<{wide}}  {figures['ground_share']:6.2f} % ground, expected RMSE"
+            f" {_metres(figures['expected_rmse'])}; {figures['gained']:,} points more and"
+            f" {figures['lost']:,} less ground than the first"
+            for figures in self.settings
         ]
 
 
@@ -77,7 +77,7 @@ def compare(
         notes = _notes(window.units, context, reach)
         html = comparison(sources, notes, window, outcomes, figures)
     page.write_text(html, encoding="utf-8")
-    told = [one._asdict() for one in figures]
+    told = [setting._asdict() for setting in figures]
     counts = window.count, figures[0].point_count
     return TrialSummary(str(page), *counts, window.box, context, told)
 

@@ -120,7 +120,7 @@ def comparison(
         ),
         section(
             "How to run each setting on all points",
-            *(_commands(one) for one in figures),
+            *(_commands(setting) for setting in figures),
         ),
     ]
     return page("Settings compared on a window", parts, _STYLE)
@@ -137,17 +137,19 @@ def _size(window: Window) -> str:
 
 def _table(window: Window, figures: Sequence[Figures]) -> tuple[Html, Html]:
     rows = []
-    for number, one in enumerate(figures):
+    for number, setting in enumerate(figures):
         differences = ["first"] * 3
         if number:
             differences = [
-                f"{count:,} ({percent(100.0 * count / one.point_count)})"
-                for count in (one.gained, one.lost)
+                f"{count:,} ({percent(100.0 * count / setting.point_count)})"
+                for count in (setting.gained, setting.lost)
             ]
-            apart = one.terrain_difference
+            apart = setting.terrain_difference
             differences.append("none" if apart is None else window.units.height(apart))
-        rmse = "none" if one.expected_rmse is None else window.units.height(one.expected_rmse)
-        rows.append((one.label, percent(one.ground_share), rmse, *differences))
+        rmse = (
+            "none" if setting.expected_rmse is None else window.units.height(setting.expected_rmse)
+        )
+        rows.append((setting.label, percent(setting.ground_share), rmse, *differences))
     head = (
         "Setting", "Ground", "Expected RMSE", "More ground", "Less ground", "Terrain differs by",
     )  # fmt: skip

@@ -65,7 +65,11 @@ class Setting(NamedTuple):
 
 def _presets(declared: type[ParameterSet]) -> dict[str, str]:
     """Return the labels of the presets that a set of parameters has."""
-    return next(dict(one.choices) for one in declared.declarations() if one.name == "preset")
+    return next(
+        dict(parameter.choices)
+        for parameter in declared.declarations()
+        if parameter.name == "preset"
+    )
 
 
 # Every method with each of its presets, by name.

@@ -40,14 +40,14 @@ class Network(NamedTuple):
     def chains(self) -> list[np.ndarray]:
         """Return the ways between stations that have not two neighbours."""
         beside: list[list[int]] = [[] for _ in range(self.size)]
-        for one, two in self.edges.tolist():
-            beside[one].append(two)
-            beside[two].append(one)
+        for first, second in self.edges.tolist():
+            beside[first].append(second)
+            beside[second].append(first)
         found, passed = [], np.zeros(self.size, dtype=bool)
         ends = [station for station in range(self.size) if len(beside[station]) != 2]
         used: set[tuple[int, int]] = set()
         # What has no end is a ring: it begins anywhere.
-        for start in (*ends, *(one for one in range(self.size) if len(beside[one]) == 2)):
+        for start in (*ends, *(n for n in range(self.size) if len(beside[n]) == 2)):
             if passed[start] and len(beside[start]) == 2:
                 continue
             if not beside[start]:
@@ -64,8 +64,8 @@ class Network(NamedTuple):
         """Return the symmetric matrix of neighbours, sparse."""
         from scipy.sparse import coo_matrix
 
-        one, two = self.edges.reshape(-1, 2).T
-        half = coo_matrix((np.ones(len(one)), (one, two)), shape=(self.size, self.size))
+        first, second = self.edges.reshape(-1, 2).T
+        half = coo_matrix((np.ones(len(first)), (first, second)), shape=(self.size, self.size))
         return (half + half.T).tocsr()
 
 
@@ -73,8 +73,8 @@ def _way_on(beside: list[list[int]], start: int, second: int) -> list[int]:
     """Return the way from a station over its neighbour to the next end or junction."""
     way = [start, second]
     while len(beside[way[-1]]) == 2 and way[-1] != start:
-        one, two = beside[way[-1]]
-        way.append(two if one == way[-2] else one)
+        first, second = beside[way[-1]]
+        way.append(second if first == way[-2] else first)
     return way
 
 

@@ -116,9 +116,9 @@ def _neighbours(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     ends, apart = [], []
     for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
         beside = number[down:, 1 + right :][:rows, :columns][cells]
-        one = np.flatnonzero(beside >= 0)
-        ends.append(np.column_stack((one, beside[one])))
-        apart.append(np.full(len(one), math.hypot(down, right)))
+        cell = np.flatnonzero(beside >= 0)
+        ends.append(np.column_stack((cell, beside[cell])))
+        apart.append(np.full(len(cell), math.hypot(down, right)))
     return np.concatenate(ends), np.concatenate(apart)
 
 
