@@ -206,10 +206,8 @@ class DeliveryJob(Settings):
             elif declared.kind == "clouds":
                 inputs[declared.name], progress = self.opened(progress)
         sets = [
-            replace(
-                values, **{name: row.values[name] for name in row.values if hasattr(values, name)}
-            )
-            for values in self.sets_of(tool)
+            replace(own, **{name: row.values[name] for name in row.values if hasattr(own, name)})
+            for own in self.sets_of(tool)
         ]
         return run(tool, inputs, paths, sets, progress, self.workers)
 

@@ -46,14 +46,8 @@ class OneFile(Execution):
             f"{layout.path} holds no points: {target.name} is written as it is.{more}"
         )
         kind = next(step for step in self.steps if isinstance(step, PointStep)).summary_type
-        lacking = (
-            declared
-            for declared in fields(kind)
-            if declared.default is declared.default_factory is MISSING
-        )
-        return kind(
-            **{declared.name: target.name if declared.name == "name" else 0 for declared in lacking}
-        )
+        lacking = (item for item in fields(kind) if item.default is item.default_factory is MISSING)
+        return kind(**{item.name: target.name if item.name == "name" else 0 for item in lacking})
 
     def work(self) -> None:
         """Read the points, and let the steps work."""

@@ -48,9 +48,7 @@ def check_own(
     points may not be there yet.
     """
     is_made = folder is not None and not folder.exists()
-    check_outputs(
-        [output for output in outputs if not (is_made and output[1].parent == folder)], others
-    )
+    check_outputs([own for own in outputs if not (is_made and own[1].parent == folder)], others)
     if any(kind == "raster set" for kind, _ in outputs):
         _check_stems(survey)
 

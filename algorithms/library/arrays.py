@@ -168,9 +168,7 @@ def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
     made: Any = map_tool("terrain").steps(sets, inputs, {name: Path(name) for name in names})[0]
     if are_blocks(values.points):
         return _terrain_of_blocks(values, made)
-    step = _RastersInMemory(
-        **{parameter.name: getattr(made, parameter.name) for parameter in fields(made)}
-    )
+    step = _RastersInMemory(**{item.name: getattr(made, item.name) for item in fields(made)})
     cloud = cloud_with_ground(values, GroundClasses.among(sets), progress)
     resources = Resources.among(sets).now()
     with may_use(resources.thread_count):

@@ -37,13 +37,9 @@ class Features:
     @classmethod
     def of(cls, layer: Layer, features: Iterable[Feature]) -> Features:
         """Return features that could be written as well."""
-        found = [*features]
-        columns = {
-            name: [feature.values[i] for feature in found] for i, name in enumerate(layer.fields)
-        }
-        return cls(
-            layer.kind, [feature.corners for feature in found], columns, layer.wkt, layer.name
-        )
+        rows = [*features]
+        columns = {name: [row.values[i] for row in rows] for i, name in enumerate(layer.fields)}
+        return cls(layer.kind, [row.corners for row in rows], columns, layer.wkt, layer.name)
 
     def to_geopandas(self) -> Any:
         """Return the features as `geopandas.GeoDataFrame`.

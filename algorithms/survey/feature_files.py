@@ -114,9 +114,7 @@ def _by_pyogrio(
                 )
                 for values, kind in zip(columns, layer.fields.values())
             ]
-            masks = [
-                np.array([value is None for value in values], dtype=bool) for values in columns
-            ]
+            masks = [np.array([cell is None for cell in values], dtype=bool) for values in columns]
             shapes = np.empty(len(some), dtype=object)
             shapes[:] = [wkb_of(layer.kind, feature.corners) for feature in some]
             with warnings.catch_warnings():

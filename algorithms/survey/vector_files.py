@@ -125,11 +125,7 @@ def _geojson_of(given: Any) -> Any:
         return given.__geo_interface__
     if isinstance(given, (str, PathLike)) or not hasattr(given, "__len__"):
         return None
-    some = [
-        _geojson_of(geometry)
-        for geometry in given
-        if isinstance(geometry, dict) or hasattr(geometry, _KNOWS)
-    ]
+    some = [_geojson_of(item) for item in given if isinstance(item, dict) or hasattr(item, _KNOWS)]
     if not some:
         return None
     if len(some) < len(given):

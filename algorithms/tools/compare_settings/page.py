@@ -146,10 +146,9 @@ def _table(window: Window, figures: Sequence[Figures]) -> tuple[Html, Html]:
             ]
             apart = setting.terrain_difference
             differences.append("none" if apart is None else window.units.height(apart))
-        rmse = (
-            "none" if setting.expected_rmse is None else window.units.height(setting.expected_rmse)
-        )
-        rows.append((setting.label, percent(setting.ground_share), rmse, *differences))
+        rmse = setting.expected_rmse
+        in_words = "none" if rmse is None else window.units.height(rmse)
+        rows.append((setting.label, percent(setting.ground_share), in_words, *differences))
     head = (
         "Setting", "Ground", "Expected RMSE", "More ground", "Less ground", "Terrain differs by",
     )  # fmt: skip

@@ -65,11 +65,7 @@ class Setting(NamedTuple):
 
 def _presets(declared: type[ParameterSet]) -> dict[str, str]:
     """Return the labels of the presets that a set of parameters has."""
-    return next(
-        dict(parameter.choices)
-        for parameter in declared.declarations()
-        if parameter.name == "preset"
-    )
+    return next(dict(own.choices) for own in declared.declarations() if own.name == "preset")
 
 
 # Every method with each of its presets, by name.
