@@ -101,14 +101,16 @@ def test_only_first_returns_count_as_pulses_and_neither_noise_nor_withheld(tmp_p
     assert np.nanmax(heights) == 400.0
 
 
-def forest(path, x, y, share=0.1, classes=5):
+def forest(path, x, y, share=0.1, classes=5, returns=1):
     """Write a survey with 4 pulses in a square metre, of which a share reaches the ground in a
-    square of 50 m.
+    square of 50 m, where pulses have so many returns.
     """
     is_forest = (np.abs(x - 50) < 25) & (np.abs(y - 50) < 25)
     is_above = is_forest & (np.arange(len(x)) % round(1 / share) > 0)
     z = terrain(x, y) + np.where(is_above, 9.0, 0.0)
-    return write(path, x, y, z, classification=np.where(is_above, classes, 2))
+    columns = {"classification": np.where(is_above, classes, 2)}
+    columns["number_of_returns"] = np.where(is_above, returns, 1)
+    return write(path, x, y, z, **columns)
 
 
 def low_confidence(path):
@@ -129,7 +131,16 @@ def test_a_low_confidence_area_of_known_size(tmp_path):
     assert np.abs(corners - (EAST + 50, NORTH + 50)).max() < 26
     # The land is the survey without its border of 10 m.
     assert found.low_confidence_share == pytest.approx(area["AREA"] / 80**2)
+    assert found.low_confidence_without_plants == 1  # all pulses have one return
     assert "1 area of 2,000 m2 and more" in (tmp_path / "page.html").read_text("utf-8")
+
+
+def test_a_low_confidence_area_under_trees_is_told_from_a_roof(tmp_path):
+    areas = tmp_path / "areas.geojson"
+    trees = forest(tmp_path / "in.laz", *grid(0.5), returns=2)
+    found = measured(trees, low_confidence=areas)
+    assert found.low_confidence_count == 1 and found.low_confidence_without_plants == 0
+    assert low_confidence(areas)[0][0]["RETURNS"] > 0.95
 
 
 @pytest.mark.parametrize("why", ["smaller", "enough ground", "specification", "water", "building"])

@@ -59,6 +59,8 @@ class Quality:
     low_confidence_least_area: float | None = None  # m2
     low_confidence_count: int = 0
     low_confidence_share: float | None = None
+    # of the areas: roofs without class 6, or crops, since pulses have hardly several returns there
+    low_confidence_without_plants: int = 0
     overlap_share: float | None = None  # of cells of twice the size, with several strips
     overlapping: int = 0  # these cells
     compared: int = 0  # those on even, open land, in which strips are compared
@@ -118,10 +120,12 @@ class Quality:
         if self.low_confidence_density is None or self.low_confidence_share is None:
             return None
         areas = counted(self.low_confidence_count, "area")
+        single = self.low_confidence_without_plants
+        roofs = f"; {counted(single, 'area')} with single returns, as roofs have" * (single > 0)
         return (
             f"{areas} of {self.low_confidence_least_area:,.0f} m2 and more,"
             f" {_share(self.low_confidence_share)} of the land, with fewer than"
-            f" {_ground(self.low_confidence_density)}"
+            f" {_ground(self.low_confidence_density)}{roofs}"
         )
 
     @property

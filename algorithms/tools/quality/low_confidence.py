@@ -27,6 +27,8 @@ _SHARE = 0.25
 _RADIUS = 3.0
 # Most cells that are kept while areas are found, of some 20 bytes each; of more they are larger.
 _MOST_CELLS = 1 << 24
+# Share of the cells of an area with pulses of several returns, below which it hardly has plants.
+_FEW_RETURNS = 0.1
 _FIELDS: dict[str, type] = {"AREA": float, "DENSITY": float, "RETURNS": float}
 
 
@@ -38,7 +40,12 @@ class LowConfidenceArea(NamedTuple):
     ]  # float64 (n, 2), outline and holes, metres from (0, 0) of the CRS
     area: float  # m2
     density: float  # ground points in 1/m2
-    returns: float  # share of its cells with pulses of several returns: below 0.1 hardly plants
+    returns: float  # share of its cells with pulses of several returns
+
+    @property
+    def has_plants(self) -> bool:
+        """Whether pulses have several returns there, as they have under plants."""
+        return self.returns >= _FEW_RETURNS
 
 
 class LowConfidence(NamedTuple):

@@ -48,6 +48,7 @@ def quality_of(
         of_cells |= {
             "low_confidence_density": low.limit, "low_confidence_least_area": least_area,
             "low_confidence_count": len(low.areas), "low_confidence_share": low.share,
+            "low_confidence_without_plants": sum(not area.has_plants for area in low.areas),
         }  # fmt: skip
     found = Quality(specification=specification, files=files, **of_points, **of_cells)
     return replace(found, comparison=lines_of(found, asked)), low
