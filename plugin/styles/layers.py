@@ -73,7 +73,7 @@ _SURFACE = RASTERS["dsm"].look
 BARE = _drawn(mark("Without objects"), _SURFACE._replace(height=1, hides=0))
 WATER = Look(mark("Water"), 8, vectors.water)
 BREAKLINES = Look(mark("Breaklines"), 9, vectors.breaklines)
-LOW_CONFIDENCE = Look(mark("Low confidence areas"), 8, vectors.low_confidence)
+LOW_CONFIDENCE = Look(mark("Low confidence areas"), 7, vectors.low_confidence)
 PLACES = Look(mark("Places to review"), 9, vectors.places)
 # Beside those of `RASTERS`.
 _OTHERS = {

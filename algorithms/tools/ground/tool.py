@@ -102,7 +102,9 @@ def _of_tiles() -> tuple[Output, ...]:
 
 
 def _usual_maps() -> list[Output]:
-    return [output for output in maps() if output.name in ("dtm", "hillshade")]
+    usual = [output for output in maps() if output.name in ("dtm", "hillshade")]
+    (error,) = (output for output in maps() if output.name == "expected_error")
+    return [*usual, replace(error, by_default=False, advanced=True)]
 
 
 def _steps(
