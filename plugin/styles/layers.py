@@ -71,10 +71,10 @@ def _drawn(title: str, look: looks.Look) -> Look:
 _SURFACE = RASTERS["dsm"].look
 # The only layer of its run, shown on top of other layers.
 BARE = _drawn(mark("Without objects"), _SURFACE._replace(height=1, hides=0))
-WATER = Look(mark("Water"), 8, vectors.water)
-BREAKLINES = Look(mark("Breaklines"), 9, vectors.breaklines)
-LOW_CONFIDENCE = Look(mark("Low confidence areas"), 7, vectors.low_confidence)
-PLACES = Look(mark("Places to review"), 9, vectors.places)
+WATER = Look(mark("Water"), 9, vectors.water)
+BREAKLINES = Look(mark("Breaklines"), 10, vectors.breaklines)
+LOW_CONFIDENCE = Look(mark("Low confidence areas"), 8, vectors.low_confidence)
+PLACES = Look(mark("Places to review"), 10, vectors.places)
 # Beside those of `RASTERS`.
 _OTHERS = {
     "ERROR_MAP": _drawn(mark("Errors"), looks.Look(looks.Ramp(looks.ERRORS, 0.0, 1.0), 6, 1)),
@@ -152,12 +152,12 @@ def heights(attribute: str, highest: float, unit_size: float) -> Look:
 
 def contours(interval: Interval) -> Look:
     """Return the look of contour lines."""
-    return Look(mark("Contour lines"), 8, vectors.contours(interval))
+    return Look(mark("Contour lines"), 9, vectors.contours(interval))
 
 
 def residuals(scale: float) -> Look:
     """Return the look of errors at checkpoints; see `vectors.residuals`."""
-    return Look(mark("Errors at checkpoints"), 9, vectors.residuals(scale))
+    return Look(mark("Errors at checkpoints"), 10, vectors.residuals(scale))
 
 
 def arrange(
