@@ -9,6 +9,7 @@ Confidence Polygons, explains. The USGS has no criterion of its own: the parties
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 from typing import Iterator, NamedTuple
 
@@ -79,35 +80,35 @@ def low_confidence_of(
         for make in (_ground_density, _has_pulses, _has_several)
     )
     land = ~np.isnan(density)
-    around = _mean_around(density, land, radius / cell)
-    low = land & (around < _SHARE * pulse_density)
-    low &= _mean_around(has_pulses, land, radius / cell) > 0.0
+    mean = partial(_mean_around, known=land, disk=_disk(radius / cell))
+    low = land & (mean(density) < _SHARE * pulse_density) & (mean(has_pulses) > 0.0)
     # The density of single places is chance: where most cells around are low, all are.
-    low = land & (_mean_around(low.astype(np.float32), land, radius / cell) >= 0.5)
+    low = land & (mean(low.astype(np.float32)) >= 0.5)
     labels, _ = ndimage.label(low, np.ones((3, 3)))
     sizes = np.bincount(labels.ravel())
     is_large = sizes * cell**2 >= least_area
     is_large[0] = False
-    windows = ndimage.find_objects(labels)
-    corner = np.array((fine.window.row, fine.window.column)) * fine.size
+    corner, windows = fine.window.corner(fine.size), ndimage.find_objects(labels)
     areas = []
     for number in np.flatnonzero(is_large).tolist():
         window = windows[number - 1]
         own = labels[window] == number
-        start = np.array([side.start for side in window])
-        rings = ((ring + start + 0.5) * cell + corner for ring in rings_of(own))
-        areas.append(
-            LowConfidenceArea(
-                tuple(ring[:, ::-1] for ring in rings),
-                float(sizes[number]) * cell**2,
-                float(density[window][own].mean(dtype=np.float64)),
-                float(returns[window][own].mean(dtype=np.float64)),
-            )
-        )
+        values = (float(grid[window][own].mean(dtype=np.float64)) for grid in (density, returns))
+        rings = tuple(_rings(own, window, cell, corner))
+        areas.append(LowConfidenceArea(rings, float(sizes[number]) * cell**2, *values))
     areas.sort(key=lambda area: -area.area)
     low = is_large[labels]
     share = float(np.count_nonzero(low)) / max(int(np.count_nonzero(land)), 1)
     return LowConfidence(_SHARE * pulse_density, least_area, share, tuple(areas), low, cell)
+
+
+def _rings(
+    own: np.ndarray, window: tuple[slice, ...], cell: float, corner: tuple[float, float]
+) -> Iterator[np.ndarray]:
+    """Yield the rings of cells in a window as x and y in metres, from the corner of the grid."""
+    start = np.array([side.start for side in window]) + 0.5
+    for ring in rings_of(own):
+        yield ((ring + start) * cell)[:, ::-1] + corner
 
 
 def _of_land(make: Make) -> Make:
@@ -127,13 +128,17 @@ _has_pulses = _of_land(lambda cells, there: cells.first[there] > 0)
 _has_several = _of_land(lambda cells, there: twice(cells.marks, there) & ROUGH > 0)
 
 
-def _mean_around(values: np.ndarray, known: np.ndarray, radius: float) -> np.ndarray:
-    """Return the mean of the known values within a radius in cells, at least one; float32."""
-    from scipy import ndimage
-
+def _disk(radius: float) -> np.ndarray:
+    """Return 1 for the cells within a radius in cells, at least one, and 0 for the others."""
     reach = max(int(radius), 1)
     row, column = np.ogrid[-reach : reach + 1, -reach : reach + 1]
-    disk = (row**2 + column**2 <= max(radius, 1.0) ** 2).astype(np.float32)
+    return (row**2 + column**2 <= max(radius, 1.0) ** 2).astype(np.float32)
+
+
+def _mean_around(values: np.ndarray, known: np.ndarray, disk: np.ndarray) -> np.ndarray:
+    """Return the mean of the known values within a disk round each cell; float32."""
+    from scipy import ndimage
+
     total = ndimage.convolve(np.where(known, values, np.float32(0)), disk, mode="constant")
     count = ndimage.convolve(known.astype(np.float32), disk, mode="constant")
     return total / np.maximum(count, 1.0)
