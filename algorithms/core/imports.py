@@ -8,6 +8,7 @@ import importlib.util
 import os
 import sys
 import threading
+from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any, Iterator
 
@@ -49,9 +50,12 @@ def import_only_what_runs_need() -> None:
         return
     importlib.import_module("numpy")  # asks itself for its inner modules
     for name, without in _LATE.items():
+        if name in sys.modules:
+            continue
         package, _, inner = name.rpartition(".")
-        if name not in sys.modules and (package or importlib.util.find_spec(name)):
-            sys.modules[name] = late = _Late(name, without)
+        spec = None if package else importlib.util.find_spec(name)
+        if package or spec:
+            sys.modules[name] = late = _Late(name, spec, without)
             if package in sys.modules:
                 setattr(sys.modules[package], inner, late)
 
@@ -59,10 +63,9 @@ def import_only_what_runs_need() -> None:
 class _Late(ModuleType):
     """A module that is imported when one of its attributes is first asked for."""
 
-    def __init__(self, name: str, without: tuple[str, ...]) -> None:
+    def __init__(self, name: str, spec: ModuleSpec | None, without: tuple[str, ...]) -> None:
         super().__init__(name)
-        # Asked for where it matters whether a package is installed.
-        self.__spec__ = None if "." in name else importlib.util.find_spec(name)
+        self.__spec__ = spec  # asked for where it matters whether a package is installed
         self._without = without
 
     def __getattr__(self, name: str) -> Any:
