@@ -69,11 +69,11 @@ def path_of(given: Any) -> Path | None:
     return None if given is None else Path(given)
 
 
-def polygons_of(given: Any) -> Any:
+def polygons_of(given: Any, may_be_empty: bool = False) -> Any:
     """Return polygons, given as a file, as geometries in memory, or as arrays of corners."""
     from ..survey.vector_files import shapes_of
 
-    return shapes_of(given, "Polygon")
+    return shapes_of(given, "Polygon", may_be_empty)
 
 
 def lines_of(given: Any) -> Any:

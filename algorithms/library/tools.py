@@ -15,7 +15,7 @@ from ..core.words import option
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..survey.files import Inputs
-from ..survey.vector_files import FORMATS, is_source, read_boundary
+from ..survey.vector_files import FORMATS
 from ..tools import (
     COMPOSITIONS,
     FILE_TOOLS,
@@ -157,9 +157,9 @@ def input_of(declared: Input, values: SimpleNamespace) -> Any:
         return ToFind(given) if is_found else given
     value = getattr(values, declared.name)
     if declared.kind == "polygons":
-        if declared.may_be_empty and is_source(value):
-            value = read_boundary(value, may_be_empty=True)
-        return ToFind() if is_found else declared.of(polygons_of(value))
+        if is_found:
+            return ToFind()
+        return declared.of(polygons_of(value, declared.may_be_empty))
     if declared.kind == "clouds":
         return Inputs(value)
     if declared.kind == "words":

@@ -64,9 +64,9 @@ def read_polygons_with_classes(source: Any) -> tuple[Shapes, tuple[Any, ...]]:
     return Shapes(polygons, found.crs, found.source), classes
 
 
-def read_lines(source: Any) -> tuple[np.ndarray, ...]:
+def read_lines(source: Any, may_be_empty: bool = False) -> tuple[np.ndarray, ...]:
     """Read the lines of a source, and nothing else."""
-    return _shapes(source, "LineString", lambda corners, _: _line(corners))
+    return _shapes(source, "LineString", lambda corners, _: _line(corners), may_be_empty)
 
 
 def read_points(source: Any) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
@@ -102,15 +102,17 @@ def _shapes(
     return Shapes(shapes, crs, label)
 
 
-def shapes_of(given: Any, kind: str) -> tuple[Any, ...]:
-    """Return polygons or lines, given as a source or as arrays of corners; perhaps none."""
+def shapes_of(given: Any, kind: str, may_be_empty: bool = False) -> tuple[Any, ...]:
+    """Return polygons or lines, given as a source or as arrays of corners; perhaps none, of a
+    source if it `may_be_empty`.
+    """
     if given is None or isinstance(given, Shapes):
         return given or ()
     if hasattr(given, "__next__"):
         given = [*given]
     read = {"Polygon": read_boundary, "LineString": read_lines}[kind]
     if is_source(given):
-        return read(given)
+        return read(given, may_be_empty)
     # Corners in arrays are in the CRS of the points.
     return () if isinstance(given, (list, tuple)) and not given else tuple(read(given))
 

@@ -7,6 +7,7 @@ edition 2, version 1.0.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, Mapping, Sequence
 
@@ -22,7 +23,7 @@ from ...survey.area import Polygon
 from ...survey.feature_files import FORMATS as LAYERS
 from ...survey.feature_files import feature_writer
 from ...survey.files import Inputs
-from ...survey.vector_files import read_boundary
+from ...survey.vector_files import shapes_of
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, TIN, FileTool, Input, Output
 from .accuracy import Accuracy, Figures, statement
 from .checkpoints import Checkpoints
@@ -193,11 +194,6 @@ def _lacks(inputs: Mapping[str, Any], sets: Sequence[ParameterSet]) -> str:
     return ""
 
 
-def _areas(given: str | Sequence[Polygon] | None) -> Sequence[Polygon]:
-    """Return low confidence areas, perhaps none; a delivery gives the file that it has written."""
-    return read_boundary(given, may_be_empty=True) if isinstance(given, str) else given or ()
-
-
 def _nothing_to_compare() -> str:
     return f"Give {option('checkpoints')}, or a share of points with {option('hold_out')}."
 
@@ -253,7 +249,8 @@ TOOL = FileTool(
         Input(
             "low_confidence",
             "polygons",
-            of=_areas,
+            # A delivery gives the file that it has written.
+            of=partial(shapes_of, kind="Polygon", may_be_empty=True),
             help="low confidence areas, as the command quality finds them: checkpoints in them have"
             " figures of their own ({formats})",
             label="Low confidence areas",
