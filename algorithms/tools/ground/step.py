@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterator, Sequence
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -97,9 +97,9 @@ class LabelGround(PointStep):
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
     @property
-    def _looks(self) -> Iterator[Look]:
+    def _looks(self) -> tuple[Look, ...]:
         """The looks beside that of the filter."""
-        return iter(()) if self.output.looks == "1" else looks_of(self.parameters)
+        return () if self.output.looks == "1" else tuple(looks_of(self.parameters))
 
     @property
     def only_classes(self) -> bool:
@@ -184,8 +184,8 @@ class LabelGround(PointStep):
 
     def in_block(self, visit: Visit, progress: Progress) -> tuple[Any, ...]:
         """Label the points of a block; see `labelled`."""
-        explains, looks = self.explain is not None, tuple(self._looks)
-        return labelled(visit, self.parameters, self.selection, explains, looks, progress)
+        explains = self.explain is not None
+        return labelled(visit, self.parameters, self.selection, explains, self._looks, progress)
 
     def end(
         self, store: Store, results: Sequence[tuple[Block, Any]], progress: Progress

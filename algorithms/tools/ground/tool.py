@@ -102,9 +102,9 @@ def _of_tiles() -> tuple[Output, ...]:
 
 
 def _usual_maps() -> list[Output]:
-    usual = [output for output in maps() if output.name in ("dtm", "hillshade")]
-    (error,) = (output for output in maps() if output.name == "expected_error")
-    return [*usual, replace(error, by_default=False, advanced=True)]
+    named = {output.name: output for output in maps()}
+    error = replace(named["expected_error"], by_default=False, advanced=True)
+    return [named["dtm"], named["hillshade"], error]
 
 
 def _steps(

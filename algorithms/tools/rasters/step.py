@@ -162,10 +162,10 @@ class MakeRasters(Drawing, Sink):
         """Return the ground of several looks as flags, if there were any and they matter."""
         if part.looks is None or "expected_error" not in self.files.layers:
             return {}
-        # Points that the filter did not decide on are ground in all looks.
-        decided = part.looks & 1 > 0
+        # What is ground by its class alone, or not in spite of the filter, is so in all looks.
+        is_found = (part.looks & 1 > 0) == ground
         return {
-            name: (part.looks >> number & 1 > 0) & (ground | ~decided) | ground & ~decided
+            name: np.where(is_found, part.looks >> number & 1 > 0, ground)
             for number, name in enumerate(_LOOKS)
         }
 
