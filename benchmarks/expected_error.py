@@ -255,16 +255,19 @@ def fitted(seen: Sequence[Seen]) -> Fit:
     logarithms with factors that only grow; every tile and method counts alike.
     """
     design = np.concatenate([_steps(one.pieces) for one in seen])
-    wanted = np.log(np.concatenate([one.error for one in seen]) + _NOISE)
-    share = np.concatenate([np.full(len(one.error), 1.0 / len(one.error)) for one in seen])
-    share /= share.sum()
-
-    best = _quantiles(design, wanted, share)
+    best = _quantiles(design, *_wanted(seen))
     factors, first = {}, 1
     for name, knots in KNOTS._asdict().items():
         factors[name] = _factors(knots, best[first : first + len(knots) - 1])
         first += len(knots) - 1
     return Fit(factors, float(f"{np.exp(best[0]):.3g}"))
+
+
+def _wanted(seen: Sequence[Seen]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the logarithms of all errors and their weights, of which every tile has the same."""
+    errors = [one.error for one in seen]
+    share = np.concatenate([np.full(len(error), 1.0 / len(error)) for error in errors])
+    return np.log(np.concatenate(errors) + _NOISE), share / share.sum()
 
 
 def _quantiles(design: np.ndarray, wanted: np.ndarray, share: np.ndarray) -> np.ndarray:
@@ -309,10 +312,9 @@ def spread_factors(
     seen: Sequence[Seen], expected: Sequence[np.ndarray]
 ) -> tuple[tuple[float, float], ...]:
     """Return the factors by which the expected error of one look changes with the spread."""
-    wanted = np.log(np.concatenate([one.error for one in seen]) + _NOISE)
-    share = np.concatenate([np.full(len(one.error), 1.0 / len(one.error)) for one in seen])
+    wanted, share = _wanted(seen)
     design = np.concatenate([_climbed(_spread(one), SPREADS) for one in seen])
-    best = _quantiles(design, wanted - np.log(np.concatenate(expected)), share / share.sum())
+    best = _quantiles(design, wanted - np.log(np.concatenate(expected)), share)
     return _factors(SPREADS, best[1:], float(best[0]))
 
 
